@@ -1,0 +1,196 @@
+"""Truncated power series in a small quantity, and the first term in which two expressions differ.
+
+With e the small quantity, a series is carried as the finitely many terms
+
+    e**start * (a_0 + a_1*e + ... + a_(n-1)*e**(n-1)) + O(e**(start + n)),
+
+negative powers included, so that sin(e)/e is regular.  A function is expanded about the value u0 of its argument,
+f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v = O(e) leaves finitely many terms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import sympy as sp
+
+from lagrotor.algebra.identity import decide_zero
+from lagrotor.errors import NotExactError
+
+# Analytic wherever they are finite, so that expansion by derivatives is right.
+_ANALYTIC = (
+    sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc,
+    sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch,
+    sp.exp, sp.log, sp.atan, sp.asinh,
+)  # fmt: skip
+# How many orders may be lost to division by a power of the small quantity.
+_MARGIN = 8
+# Well above the error of a value computed to more than thirty digits.
+_CLEARLY_NONZERO = 1e-15
+
+
+@dataclass(frozen=True)
+class LeadingTerm:
+    """The first non-vanishing term coefficient * small**order; order is None if there is none through `through`."""
+
+    order: int | None
+    coefficient: sp.Expr
+    through: int
+
+
+def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
+    """Return the Taylor polynomial of the expression in `small` about 0, through small**order.
+
+    Raises NotExactError if the expression is singular at small = 0 or not known to be analytic there.
+    """
+    coefficients = _taylor(sp.sympify(expression), small, order)
+    terms = [
+        sp.expand_mul(coefficient) * small**power
+        for power, coefficient in enumerate(coefficients)
+        if decide_zero(coefficient).answer != "zero"
+    ]
+    return sp.Add(*terms)
+
+
+def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
+    """Return the first term of the expansion in `small` that does not vanish, looking through small**through.
+
+    Raises NotExactError if a coefficient met on the way is undecided, or the expression is singular at small = 0.
+    """
+    for power, coefficient in enumerate(_taylor(sp.sympify(expression), small, through)):
+        decision = decide_zero(coefficient)
+        if decision.answer == "undecided":
+            raise NotExactError(f"coefficient {coefficient} of {small}**{power} is undecided: {decision.reason}")
+        if decision.answer == "nonzero":
+            return LeadingTerm(power, sp.expand_mul(coefficient), through)
+    return LeadingTerm(None, sp.S.Zero, through)
+
+
+def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
+    """Return the leading term of printed - derived; they agree to order n if its order is None or above n.
+
+    Raises NotExactError as `leading_term` does.
+    """
+    return leading_term(sp.sympify(printed) - sp.sympify(derived), small, through)
+
+
+class _Series(NamedTuple):
+    """Terms of small**start, small**(start + 1), ...; what follows the last one is unknown."""
+
+    start: int
+    terms: tuple[sp.Expr, ...]
+
+    @property
+    def end(self) -> int:
+        return self.start + len(self.terms)
+
+    def at(self, power: int) -> sp.Expr:
+        return self.terms[power - self.start] if self.start <= power else sp.S.Zero
+
+
+def _taylor(expression: sp.Expr, small: sp.Symbol, order: int) -> list[sp.Expr]:
+    """Return the coefficients of small**0 to small**order."""
+    series = _Series(0, ())
+    for length in (order + 1, order + 1 + _MARGIN):
+        try:
+            series = _regular(_expanded(expression, small, length))
+        except _TooShortError:
+            continue
+        if series.end > order:
+            return [series.at(power) for power in range(order + 1)]
+    raise NotExactError(f"division by powers of {small} leaves too few terms of {expression}")
+
+
+class _TooShortError(Exception):
+    """Every term that was kept vanishes, so that the leading one is not known."""
+
+
+def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
+    """Expand the node to `length` terms, or to fewer where terms cancel in a denominator."""
+    if not node.has(small):
+        return _Series(0, _padded([node], length))
+    if node == small:
+        return _Series(1, _padded([sp.S.One], length))
+    if node.is_Add or node.is_Mul:
+        total, *others = (_expanded(part, small, length) for part in node.args)
+        for other in others:
+            total = _plus(total, other) if node.is_Add else _times(total, other)
+        return total
+    z = sp.Dummy("z")
+    if node.is_Pow and not node.exp.has(small):
+        base = _expanded(node.base, small, length)
+        if node.exp.is_Integer and node.exp > 0:
+            total = base
+            for _ in range(int(node.exp) - 1):
+                total = _times(total, base)
+            return total
+        base = _stripped(base)
+        if base.start and not node.exp.is_Integer:
+            raise NotExactError(f"{node} is singular at {small} = 0")
+        shift = base.start * int(node.exp) if base.start else 0
+        return _Series(shift, _composed(z**node.exp, z, _Series(0, base.terms)).terms)
+    if node.is_Pow and not node.base.has(small):
+        return _composed(node.base**z, z, _regular(_expanded(node.exp, small, length)))
+    if isinstance(node, _ANALYTIC):
+        return _composed(node.func(z), z, _regular(_expanded(node.args[0], small, length)))
+    raise NotExactError(f"{node} is not known to be analytic in {small}")
+
+
+def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
+    """Return sum of f^(m)(u0) * v**m / m!, u0 + v the inner series."""
+    length = len(inner.terms)
+    u0 = sp.S.Zero if _vanishes(inner.terms[0]) else inner.terms[0]
+    v = _Series(0, (sp.S.Zero, *inner.terms[1:]))
+    power = _Series(0, _padded([sp.S.One], length))
+    total = _Series(0, (sp.S.Zero,) * length)
+    for m in range(length):
+        value = function.subs(z, u0) / sp.factorial(m)
+        if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+            raise NotExactError(f"{function} is singular at {z} = {u0}")
+        total = _plus(total, _Series(0, tuple(value * term for term in power.terms)))
+        power = _times(power, v)
+        function = function.diff(z)
+    return total
+
+
+def _plus(a: _Series, b: _Series) -> _Series:
+    start, end = min(a.start, b.start), min(a.end, b.end)
+    return _Series(start, tuple(a.at(power) + b.at(power) for power in range(start, end)))
+
+
+def _times(a: _Series, b: _Series) -> _Series:
+    length = min(len(a.terms), len(b.terms))
+    return _Series(
+        a.start + b.start,
+        tuple(sp.Add(*(a.terms[j] * b.terms[k - j] for j in range(k + 1))) for k in range(length)),
+    )
+
+
+def _padded(terms: list[sp.Expr], length: int) -> tuple[sp.Expr, ...]:
+    return (*terms, *[sp.S.Zero] * (length - len(terms)))
+
+
+def _stripped(series: _Series) -> _Series:
+    """Drop the leading terms that vanish."""
+    for place, term in enumerate(series.terms):
+        if not _vanishes(term):
+            return _Series(series.start + place, series.terms[place:])
+    raise _TooShortError
+
+
+def _regular(series: _Series) -> _Series:
+    """Return the series from small**0 on; raise NotExactError if it has a term of negative power."""
+    for power in range(series.start, min(series.end, 0)):
+        if not _vanishes(series.at(power)):
+            raise NotExactError(f"the expansion has the negative power {power}")
+    if series.end <= 0:
+        raise _TooShortError
+    return _Series(0, tuple(series.at(power) for power in range(series.end)))
+
+
+def _vanishes(coefficient: sp.Expr) -> bool:
+    decision = decide_zero(coefficient)
+    if decision.answer == "undecided" and not (decision.evidence or 0) > _CLEARLY_NONZERO:
+        raise NotExactError(f"cannot tell whether {coefficient} vanishes: {decision.reason}")
+    return decision.answer == "zero"

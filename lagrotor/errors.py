@@ -1,0 +1,33 @@
+"""What can go wrong, said once: each message names where, the value, the reason and the way out."""
+
+
+class LagrotorError(Exception):
+    """Every error this package raises on purpose."""
+
+
+class InputError(LagrotorError, ValueError):
+    """A value that makes no sense: refused at the door, before work starts."""
+
+
+class NotExactError(LagrotorError, ValueError):
+    """An expression outside the class that is decided exactly."""
+
+
+class DomainError(LagrotorError, ValueError):
+    """A closed form asked for outside its domain."""
+
+
+class ConstraintError(LagrotorError, ValueError):
+    """A state that does not satisfy its holonomic constraints, or cannot be brought onto them."""
+
+
+class NotASymmetryError(LagrotorError, ValueError):
+    """A vector field that does not leave the Lagrangian invariant."""
+
+
+class SingularError(LagrotorError, ArithmeticError):
+    """Coordinates or constraints that are singular at this state."""
+
+
+class IntegrationError(LagrotorError, ArithmeticError):
+    """An integration that could not reach the end of the run."""

@@ -1,0 +1,130 @@
+"""From a Lagrangian to its equations of motion, in plain symbols.
+
+A Lagrangian L(q, v) is an expression in the coordinates q and the velocities v = q'. Along a motion its
+Euler–Lagrange equations are affine in the accelerations a = q'':
+
+    d/dt ∂L/∂v − ∂L/∂q  =  M a + h  =  Q,        M = ∂²L/∂v∂v,        h = (∂²L/∂v∂q) v − ∂L/∂q,
+
+with the mass matrix M, the bias h and the generalised forces Q. Because q, v and a are independent symbols, never
+functions of time, d/dt is the vector field  v ∂/∂q + a ∂/∂v.  L does not depend on time explicitly.
+
+Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 2.7; Arnold, Mathematical Methods of Classical
+Mechanics, §§12, 19.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError, SingularError
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """The names of one configuration: coordinates q, velocities v = q', accelerations a = q'', n of each.
+
+    Raises InputError when the lengths differ or a symbol appears twice.
+    """
+
+    q: tuple[sp.Symbol, ...]
+    v: tuple[sp.Symbol, ...]
+    a: tuple[sp.Symbol, ...]
+
+    def __post_init__(self) -> None:
+        if not len(self.q) == len(self.v) == len(self.a) > 0:
+            raise InputError(
+                f"Coordinates: {len(self.q)} coordinates, {len(self.v)} velocities, {len(self.a)} accelerations: "
+                "each coordinate has one velocity and one acceleration; give equally many, at least one"
+            )
+        symbols = self.q + self.v + self.a
+        if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
+            raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
+
+
+def coordinates(names: str | Sequence[str]) -> Coordinates:
+    """Real symbols for the named coordinates: "theta phi" gives theta, theta_dot, theta_ddot, phi, ...
+
+    Raises InputError when there is no name or a name is repeated.
+    """
+    stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
+    q, v, a = (tuple(sp.Symbol(stem + order, real=True) for stem in stems) for order in ("", "_dot", "_ddot"))
+    return Coordinates(q, v, a)
+
+
+def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    """The column ∂f/∂s, one row for each symbol."""
+    return sp.Matrix([sp.diff(f, s) for s in symbols])
+
+
+def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:
+    """df/dt = Σ v ∂f/∂q + a ∂f/∂v, along any motion, of an expression f(q, v)."""
+    drift = gradient(expression, c.q).dot(c.v)
+    return drift + gradient(expression, c.v).dot(c.a)
+
+
+def momenta(L: sp.Expr, c: Coordinates) -> sp.Matrix:
+    """The conjugate momenta p = ∂L/∂v, shape (n, 1). Goldstein §2.6."""
+    return gradient(L, c.v)
+
+
+def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
+    """M = ∂²L/∂v∂v, shape (n, n), symmetric."""
+    return momenta(L, c).jacobian(c.v)
+
+
+def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
+    """h = (∂²L/∂v∂q) v − ∂L/∂q, shape (n, 1): centrifugal, Coriolis and gyroscopic terms, and −(potential forces)."""
+    return momenta(L, c).jacobian(c.q) * sp.Matrix(c.v) - gradient(L, c.q)
+
+
+def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:
+    """The Jacobi integral E = v·∂L/∂v − L, a constant of the motion when Q = 0. Goldstein §2.7."""
+    return momenta(L, c).dot(c.v) - L
+
+
+def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
+    """d/dt ∂L/∂v − ∂L/∂q, shape (n, 1), in q, v and a: equal to the generalised forces Q along a motion."""
+    return momenta(L, c).applyfunc(lambda p: total_derivative(p, c)) - gradient(L, c.q)
+
+
+def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None = None) -> sp.Matrix:
+    """a = M⁻¹ (Q − h), shape (n, 1), with Q = forces (zero when none are given).
+
+    Raises SingularError when det M vanishes identically, InputError when there are not n forces.
+    """
+    M = mass_matrix(L, c)
+    return linear_solve(M, force_column(forces, c, "accelerations") - bias(L, c), singular_mass("accelerations", M, c))
+
+
+def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -> sp.Matrix:
+    """The generalised forces Q as a column, shape (n, 1); zero when none are given."""
+    if forces is None:
+        return sp.zeros(len(c.q), 1)
+    if len(forces) != len(c.q):
+        raise InputError(
+            f"{where}: {len(forces)} forces for {len(c.q)} coordinates: Q has one component for each coordinate; "
+            "give 0 where no force acts"
+        )
+    return sp.Matrix(list(forces))
+
+
+def singular_mass(where: str, M: sp.Matrix, c: Coordinates) -> str:
+    """The refusal of a Lagrangian whose velocities are not determined by its momenta."""
+    idle = [v for j, v in enumerate(c.v) if M[:, j].is_zero_matrix] or c.v
+    return (
+        f"{where}: the mass matrix is singular (det M = 0): the Lagrangian is not regular in "
+        f"{', '.join(map(str, idle))}; use fewer coordinates"
+    )
+
+
+def linear_solve(A: sp.Matrix, B: sp.Matrix, refusal: str) -> sp.Matrix:
+    """A⁻¹ B = adj(A) B / det A; raises SingularError(refusal) when det A vanishes identically.
+
+    The adjugate is free of division: no pivot has to be recognised as zero, and the one denominator is det A.
+    """
+    determinant = A.det(method="berkowitz")
+    if decide_zero(determinant).answer == "zero":
+        raise SingularError(refusal)
+    return A.adjugate(method="berkowitz") * B / determinant

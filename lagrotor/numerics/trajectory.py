@@ -1,0 +1,102 @@
+"""What a run leaves: the axes over time and everything read off them, the same for every model."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..rotors.parameters import Scene
+from .files import write_beside
+
+Array = NDArray[np.float64]
+
+UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "link_length": "m", "momenta": "kg m²/s"}
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """A run of a scene by a model.
+
+    t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s).
+    """
+
+    scene: Scene
+    model: str
+    why: str
+    t: Array
+    axes: Array
+    rates: Array
+    momenta: Array
+    evaluations: int
+
+    @cached_property
+    def joints(self) -> Array:
+        """Ground joints, (2, 3), in m."""
+        half = (self.scene.link.length if self.scene.link else self.scene.rotor.length) / 2
+        return np.array([[-half, 0.0, 0.0], [half, 0.0, 0.0]])
+
+    @cached_property
+    def tips(self) -> Array:
+        """Tips of the rotors, (2, n, 3), in m."""
+        return self.joints[:, None, :] + self.scene.rotor.length * self.axes
+
+    @cached_property
+    def link_length(self) -> Array:
+        """Distance of the tips, (n,), in m: the bar's length, constant on the exact pair."""
+        return np.linalg.norm(self.tips[1] - self.tips[0], axis=-1)
+
+    @cached_property
+    def energy(self) -> Array:
+        """Kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), (n,), in J."""
+        a, b = self.scene.inertias
+        v1, v2 = self.rates
+        tilting = a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1)
+        return tilting + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
+
+    @cached_property
+    def joint_line_momentum(self) -> Array:
+        """Angular momentum about the line through the ground joints, (n,), in kg m²/s: conserved but for the shock."""
+        a, b = self.scene.inertias
+        (r1, r2), (v1, v2) = self.axes, self.rates
+        turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
+        return turning[:, 0] + self.momenta[0] * r1[:, 0] + self.momenta[1] * r2[:, 0]
+
+    @property
+    def invariants(self) -> dict[str, Array]:
+        """What the motion conserves, name → (n,): the two axial momenta and the momentum about the joint line."""
+        return {"G_1": self.momenta[0], "G_2": self.momenta[1], "P": self.joint_line_momentum}
+
+    @cached_property
+    def inclinations(self) -> Array:
+        """Inclinations theta_i, (2, n), in rad."""
+        return np.arctan2(np.hypot(self.axes[..., 0], self.axes[..., 1]), self.axes[..., 2])
+
+    @cached_property
+    def azimuths(self) -> Array:
+        """Azimuths phi_i of the axes, unwrapped, (2, n), in rad."""
+        return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)
+
+    def save(self, path: str | Path) -> Path:
+        """Write `.npz` (t, axes, rates, tips, energy, link_length, momenta, P) or `.csv` (a column a component)."""
+        target = Path(path)
+        arrays = {name: getattr(self, name) for name in ("t", "axes", "rates", "tips", "energy", "link_length", "momenta")}
+        arrays["P"] = self.joint_line_momentum
+        if target.suffix == ".npz":
+            return write_beside(target, lambda file: np.savez_compressed(file, **arrays))
+        if target.suffix == ".csv":
+            names, columns = ["t [s]"], [self.t]
+            for i in (0, 1):
+                for j, letter in enumerate("xyz"):
+                    names.append(f"tip_{i + 1}_{letter} [m]")
+                    columns.append(self.tips[i, :, j])
+            names += ["energy [J]", "link_length [m]", "P [kg m2/s]"]
+            columns += [self.energy, self.link_length, self.joint_line_momentum]
+            table = np.column_stack(columns)
+            return write_beside(
+                target,
+                lambda file: np.savetxt(file, table, delimiter=",", header=",".join(names), comments="", fmt="%.17g"),
+            )
+        raise InputError(f"save: {target.name} must end in .npz or .csv")

@@ -1,0 +1,207 @@
+"""The decision of identities: textbook ones hold, their mutated twins do not, and the rest stays undecided."""
+
+import pytest
+import sympy as sp
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from sympy import cos, cosh, cot, coth, csc, csch, exp, pi, sec, sech, sin, sinh, sqrt, tan, tanh
+
+from lagrotor.algebra.identity import decide_equal, decide_zero, normal_form
+from lagrotor.errors import NotExactError
+
+x, y, omega, t = sp.symbols("x y omega t")
+m = sp.Symbol("m", positive=True)
+
+IDENTITIES = [
+    (sin(x) ** 2 + cos(x) ** 2, 1),
+    (sin(2 * x), 2 * sin(x) * cos(x)),
+    (cos(x / 2) ** 2, (1 + cos(x)) / 2),
+    (tan(x / 2), sin(x) / (1 + cos(x))),
+    (cos(x / 3) ** 3, (cos(x) + 3 * cos(x / 3)) / 4),
+    (cos(5 * x), 16 * cos(x) ** 5 - 20 * cos(x) ** 3 + 5 * cos(x)),
+    (sin(x + y), sin(x) * cos(y) + cos(x) * sin(y)),
+    (sin(x) * sin(y), (cos(x - y) - cos(x + y)) / 2),
+    (tan(x + y), (tan(x) + tan(y)) / (1 - tan(x) * tan(y))),
+    (tan(2 * x), 2 * tan(x) / (1 - tan(x) ** 2)),
+    (sec(x) ** 2, 1 + tan(x) ** 2),
+    (csc(x) ** 2, 1 + cot(x) ** 2),
+    (csc(x), cot(x / 2) - cot(x)),
+    (sin(x + pi / 4), (sin(x) + cos(x)) / sqrt(2)),
+    (cos(x + pi / 3) + cos(x - pi / 3), cos(x)),
+    (sin(x + pi / 12), sin(x) * (sqrt(6) + sqrt(2)) / 4 + cos(x) * (sqrt(6) - sqrt(2)) / 4),
+    (sin(omega * t + x), sin(omega * t) * cos(x) + cos(omega * t) * sin(x)),
+    (cosh(x) ** 2 - sinh(x) ** 2, 1),
+    (sinh(2 * x), 2 * sinh(x) * cosh(x)),
+    (tanh(x + y), (tanh(x) + tanh(y)) / (1 + tanh(x) * tanh(y))),
+    (coth(x) ** 2 - csch(x) ** 2, tanh(x) ** 2 + sech(x) ** 2),
+    (exp(x), cosh(x) + sinh(x)),
+    ((exp(x) - exp(-x)) / (exp(x) + exp(-x)), tanh(x)),
+    (x / (1 + 1 / x), x**2 / (x + 1)),
+    (1 / (sqrt(2) - 1), 1 + sqrt(2)),
+    ((cos(x) + sp.I * sin(x)) ** 2, cos(2 * x) + sp.I * sin(2 * x)),
+    (pi * (x + 1) ** 2, pi * x**2 + 2 * pi * x + pi),
+]
+
+
+@pytest.mark.parametrize(("left", "right"), IDENTITIES)
+def test_textbook_identity_is_zero(left: sp.Expr, right: sp.Expr) -> None:
+    assert decide_equal(left, right).answer == "zero"
+
+
+@pytest.mark.parametrize(("left", "right"), IDENTITIES)
+def test_its_mutated_twin_is_not(left: sp.Expr, right: sp.Expr) -> None:
+    difference = left - right * sp.Rational(1000, 1001)
+    decision = decide_zero(difference)
+    assert decision.answer == "nonzero"
+    assert decision.witness is not None
+    assert decision.evidence is not None
+    value = abs(difference.subs(decision.witness).evalf(30))
+    assert value > 0
+    assert float(value) == pytest.approx(decision.evidence)
+
+
+@pytest.mark.parametrize(
+    ("expression", "domain"),
+    [
+        (tan(2 * x) - 2 * tan(x) / (1 - tan(x) ** 2), {cos(x), cos(2 * x)}),
+        (tan(x) * cot(x) - 1, {cos(x), sin(x)}),
+        (1 / (1 - cos(x) ** 2) - csc(x) ** 2, {sin(x)}),
+        (1 / (1 + cos(x)) - 1 / (1 + cos(x)), set()),
+        (tan(x / 2) - sin(x) / (1 + cos(x)), {cos(x / 2)}),
+        ((x**2 - y**2) / (x**2 * y - y**3) - 1 / y, {y, x - y, x + y}),
+        (1 / (m + m * x) - 1 / (m * (x + 1)), {m, x + 1}),
+        (1 / (cosh(x) ** 2 - 1) - csch(x) ** 2, {sinh(x)}),
+        ((sqrt(2) - 1) * (sqrt(2) + 1) - 1 / (3 - 2 * sqrt(2)) / (3 + 2 * sqrt(2)), set()),
+        (sin(x) ** 2 + cos(x) ** 2 - 1, set()),
+    ],
+)
+def test_domain(expression: sp.Expr, domain: set[sp.Expr]) -> None:
+    decision = decide_zero(expression)
+    assert decision.answer == "zero"
+    assert set(decision.domain) == domain
+
+
+@pytest.mark.parametrize(
+    ("expression", "reason"),
+    [
+        (sqrt(x) - x, "outside"),
+        (sqrt(x**2 + 1), "outside"),
+        (sp.Function("f")(x), "outside"),
+        (sp.Function("f")(x).diff(x), "outside"),
+        (sp.log(x), "outside"),
+        (sp.Abs(x) - x, "outside"),
+        (x**y, "outside"),
+        (sp.zoo, "outside"),
+        (sp.Symbol("A", commutative=False), "outside"),
+        (0.5 * x, "floating-point number 0.5"),
+        (sqrt(x) * sin(0.25 * x), "floating-point number 0.25"),
+        (sin(1), "not a rational combination"),
+        (sin(sqrt(2) * x), "not a rational combination"),
+        (sinh(x + pi), "not a rational combination"),
+        (cos(pi * sp.Symbol("n", integer=True) / 2), "not a rational combination"),
+        (cos(x + pi / 7), "square roots"),
+        (1 / (sin(x) ** 2 + cos(x) ** 2 - 1), "denominator vanishes identically"),
+    ],
+)
+def test_undecided(expression: sp.Expr, reason: str) -> None:
+    decision = decide_zero(expression)
+    assert decision.answer == "undecided"
+    assert reason in decision.reason
+    with pytest.raises(NotExactError, match=reason):
+        normal_form(expression)
+
+
+def test_undecided_carries_numeric_evidence() -> None:
+    holds = decide_zero(sqrt(x) * sqrt(x + 1) * sqrt(1 / (x**2 + x)) - 1)
+    assert holds.evidence is not None
+    assert holds.evidence < 1e-30
+    fails = decide_zero(sqrt(x) - x)
+    assert fails.evidence is not None
+    assert fails.evidence > 1e-3
+    assert decide_zero(1 / (sin(x) ** 2 + cos(x) ** 2 - 1)).evidence is None
+    assert decide_zero(sqrt(x) - x) == fails
+
+
+def test_constants() -> None:
+    assert decide_zero(sp.Integer(0)).answer == "zero"
+    assert decide_zero(sqrt(2) - sp.Rational(577, 408)).answer == "nonzero"
+    assert decide_zero(cos(pi / 5) - (1 + sqrt(5)) / 4).answer == "zero"
+
+
+def test_matrices() -> None:
+    turn = sp.Matrix([[cos(x), -sin(x)], [sin(x), cos(x)]])
+    assert decide_equal(turn * turn.T, sp.eye(2)).answer == "zero"
+    assert decide_equal(turn * turn, turn.subs(x, 2 * x)).answer == "zero"
+    off = decide_equal(turn * turn.T, sp.Matrix([[1, 0], [0, 1 + x]]))
+    assert off.answer == "nonzero"
+    assert off.reason.startswith("Entry (2, 2)")
+    assert decide_equal(sp.Matrix([sqrt(x), 0]), sp.Matrix([1, 0])).answer == "undecided"
+    assert decide_equal(sp.Matrix([sqrt(x), 1]), sp.Matrix([1, 0])).answer == "nonzero"
+    assert decide_equal(sp.Matrix([1 / x, tan(y)]), sp.Matrix([1 / x, sin(y) / cos(y)])).domain == (cos(y),)
+    for other in (sp.eye(3), sp.Integer(1)):
+        with pytest.raises(ValueError, match="cannot be compared"):
+            decide_equal(turn, other)
+
+
+@pytest.mark.parametrize(
+    ("expression", "form"),
+    [
+        (sin(3 * x), 4 * sin(x) * cos(x) ** 2 - sin(x)),
+        (1 / (1 + sin(x)), (1 - sin(x)) / cos(x) ** 2),
+        ((x**2 - 1) / (x - 1), x + 1),
+        (1 / sqrt(2) + 1 / (1 + sqrt(2)), (3 * sqrt(2) - 2) / 2),
+        (sin(x) ** 2 + cos(x) ** 2 - 1, 0),
+    ],
+)
+def test_normal_form(expression: sp.Expr, form: sp.Expr) -> None:
+    assert sp.expand(normal_form(expression) - form) == 0
+
+
+def test_normal_form_sees_rewritings() -> None:
+    for left, right in IDENTITIES:
+        angles = sp.Add(left, right).atoms(sp.Function)
+        if all(rate.q == 1 for f in angles for rate in f.args[0].as_coefficients_dict().values()):
+            assert normal_form(left) == normal_form(right)
+
+
+ATOMS = st.sampled_from(
+    [
+        *(x, y, m, sp.Integer(2), sp.Rational(-1, 3), sin(x), cos(x), tan(y), sec(x)),
+        *(sin(x - y), cos(2 * y), sinh(x), cosh(x + y), sin(x + pi / 6)),
+    ]
+)
+
+
+def combine(parts: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
+    return st.one_of(
+        st.builds(sp.Add, parts, parts),
+        st.builds(sp.Mul, parts, parts),
+        st.builds(sp.Pow, parts, st.sampled_from([2, -1])),
+    )
+
+
+EXPRESSIONS = st.recursive(ATOMS, combine, max_leaves=5)
+
+
+def rewritten(expression: sp.Expr) -> sp.Expr:
+    """The same function in other words: tan as sin/cos, angles expanded, products multiplied out."""
+    return sp.expand_trig(sp.expand(expression)).rewrite([tan, sec], cos)
+
+
+@settings(max_examples=60, deadline=None)
+@given(EXPRESSIONS, st.fractions(min_value=1, max_value=2, max_denominator=10**6))
+def test_random_expressions(expression: sp.Expr, ratio: object) -> None:
+    assume(not expression.has(sp.zoo, sp.nan) and decide_zero(expression).answer == "nonzero")
+    twin = rewritten(expression)
+    assert decide_equal(expression, twin).answer == "zero"
+    assert decide_equal(expression, twin + sp.Rational(ratio) / 10**9).answer == "nonzero"
+
+
+@settings(max_examples=40, deadline=None)
+@given(EXPRESSIONS)
+def test_normal_form_is_unique_and_idempotent(expression: sp.Expr) -> None:
+    assume(not expression.has(sp.zoo, sp.nan) and decide_zero(expression).answer != "undecided")
+    form = normal_form(expression)
+    assert normal_form(form) == form
+    assert normal_form(rewritten(expression)) == form
+    assert decide_equal(form, expression).answer == "zero"

@@ -1,0 +1,223 @@
+"""Symmetries: cyclic coordinates, Noether integrals with and without constraints, Legendre and Routh."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import DomainError, InputError, NotASymmetryError, SingularError
+from lagrotor.mechanics import (
+    Constrained,
+    Coordinates,
+    accelerations,
+    constrained_accelerations,
+    coordinates,
+    cyclic_coordinates,
+    energy,
+    is_conserved,
+    legendre,
+    momenta,
+    noether_integral,
+    noether_rate,
+    routhian,
+    total_derivative,
+    variation,
+)
+
+m, l, g, k, I1, I3 = sp.symbols("m l g k I1 I3", positive=True)
+VALUES = {m: 1.3, l: 0.7, g: 9.81, k: 2.0, I1: 0.6, I3: 0.25}
+
+TOP = coordinates("theta phi psi")
+PLANE = coordinates("x y")
+SPACE = coordinates("x y z")
+TURN = (-PLANE.q[1], PLANE.q[0])
+
+
+def heavy_top() -> sp.Expr:
+    theta, (dtheta, dphi, dpsi) = TOP.q[0], TOP.v
+    spin = dpsi + dphi * sp.cos(theta)
+    return (I1 * (dtheta**2 + dphi**2 * sp.sin(theta) ** 2) + I3 * spin**2) / 2 - m * g * l * sp.cos(theta)
+
+
+def kepler() -> sp.Expr:
+    (x, y), (vx, vy) = PLANE.q, PLANE.v
+    return m * (vx**2 + vy**2) / 2 + k / sp.sqrt(x**2 + y**2)
+
+
+def falling() -> sp.Expr:
+    return m * sum(v**2 for v in SPACE.v) / 2 - m * g * SPACE.q[2]
+
+
+def random_state(c: Coordinates, seed: int) -> dict[sp.Symbol, float]:
+    draw = np.random.default_rng(seed)
+    return {s: float(draw.uniform(0.3, 1.2)) for s in c.q + c.v} | VALUES
+
+
+def test_the_angles_a_top_does_not_feel_are_cyclic() -> None:
+    assert cyclic_coordinates(heavy_top(), TOP) == TOP.q[1:]
+    # Present in the expression, absent from the function.
+    x, y = PLANE.q
+    hidden = PLANE.v[0] ** 2 + (sp.sin(x) ** 2 + sp.cos(x) ** 2) * PLANE.v[1] ** 2 - y**2
+    assert cyclic_coordinates(hidden, PLANE) == (x,)
+
+
+def test_the_momenta_of_cyclic_angles_are_noether_integrals_and_stay() -> None:
+    L = heavy_top()
+    moved = dict(zip(TOP.a, accelerations(L, TOP), strict=True))
+    for index, xi in ((1, (0, 1, 0)), (2, (0, 0, 1))):
+        integral = noether_integral(L, TOP, xi)
+        assert (integral - momenta(L, TOP)[index]).expand() == 0
+        drift = total_derivative(integral, TOP).subs(moved)
+        assert float(drift.subs(random_state(TOP, 1))) == pytest.approx(0, abs=1e-11)
+    with pytest.raises(NotASymmetryError, match="noether_integral: δL = "):
+        noether_integral(L, TOP, (1, 0, 0))
+
+
+def test_a_rotated_kepler_orbit_keeps_its_angular_momentum() -> None:
+    (x, y), (vx, vy) = PLANE.q, PLANE.v
+    assert (noether_integral(kepler(), PLANE, TURN) - m * (x * vy - y * vx)).expand() == 0
+    assert is_conserved(Constrained(kepler(), PLANE), TURN)
+
+
+def test_dilation_gives_the_virial_theorem() -> None:
+    """d/dt (p · q) = 2 T − k/r: not zero, and the velocities are carried along with the positions."""
+    (x, y), (vx, vy) = PLANE.q, PLANE.v
+    virial = m * (vx**2 + vy**2) - k / sp.sqrt(x**2 + y**2)
+    rate = noether_rate(Constrained(kepler(), PLANE), PLANE.q, [])
+    state = random_state(PLANE, 5)
+    assert float((rate - virial).subs(state)) == pytest.approx(0, abs=1e-13)
+    moved = dict(zip(PLANE.a, accelerations(kepler(), PLANE), strict=True))
+    true_rate = total_derivative(momenta(kepler(), PLANE).dot(PLANE.q), PLANE).subs(moved)
+    assert float((true_rate - virial).subs(state)) == pytest.approx(0, abs=1e-13)
+
+
+def test_a_kepler_orbit_in_a_uniform_field_does_not() -> None:
+    pulled = kepler() - g * PLANE.q[1]
+    assert (variation(pulled, PLANE, TURN) + g * PLANE.q[0]).expand() == 0
+    assert not is_conserved(Constrained(pulled, PLANE), TURN)
+    with pytest.raises(NotASymmetryError, match="does not leave L invariant"):
+        noether_integral(pulled, PLANE, TURN)
+
+
+@pytest.mark.parametrize(("tilt", "conserved"), [(sp.S.Zero, True), (sp.Rational(1, 2), False)])
+def test_a_tilted_plane_breaks_the_rotation_that_the_free_fall_has(tilt: sp.Expr, conserved: bool) -> None:
+    """The Lagrangian is invariant about the vertical either way; only a tilted plane's normal force has a torque."""
+    (x, y, z), (vx, vy, vz) = SPACE.q, SPACE.v
+    lam = sp.Symbol("lambda")
+    turn = (-y, x, sp.S.Zero)
+    system = Constrained(falling(), SPACE, (z - tilt * x,))
+    assert decide_zero(variation(falling(), SPACE, turn)).answer == "zero"
+    assert (noether_rate(system, turn, [lam]) - lam * tilt * y).expand() == 0
+    assert is_conserved(system, turn) is conserved
+    # The rate is the true one along the constrained motion.
+    a, multipliers = constrained_accelerations(system)
+    state = random_state(SPACE, 2) | {vz: 0.4}
+    moved = dict(zip(SPACE.a, a, strict=True))
+    true_rate = total_derivative(m * (x * vy - y * vx), SPACE).subs(moved)
+    predicted = noether_rate(system, turn, list(multipliers))
+    assert float((true_rate - predicted).subs(state)) == pytest.approx(0, abs=1e-11)
+    assert (abs(float(true_rate.subs(state))) < 1e-12) is conserved
+
+
+def test_a_sphere_keeps_the_rotation_about_the_vertical() -> None:
+    x, y, z = SPACE.q
+    pendulum = Constrained(falling(), SPACE, ((x**2 + y**2 + z**2 - l**2) / 2,))
+    assert is_conserved(pendulum, (-y, x, sp.S.Zero))
+    assert not is_conserved(pendulum, (sp.S.Zero, -z, y))
+
+
+def test_transformations_and_multipliers_have_their_shapes() -> None:
+    with pytest.raises(InputError, match="one component"):
+        variation(kepler(), PLANE, (1,))
+    with pytest.raises(InputError, match="free of velocities"):
+        variation(kepler(), PLANE, PLANE.v)
+    with pytest.raises(InputError, match="0 multipliers for 1 constraints"):
+        noether_rate(Constrained(kepler(), PLANE, (PLANE.q[0],)), TURN, [])
+
+
+def test_the_routhian_of_a_top_is_its_effective_potential() -> None:
+    p_phi, p_psi = p = sp.symbols("p_phi p_psi", real=True)
+    theta, dtheta = TOP.q[0], TOP.v[0]
+    effective = (p_phi - p_psi * sp.cos(theta)) ** 2 / (2 * I1 * sp.sin(theta) ** 2) + p_psi**2 / (2 * I3)
+    expected = I1 * dtheta**2 / 2 - effective - m * g * l * sp.cos(theta)
+    difference = routhian(heavy_top(), TOP, TOP.q[1:], p) - expected
+    assert decide_zero(difference).answer == "zero"
+
+
+@pytest.mark.parametrize("cyclic", [(1,), (2,), (1, 2), (2, 1)])
+def test_the_routhian_moves_the_other_coordinates_as_the_lagrangian_does(cyclic: tuple[int, ...]) -> None:
+    L, kept = heavy_top(), [i for i in range(3) if i not in cyclic]
+    rest = Coordinates(*(tuple(names[i] for i in kept) for names in (TOP.q, TOP.v, TOP.a)))
+    p = sp.symbols(f"p:{len(cyclic)}", real=True)
+    R = routhian(L, TOP, [TOP.q[i] for i in cyclic], p)
+    assert not R.free_symbols & {TOP.v[i] for i in cyclic}
+    state = random_state(TOP, 3)
+    values = {symbol: momenta(L, TOP)[i].subs(state) for symbol, i in zip(p, cyclic, strict=True)}
+    reduced = accelerations(R, rest).subs(state | values)
+    full = accelerations(L, TOP).subs(state)
+    np.testing.assert_allclose([float(x) for x in reduced], [float(full[i]) for i in kept], rtol=1e-10)
+
+
+def test_only_cyclic_coordinates_are_eliminated() -> None:
+    p = sp.Symbol("p")
+    with pytest.raises(NotASymmetryError, match="L depends on theta"):
+        routhian(heavy_top(), TOP, TOP.q[:1], [p])
+    with pytest.raises(InputError, match="p not among"):
+        routhian(heavy_top(), TOP, [p], [p])
+    with pytest.raises(InputError, match="symbol of its own"):
+        routhian(heavy_top(), TOP, TOP.q[1:], [p, p])
+    with pytest.raises(InputError, match="symbol of its own"):
+        routhian(heavy_top(), TOP, TOP.q[1:], [p, I1])
+
+
+def test_hamiltons_equations_reproduce_the_top() -> None:
+    L, p = heavy_top(), sp.symbols("p:3", real=True)
+    H = legendre(L, TOP, p)
+    state = random_state(TOP, 4)
+    at_p = dict(zip(p, momenta(L, TOP).subs(state), strict=True)) | state
+    moved = dict(zip(TOP.a, accelerations(L, TOP).subs(state), strict=True))
+    assert float(H.subs(at_p)) == pytest.approx(float(energy(L, TOP).subs(state)))
+    for q, v, a_momentum, momentum in zip(TOP.q, TOP.v, p, momenta(L, TOP), strict=True):
+        assert float(sp.diff(H, a_momentum).subs(at_p)) == pytest.approx(state[v])
+        change = total_derivative(momentum, TOP).subs(moved).subs(state)
+        assert float(-sp.diff(H, q).subs(at_p)) == pytest.approx(float(change), abs=1e-10)
+
+
+def test_a_lagrangian_without_a_hamiltonian_in_closed_form_is_refused() -> None:
+    p = sp.symbols("p:2")
+    with pytest.raises(DomainError, match="not quadratic"):
+        legendre(PLANE.v[0] ** 2 + PLANE.v[1] ** 4, PLANE, p)
+    with pytest.raises(SingularError, match="does not determine the velocities"):
+        legendre((PLANE.v[0] + PLANE.v[1]) ** 2, PLANE, p)
+    with pytest.raises(InputError, match="legendre: momenta"):
+        legendre(kepler(), PLANE, p[:1])
+
+
+small = st.integers(-3, 3)
+entries = st.lists(small, min_size=4, max_size=4)
+
+
+@settings(max_examples=15, deadline=None)
+@given(entries, entries, entries, entries)
+def test_energy_is_the_hamiltonian_at_the_momenta(
+    mass: list[int], field: list[int], well: list[int], at: list[int]
+) -> None:
+    q, v, A = sp.Matrix(PLANE.q), sp.Matrix(PLANE.v), sp.Matrix(2, 2, mass)
+    M = A.T * A + sp.diag(1 + PLANE.q[1] ** 2, 1)
+    L = (v.T * M * v)[0] / 2 + (q.T * sp.Matrix(2, 2, field) * v)[0] - (q.T * sp.Matrix(2, 2, well) * q)[0]
+    p = sp.symbols("p:2", real=True)
+    state = dict(zip(PLANE.q + PLANE.v, at, strict=True))
+    at_p = dict(zip(p, momenta(L, PLANE).subs(state), strict=True))
+    assert legendre(L, PLANE, p).subs(at_p).subs(state) == energy(L, PLANE).subs(state)
+
+
+@settings(max_examples=15, deadline=None)
+@given(entries)
+def test_a_translation_is_a_symmetry_exactly_of_the_springs_it_does_not_stretch(xi: list[int]) -> None:
+    """Four particles in a chain of equal springs: only moving all alike leaves every spring unstretched."""
+    c = coordinates("x1 x2 x3 x4")
+    stretched = sum((right - left) ** 2 for left, right in zip(c.q, c.q[1:], strict=False))
+    L = m * sum(v**2 for v in c.v) / 2 - k * stretched / 2
+    assert is_conserved(Constrained(L, c), xi) is (len({*xi}) == 1)
