@@ -70,7 +70,9 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
     embedding = minimal_embedding(_D, _W)
     by_chi, twice = {_D: _D1, _W: _W1}, {_D: _D2, _W: _W2}
     q4 = [embedding[q] for q in MERCATOR.q]
-    E = sp.Matrix([[e.diff(MINIMAL.q[0]), sum(e.diff(s) * d for s, d in by_chi.items()), e.diff(MINIMAL.q[2])] for e in q4])
+    E = sp.Matrix(
+        [[e.diff(MINIMAL.q[0]), sum(e.diff(s) * d for s, d in by_chi.items()), e.diff(MINIMAL.q[2])] for e in q4]
+    )
     Ev = sp.Matrix([sum(e.diff(s) * d for s, d in twice.items()) * chi_v**2 for e in q4])
     E, Ev = E.subs(trivial), Ev.subs(trivial)
     for u, t, s in ((u1, _T1, _S1), (u2, _T2, _S2)):
@@ -86,7 +88,14 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         force4 = force4.applyfunc(_named)
         lowest.append((alpha, embedding[alpha]))
     stages, acceleration = solve_symmetric(E.T * mass4 * E, E.T * (force4 - bias4 - mass4 * Ev), "m")
-    parameters = (a, *((b,) if massive else ()), *(() if ratio == "equal" else (k,)), G_1, G_2, *(FORCE if body else ()))
+    parameters = (
+        a,
+        *((b,) if massive else ()),
+        *(() if ratio == "equal" else (k,)),
+        G_1,
+        G_2,
+        *(FORCE if body else ()),
+    )
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), (*lowest, *stages), (*MINIMAL.v, *acceleration))
 
 
@@ -107,7 +116,12 @@ def _rate(scene: Scene, pulsed: bool) -> Rate:
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
     body = scene.shock.body if pulsed and scene.shock else 0
-    parameters = (inertia_a, *((inertia_b,) if massive else ()), *(() if ratio == "equal" else (value,)), *scene.momenta)
+    parameters = (
+        inertia_a,
+        *((inertia_b,) if massive else ()),
+        *(() if ratio == "equal" else (value,)),
+        *scene.momenta,
+    )
     return python_rate(scene, _compiled(massive, ratio, body), parameters, pulsed)
 
 

@@ -35,7 +35,9 @@ class Model:
     projection: Callable[[Scene], Projection] | None = None
 
 
-def python_rate(scene: Scene, function: Callable[..., list[float]], parameters: tuple[float, ...], pulsed: bool) -> Rate:
+def python_rate(
+    scene: Scene, function: Callable[..., list[float]], parameters: tuple[float, ...], pulsed: bool
+) -> Rate:
     """The rate s, y ↦ function(*y, *parameters[, *force]) in Python floats, the fastest where one state comes at a time.
 
     `force` is R F on the shocked tip (N m). A state outside the coordinates' reach gives NaN, which makes the solver

@@ -45,7 +45,9 @@ def check_times(t: ArrayLike) -> Array:
     if not np.isfinite(times).all():
         raise InputError("simulate: t holds a time that is not finite")
     if times[0] < 0:
-        raise InputError(f"simulate: t starts at {times[0]:g} s: the scene is given at t = 0, so times start there or later")
+        raise InputError(
+            f"simulate: t starts at {times[0]:g} s: the scene is given at t = 0, so times start there or later"
+        )
     if (np.diff(times) <= 0).any():
         raise InputError("simulate: the times must increase; sort them and drop repeated ones")
     return times

@@ -28,7 +28,9 @@ class Program:
         known = set(self.arguments)
         for name, expression in (*self.stages, *((None, e) for e in self.outputs)):
             if missing := expression.free_symbols - known:
-                raise SingularError(f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments")
+                raise SingularError(
+                    f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"
+                )
             known |= {name} if name else set()
 
 
@@ -73,7 +75,9 @@ def javascript(program: Program, name: str) -> str:
     stages, outputs = reduce_common(program)
     lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
     values = ", ".join(sp.jscode(e) for e in outputs)
-    return "\n".join([f"function {name}({', '.join(map(str, program.arguments))}) {{", *lines, f"  return [{values}];", "}"])
+    return "\n".join(
+        [f"function {name}({', '.join(map(str, program.arguments))}) {{", *lines, f"  return [{values}];", "}"]
+    )
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:

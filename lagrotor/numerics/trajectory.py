@@ -82,7 +82,9 @@ class Trajectory:
     def save(self, path: str | Path) -> Path:
         """Write `.npz` (t, axes, rates, tips, energy, link_length, momenta, P) or `.csv` (a column a component)."""
         target = Path(path)
-        arrays = {name: getattr(self, name) for name in ("t", "axes", "rates", "tips", "energy", "link_length", "momenta")}
+        arrays = {
+            name: getattr(self, name) for name in ("t", "axes", "rates", "tips", "energy", "link_length", "momenta")
+        }
         arrays["P"] = self.joint_line_momentum
         if target.suffix == ".npz":
             return write_beside(target, lambda file: np.savez_compressed(file, **arrays))

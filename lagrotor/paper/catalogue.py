@@ -1,0 +1,75 @@
+"""The scope of the audit as data: every equation, claim and figure of the paper, in its order."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+
+_FOLDER = Path(__file__).parent
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one."""
+
+    id: str
+    section: str
+    title: str
+    latex: str
+    number: int | None = None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What the paper states in words."""
+
+    id: str
+    section: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure: `kind` is diagram, simulated, analytical or both."""
+
+    number: int
+    kind: str
+    section: str
+    shows: str
+
+
+def _rows(name: str, key: str) -> list[dict[str, Any]]:
+    with (_FOLDER / f"{name}.toml").open("rb") as file:
+        return tomllib.load(file)[key]
+
+
+@cache
+def equations() -> dict[str, Equation]:
+    """Every equation by id, in the paper's order."""
+    return {row["id"]: Equation(**row) for row in _rows("equations", "equation")}
+
+
+@cache
+def claims() -> dict[str, Claim]:
+    """Every claim by id, in the paper's order."""
+    return {row["id"]: Claim(**row) for row in _rows("claims", "claim")}
+
+
+@cache
+def figures() -> dict[int, Figure]:
+    """Every figure by number."""
+    return {row["number"]: Figure(**row) for row in _rows("figures", "figure")}
+
+
+def equation(identifier: str) -> Equation:
+    """One equation; refuses an id that the paper does not have."""
+    try:
+        return equations()[identifier]
+    except KeyError:
+        raise InputError(
+            f"equation {identifier!r} is not in the catalogue: ids run from {next(iter(equations()))} "
+            f"to {next(reversed(equations()))}"
+        ) from None
