@@ -88,7 +88,10 @@ statements = [
             f"The derived energy exceeds the printed one by {missing}: with I_1 about the centre the energy "
             "of translation is missing.",
         ),
-        steps=("Q = R_z(phi) R_x(theta) R_z(psi)", "L = sum of rotation about the centre and translation of the centre"),
+        steps=(
+            "Q = R_z(phi) R_x(theta) R_z(psi)",
+            "L = sum of rotation about the centre and translation of the centre",
+        ),
     ),
     Statement(
         "5.02",

@@ -84,6 +84,9 @@ def _stretch(
 
     rate = problem.driven if pulsed and problem.driven else problem.free
     longest = problem.width if pulsed else np.inf
+    # From a rate that is not finite scipy makes a step that is not, and retries it for ever.
+    if not np.isfinite(rate(left, y)).all():
+        raise IntegrationError(_stopped(problem.at + left, "the rate is not finite"))
     solver = DOP853(rate, left, y, right, rtol=max(error, 2.3e-14), atol=error, max_step=longest)
     found, done = np.empty((len(asked), len(y))), 0
     while solver.status == "running":

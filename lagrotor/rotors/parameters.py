@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import fsum, hypot, isfinite, pi, sqrt
+from math import fsum, hypot, isfinite, nan, pi, sqrt
 
 from ..errors import InputError
 
@@ -14,8 +14,8 @@ CLOSE = 1e-9  # how far a given state may lie off its constraints
 
 def _number(value: object, where: str, unit: str) -> float:
     try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+        number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
     if isinstance(value, bool) or not isfinite(number):
         raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
@@ -118,6 +118,7 @@ class Shock:
         object.__setattr__(self, "width", _positive(self.width, "Shock: width", "s"))
         if isinstance(self.body, bool) or self.body not in (1, 2):
             raise InputError(f"Shock: body = {self.body!r} must be 1 (left rotor) or 2 (right rotor)")
+        object.__setattr__(self, "body", int(self.body))
 
     @property
     def impulse(self) -> Vector:

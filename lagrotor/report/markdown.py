@@ -1,0 +1,97 @@
+"""The report as Markdown with LaTeX between dollar signs, as code hosts draw it."""
+
+import re
+from collections.abc import Iterable
+
+import sympy as sp
+
+from ..paper.catalogue import equation
+from ..paper.ledger import Verdict
+from ..symbols import latex
+from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
+from .figures import Picture
+
+
+def markdown(report: Report) -> str:
+    """The whole report; figures are linked as `figures/<stem>.svg`."""
+    blocks = [f"# {TITLE}", f"{SUBTITLE}.", _summary(report), _table(report)]
+    for section, verdicts in report.sections.items():
+        blocks.append(f"## Section {section}")
+        blocks += [_equation(verdict, report) for verdict in verdicts]
+    if report.pictures:
+        blocks.append("## Figures")
+        blocks += [_picture(picture) for picture in report.pictures]
+    if report.waiting:
+        rows = [(entry.id, _prose(entry.title)) for entry in report.waiting]
+        blocks += ["## Not yet judged", _rows(("Equation", "Title"), rows)]
+    made = ", ".join(f"{name} {number}" for name, number in versions().items())
+    blocks += ["## How this was made", f"{made}; {report.seconds:.1f} s in all."]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _summary(report: Report) -> str:
+    lines = [f"- {word(answer)}: {count} ({MEANINGS[answer]})" for answer, count in report.counts.items()]
+    lines.append(f"- not yet judged: {len(report.waiting)}")
+    if report.changes:
+        lines += ["", "**Changed against the record:**", "", *(f"- {_prose(change)}" for change in report.changes)]
+    return "\n".join(lines)
+
+
+def _table(report: Report) -> str:
+    rows = [
+        (f"[{v.id}](#{_anchor(v.id)})", _prose(equation(v.id).title), word(v.verdict), _prose(note(v)))
+        for v in report.verdicts
+    ]
+    return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
+
+
+def _equation(verdict: Verdict, report: Report) -> str:
+    entry, statement = equation(verdict.id), verdict.statement
+    parts = [
+        f'<a id="{_anchor(verdict.id)}"></a>',
+        f"### {verdict.id} {_prose(entry.title)}: {word(verdict.verdict)}",
+        "As printed:",
+        _display(entry.latex),
+    ]
+    if derived := sides(statement.relations, "derived"):
+        parts += ["As derived:", *map(_formula, derived)]
+    parts += [_fact(fact) for fact in facts(verdict, report)]
+    if statement.steps:
+        parts += ["Steps:", "\n".join(f"{i}. {_prose(step)}" for i, step in enumerate(statement.steps, 1))]
+    return "\n\n".join(parts)
+
+
+def _fact(fact: Fact) -> str:
+    words = [_prose(text) for text in fact.texts] + [", ".join(f"[{i}](#{_anchor(i)})" for i in fact.ids)]
+    line = f"**{fact.label}:** " + " ".join(filter(None, words))
+    return "\n\n".join([line.rstrip(), *map(_formula, fact.formulas)])
+
+
+def _picture(picture: Picture) -> str:
+    image = f"![{_prose(picture.alt)}](figures/{picture.svg.name})"
+    parts = [f"### Figure {picture.number}: {_prose(picture.title)}", image, _prose(picture.caption)]
+    if picture.measured:
+        parts.append(_rows(("Measured", "Value"), [(_prose(n), f"{v:.6g}") for n, v in picture.measured.items()]))
+    return "\n\n".join(parts)
+
+
+def _rows(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    lines = [head, tuple("---" for _ in head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def _formula(expression: sp.Basic) -> str:
+    return _display(latex(expression))
+
+
+def _display(source: str) -> str:
+    return f"$$\n{source}\n$$"
+
+
+def _anchor(identifier: str) -> str:
+    return f"eq-{identifier}"
+
+
+def _prose(text: str) -> str:
+    """Text on one line in which nothing is read as Markdown, HTML or a table's edge."""
+    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(text.split()))

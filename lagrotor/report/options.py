@@ -1,0 +1,100 @@
+"""What the commands take: a parser that refuses in one line, the scene's options, where output may go."""
+
+import argparse
+import os
+import re
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ..errors import InputError
+from ..rotors.parameters import Link, Rotor, Scene, Shock
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse, but a refusal is an InputError, and -1e-3 and -inf are numbers, not options."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
+        self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}; see {self.prog} --help")
+
+
+def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more: Any) -> None:
+    group.add_argument(name, nargs=len(letters), type=float, metavar=letters, help=says, **more)
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """The options of rotors, bar and start."""
+    group = parser.add_argument_group("scene")
+    _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s", required=True)
+    for name, default, says in (
+        ("--rotor-mass", Rotor.mass, "mass of a rotor, kg"),
+        ("--rotor-length", Rotor.length, "length of a rotor's axis, m"),
+        ("--I1", Rotor.I1, "transverse inertia about the centre, kg m²"),
+        ("--I3", Rotor.I3, "axial inertia, kg m²"),
+        ("--link-length", Link.length, "length of the bar, m"),
+        ("--link-mass", Link.mass, "mass of the bar, kg"),
+        ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
+    ):
+        group.add_argument(name, type=float, default=default, metavar="X", help=f"{says} (default: {default:g})")
+    _numbers(group, "--axes", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "unit vectors at t = 0 (default: upright)")
+    _numbers(group, "--rates", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "their rates at t = 0, 1/s (default: at rest)")
+
+
+def add_shock(parser: argparse.ArgumentParser) -> None:
+    """The shock's options."""
+    group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of one rotor")
+    _numbers(group, "--shock", ("FX", "FY", "FZ"), "force, N; needs --shock-time and --shock-width")
+    group.add_argument("--shock-time", type=float, metavar="S", help="centre of the pulse, s")
+    group.add_argument("--shock-width", type=float, metavar="S", help="width of the pulse, s")
+    group.add_argument("--shock-body", type=int, metavar="N", help="rotor 1 (left) or 2 (default: 1)")
+
+
+def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
+    """The scene that the options describe. Raises InputError for one that makes no sense."""
+    start = {
+        name: (tuple(values[:3]), tuple(values[3:]))
+        for name in ("axes", "rates")
+        if (values := getattr(given, name)) is not None
+    }
+    return Scene(
+        spins=tuple(given.spins),
+        rotor=Rotor(given.rotor_mass, given.rotor_length, given.I1, given.I3),
+        link=Link(given.link_length, given.link_mass, given.link_inertia),
+        shock=shock,
+        **start,
+    )
+
+
+def shock_of(given: argparse.Namespace) -> Shock | None:
+    """The shock that the options describe, if any. Raises InputError when a part of it is missing."""
+    parts = {"--shock-time": given.shock_time, "--shock-width": given.shock_width}
+    if given.shock is None:
+        if lonely := [
+            name for name, value in (parts | {"--shock-body": given.shock_body}).items() if value is not None
+        ]:
+            raise InputError(f"{lonely[0]} without --shock: give the force too")
+        return None
+    if missing := [name for name, value in parts.items() if value is None]:
+        raise InputError(f"--shock needs {' and '.join(missing)}")
+    body = 1 if given.shock_body is None else given.shock_body
+    return Shock(tuple(given.shock), given.shock_time, given.shock_width, body)
+
+
+def check_file(path: Path) -> None:
+    """Raises InputError unless a run can be written there."""
+    if path.suffix not in (".npz", ".csv"):
+        raise InputError(f"--out {path}: the name must end in .npz or .csv")
+    if path.is_dir():
+        raise InputError(f"--out {path} is a folder: give a file")
+    check_folder(path.parent)
+
+
+def check_folder(folder: Path) -> None:
+    """Raises InputError unless files can be written into the folder."""
+    if not folder.is_dir():
+        raise InputError(f"--out: there is no folder {folder}: make it first")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"--out: the folder {folder} cannot be written to: choose another")

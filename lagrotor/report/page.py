@@ -1,0 +1,144 @@
+"""The report as one HTML page that needs nothing else: style, formulas and figures are inside it."""
+
+from base64 import b64encode
+from collections.abc import Iterable
+from html import escape
+from pathlib import Path
+
+import sympy as sp
+
+from ..paper.catalogue import equation
+from ..paper.ledger import Verdict
+from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
+from .figures import Picture
+from .mathml import mathml
+
+_STYLE = Path(__file__).with_name("page.css")
+# A picture larger than this as SVG goes in as PNG: two dozen of them stay under 5 MB.
+_LARGEST_SVG = 150_000
+
+
+def page(report: Report) -> str:
+    """The whole report."""
+    sections = [(f"section-{name}", f"Section {name}", verdicts) for name, verdicts in report.sections.items()]
+    links = [(anchor, heading) for anchor, heading, _ in sections]
+    links += [("figures", "Figures")] * bool(report.pictures)
+    links += [("waiting", "Not yet judged")] * bool(report.waiting)
+    links.append(("made", "How this was made"))
+    body = [
+        f"<header><h1>{escape(TITLE)}</h1><p>{escape(SUBTITLE)}.</p></header>",
+        "<nav>" + " ".join(f'<a href="#{anchor}">{escape(heading)}</a>' for anchor, heading in links) + "</nav>",
+        _summary(report),
+        _table(report),
+    ]
+    for anchor, heading, verdicts in sections:
+        body.append(f'<h2 id="{anchor}">{escape(heading)}</h2>')
+        body += [_equation(verdict, report) for verdict in verdicts]
+    if report.pictures:
+        body.append('<h2 id="figures">Figures</h2>')
+        body += [_picture(picture) for picture in report.pictures]
+    if report.waiting:
+        rows = [(entry.id, escape(entry.title)) for entry in report.waiting]
+        body += ['<h2 id="waiting">Not yet judged</h2>', _rows(("Equation", "Title"), rows)]
+    body += ['<h2 id="made">How this was made</h2>', _made(report)]
+    return "\n".join(
+        [
+            "<!DOCTYPE html>",
+            '<html lang="en"><head><meta charset="utf-8">',
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            '<meta name="color-scheme" content="light dark">',
+            f"<title>{escape(TITLE)}: {escape(SUBTITLE.lower())}</title>",
+            f"<style>\n{_STYLE.read_text(encoding='utf-8')}</style></head>",
+            "<body><main>",
+            *body,
+            "</main></body></html>\n",
+        ]
+    )
+
+
+def _summary(report: Report) -> str:
+    items = [
+        f"<li><b>{count}</b> {_badge(answer)} <span>{escape(MEANINGS[answer])}</span></li>"
+        for answer, count in report.counts.items()
+    ]
+    if report.waiting:
+        items.append(
+            f'<li><b>{len(report.waiting)}</b> <span class="badge">not yet judged</span> '
+            "<span>no derivation states them so far</span></li>"
+        )
+    changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
+    warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
+    return f'<ul class="summary">{"".join(items)}</ul>{warning}'
+
+
+def _table(report: Report) -> str:
+    rows = [
+        (_link(v.id), escape(equation(v.id).title), _badge(v.verdict), f"<small>{escape(note(v))}</small>")
+        for v in report.verdicts
+    ]
+    return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
+
+
+def _equation(verdict: Verdict, report: Report) -> str:
+    entry, statement = equation(verdict.id), verdict.statement
+    printed = _formulas(sides(statement.relations, "printed"))
+    derived = _formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
+    read = f"<h4>As read</h4>{printed}" if printed else ""
+    steps = "".join(f"<li>{escape(step)}</li>" for step in statement.steps)
+    details = f"<details><summary>Steps</summary><ol>{steps}</ol></details>" if steps else ""
+    said = "".join(_fact(fact) for fact in facts(verdict, report))
+    return (
+        f'<article id="eq-{verdict.id}"><h3><span class="id">{verdict.id}</span> {escape(entry.title)} '
+        f"{_badge(verdict.verdict)}</h3>"
+        f'<div class="pair"><div><h4>As printed</h4><pre tabindex="0"><code>{escape(entry.latex)}</code></pre>{read}'
+        f"</div><div><h4>As derived</h4>{derived}</div></div>"
+        f"<dl>{said}</dl>{details}</article>"
+    )
+
+
+def _fact(fact: Fact) -> str:
+    parts = [f"<p>{escape(text)}</p>" for text in fact.texts]
+    parts += [f"<p>{' '.join(map(_link, fact.ids))}</p>"] * bool(fact.ids)
+    parts.append(_formulas(fact.formulas))
+    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
+
+
+def _picture(picture: Picture) -> str:
+    as_svg = picture.svg.stat().st_size <= _LARGEST_SVG
+    file, kind = (picture.svg, "svg+xml") if as_svg else (picture.png, "png")
+    source = f"data:image/{kind};base64,{b64encode(file.read_bytes()).decode()}"
+    rows = [(escape(name), f"{value:.6g}") for name, value in picture.measured.items()]
+    return (
+        f'<figure id="figure-{picture.number}"><h3>Figure {picture.number}: {escape(picture.title)}</h3>'
+        f'<img src="{source}" alt="{escape(picture.alt)}"><figcaption>{escape(picture.caption)}</figcaption>'
+        f"{_rows(('Measured', 'Value'), rows) if rows else ''}</figure>"
+    )
+
+
+def _made(report: Report) -> str:
+    rows = [(escape(name), escape(number)) for name, number in versions().items()]
+    rows += [
+        ("Judging", f"{sum(v.seconds for v in report.verdicts):.1f} s"),
+        *((f"Figure {p.number}", f"{p.seconds:.1f} s") for p in report.pictures),
+        ("In all", f"{report.seconds:.1f} s"),
+    ]
+    return _rows(("What", "Version or time"), rows)
+
+
+def _rows(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """A table of cells that are HTML already."""
+    top = "".join(f'<th scope="col">{escape(cell)}</th>' for cell in head)
+    lines = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f'<div class="wide" tabindex="0"><table><thead><tr>{top}</tr></thead><tbody>{lines}</tbody></table></div>'
+
+
+def _formulas(expressions: Iterable[sp.Basic]) -> str:
+    return "".join(f'<div class="wide" tabindex="0">{mathml(expression)}</div>' for expression in expressions)
+
+
+def _badge(answer: str) -> str:
+    return f'<span class="badge {answer}">{escape(word(answer))}</span>'
+
+
+def _link(identifier: str) -> str:
+    return f'<a href="#eq-{identifier}">{identifier}</a>'

@@ -1,0 +1,114 @@
+"""The main job: judge every equation, draw every figure, write the report, and only then replace the last one."""
+
+import json
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import InputError, LagrotorError
+from ..numerics.files import write_text
+from ..paper import audit, catalogue, scripts
+from ..paper.ledger import Verdict
+from . import figures
+from .content import Report
+from .markdown import markdown
+from .page import page
+
+RECORDED = Path(catalogue.__file__).with_name("recorded.json")
+_HOLDS = {"index.html", "report.md", "verdicts.json", "measured.json", "figures"}
+
+
+def reproduce(target: Path, step: Callable[[str], None]) -> Report:
+    """Judge, draw and write everything into the folder `target`; `step` is told what begins.
+
+    Raises InputError when `target` cannot be written or is no report. Until all is done the old report stays.
+    """
+    began = time.perf_counter()
+    with replaced(target) as folder:
+        verdicts = audit.audit(step)
+        pictures = []
+        (folder / "figures").mkdir()
+        for number in sorted(figures.stems()):
+            step(f"figure {number}")
+            pictures.append(figures.draw(number, folder / "figures"))
+        step("report")
+        changed = changes(verdicts, recorded())
+        report = Report(tuple(verdicts), tuple(pictures), tuple(changed), time.perf_counter() - began)
+        write_text(folder / "index.html", page(report))
+        write_text(folder / "report.md", markdown(report))
+        write_text(folder / "verdicts.json", audit.to_json(verdicts) + "\n")
+        measured = {picture.stem: picture.measured for picture in pictures}
+        write_text(folder / "measured.json", json.dumps(measured, indent=1) + "\n")
+    return report
+
+
+def steps() -> int:
+    """How many times `reproduce` calls its `step`."""
+    return len(scripts.names("derivations")) + len(figures.stems()) + 1
+
+
+def recorded() -> dict[str, str] | None:
+    """The verdicts on record, id → verdict; None when there are none yet. Raises LagrotorError for a broken file."""
+    try:
+        found = json.loads(RECORDED.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return None
+    except ValueError as error:
+        raise LagrotorError(f"{RECORDED} cannot be read ({error}): restore it") from None
+    return dict(found)
+
+
+def changes(verdicts: Iterable[Verdict], on_record: dict[str, str] | None, only: Iterable[str] = ()) -> list[str]:
+    """A sentence for each verdict that differs from the recorded one, of the ids in `only` or of all."""
+    if on_record is None:
+        return []
+    found: dict[str, str] = {verdict.id: verdict.verdict for verdict in verdicts}
+    asked = set(only) or found.keys() | on_record.keys()
+    return [
+        f"{i}: recorded {on_record.get(i, 'nothing')}, found {found.get(i, 'nothing')}"
+        for i in catalogue.equations()
+        if i in asked and on_record.get(i) != found.get(i)
+    ]
+
+
+def check_target(target: Path) -> Path:
+    """The folder with its links followed; raises InputError unless it can be made, or is empty, or is a report."""
+    folder = target.resolve()
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{target} is a file: choose a folder")
+    if not folder.parent.is_dir():
+        raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
+    if not os.access(folder.parent, os.W_OK):
+        raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
+    if folder.is_dir() and {entry.name for entry in folder.iterdir()} not in (set(), _HOLDS):
+        raise InputError(f"{target} holds other files than a report: choose a new or an empty folder")
+    return folder
+
+
+@contextmanager
+def replaced(target: Path) -> Iterator[Path]:
+    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not."""
+    target = check_target(target)
+    new, old = (target.with_name(f".{target.name}.{age}") for age in ("new", "old"))
+    if old.exists() and not target.exists():  # a run that was killed between the two renames below
+        old.rename(target)
+    shutil.rmtree(new, ignore_errors=True)
+    try:
+        new.mkdir()
+        yield new
+        if target.exists():
+            shutil.rmtree(old, ignore_errors=True)
+            target.rename(old)
+        try:
+            new.rename(target)
+        except BaseException:
+            if old.exists() and not target.exists():
+                old.rename(target)
+            raise
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+        if target.exists():
+            shutil.rmtree(old, ignore_errors=True)

@@ -1,0 +1,75 @@
+"""One look for every figure: colours fixed by meaning, told apart by the colour-blind (Okabe & Ito), a light grid."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib as mpl
+from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+OKABE_ITO = {
+    "black": "#000000",
+    "orange": "#E69F00",
+    "sky blue": "#56B4E9",
+    "bluish green": "#009E73",
+    "yellow": "#F0E442",
+    "blue": "#0072B2",
+    "vermillion": "#D55E00",
+    "reddish purple": "#CC79A7",
+}
+
+# What a curve means: the paper's own formula, its correction, the exact limit it is held to, a simulated model.
+PAPER = OKABE_ITO["vermillion"]
+CORRECTED = OKABE_ITO["bluish green"]
+EXACT = OKABE_ITO["black"]
+MODEL = OKABE_ITO["blue"]
+
+_GRID = "#dddddd"
+_INK = "#222222"
+_STYLE: dict[Any, Any] = {
+    "figure.figsize": (7.0, 4.6),
+    "figure.dpi": 100,
+    "figure.constrained_layout.use": True,
+    "figure.titlesize": 12,
+    "savefig.dpi": 160,
+    "savefig.facecolor": "white",
+    "font.family": "DejaVu Sans",
+    "font.size": 10,
+    "axes.titlesize": 11,
+    "axes.labelsize": 10,
+    "axes.edgecolor": _INK,
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.prop_cycle": cycler(color=[MODEL, PAPER, CORRECTED, OKABE_ITO["reddish purple"], OKABE_ITO["orange"]]),
+    "axes.formatter.useoffset": False,
+    "grid.color": _GRID,
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.6,
+    "legend.fontsize": 9,
+    "legend.frameon": False,
+    "xtick.labelsize": 9,
+    "ytick.labelsize": 9,
+    "mathtext.fontset": "dejavusans",
+    "svg.fonttype": "path",
+    "svg.hashsalt": "lagrotor",
+}
+
+
+@contextmanager
+def paper_style() -> Iterator[None]:
+    """The style, for what is drawn and saved inside the `with` block, whatever the user's own settings are."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_STYLE)
+        yield
+
+
+def with_residual(figure: Figure) -> tuple[Axes, Axes]:
+    """A panel for the curves and under it a lower one for their residual, on one time axis."""
+    main, residual = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (3, 1)})
+    return main, residual

@@ -1,0 +1,47 @@
+"""What people see in a terminal: tables as wide as it is, and progress while they wait."""
+
+import shutil
+import sys
+import textwrap
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+_NARROWEST = 20
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Rows under a head; the last column wraps at the terminal's edge, and runs on where there is no terminal."""
+    widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head) - 1)]
+    indent = sum(widths) + 2 * len(widths)
+    room = max(shutil.get_terminal_size().columns - indent, _NARROWEST) if sys.stdout.isatty() else sys.maxsize
+    lines = []
+    for row in (head, *rows):
+        first = "".join(f"{cell:<{width}}  " for cell, width in zip(row, widths, strict=False))
+        for i, part in enumerate(textwrap.wrap(row[-1], room) or [""]):
+            lines.append(((first if i == 0 else " " * indent) + part).rstrip())
+    return "\n".join(lines)
+
+
+@contextmanager
+def progress(total: int) -> Iterator[Callable[[str], None]]:
+    """A function to call with the name of each of `total` steps as it begins; quiet unless stderr is a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda name: None
+        return
+    done, began = 0, time.perf_counter()
+
+    def finish() -> None:
+        if done:
+            print(f" {time.perf_counter() - began:.1f} s", file=sys.stderr)
+
+    def step(name: str) -> None:
+        nonlocal done, began
+        finish()
+        done, began = done + 1, time.perf_counter()
+        print(f"[{done}/{total}] {name} …", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield step
+    finally:
+        finish()

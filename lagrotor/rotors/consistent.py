@@ -1,0 +1,78 @@
+"""Starts that satisfy their constraints: bringing a state onto the bar, and onto the paired precession."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from ..mechanics import jacobian, mass_matrix, project_position, project_velocity
+from ..symbols import AXES, Phi, a, b, k
+from .lagrangians import axes_pair
+from .parameters import Link, Rotor, Scene, Shock
+
+Array = NDArray[np.float64]
+
+
+def consistent_scene(
+    spins: tuple[float, float],
+    axes: ArrayLike,
+    rates: ArrayLike = ((0, 0, 0), (0, 0, 0)),
+    rotor: Rotor | None = None,
+    link: Link | None = None,
+    shock: Shock | None = None,
+) -> Scene:
+    """The scene whose start is nearest, in the mass metric, to the given axes and rates (2, 3) and satisfies the bar.
+
+    Raises ConstraintError when the axes cannot be brought onto the bar, InputError for what Scene refuses.
+    """
+    scene = Scene(spins, rotor or Rotor(), link or Link(), shock)
+    try:
+        q, v = (np.asarray(part, dtype=float).reshape(6) for part in (axes, rates))
+    except (TypeError, ValueError):
+        raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
+    if not (np.isfinite(q).all() and np.isfinite(v).all()):
+        raise InputError("consistent_scene: axes and rates must be finite")
+    system, _ = axes_pair()
+    values: dict[Any, float] = dict(zip((a, b), scene.inertias, strict=True))
+    values[k] = (link or Link()).length / scene.rotor.length
+    mass = np.array(mass_matrix(system.L, AXES).subs(values), dtype=float)
+    g = sp.lambdify([AXES.q], [e.subs(values) for e in system.g])
+    G = sp.lambdify([AXES.q], jacobian(system.g, AXES).subs(values))
+
+    def residual(state: Array) -> Array:
+        return np.array(g(state), dtype=float)
+
+    def slope(state: Array) -> Array:
+        return np.array(G(state), dtype=float)
+
+    q = project_position(residual, slope, q, mass)
+    v = project_velocity(slope(q), v, mass)
+    return replace(scene, axes=_pair(q), rates=_pair(v))
+
+
+def paired_scene(scene: Scene, r0: float, order: int = 9) -> Scene:
+    """`scene` started on its paired precession of amplitude r0 at Phi = 0, by the series through r0**order.
+
+    The start is exact on the bar; its velocities are off the periodic orbit by O(r0**(order + 1)) Omega.
+    Raises InputError unless the spins are opposite; DomainError unless |r0| < 1.
+    """
+    from .closed_forms import corrected_trajectories, natural_rate, paired_frequency
+
+    if scene.spins[0] != -scene.spins[1] or scene.link is None:
+        raise InputError(f"paired_scene: the paired precession needs a bar and opposite spins, not {scene.spins}")
+    inertia_a, inertia_b = scene.inertias
+    shape = (inertia_a + inertia_b) / (inertia_a - inertia_b)
+    ratio = scene.link.length / scene.rotor.length
+    form = corrected_trajectories(order)
+    rate = natural_rate(scene) * float(paired_frequency(order)(r0, shape, ratio)) * np.sign(scene.spins[0])  # type: ignore[arg-type]
+    axes = np.array(form(r0, 0.0, shape, ratio)).reshape(2, 3)
+    slopes = [sp.diff(e, Phi) for e in form.expressions]
+    rates = rate * np.array(sp.lambdify(form.arguments, slopes)(r0, 0.0, shape, ratio), dtype=float).reshape(2, 3)
+    return consistent_scene(scene.spins, axes, rates, scene.rotor, scene.link, scene.shock)
+
+
+def _pair(flat: Array) -> Any:
+    return tuple(tuple(float(x) for x in part) for part in flat.reshape(2, 3))
