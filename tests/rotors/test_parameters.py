@@ -181,3 +181,9 @@ def test_the_bar_couples_by_mass_and_uncouples_by_turning() -> None:
     assert scene(link=Link(1, 4, 0)).inertias == (2.25, 1)
     assert scene(link=Link(2, 4, 4)).inertias == (1.25 + 1 + 1, 0)
     assert scene(link=Link(1, 4, 3)).inertias == (1.25 + 1 + 3, -2)
+
+
+def test_the_shocked_rotor_is_kept_as_an_integer() -> None:
+    """1.0 equals 1, yet indexes nothing."""
+    assert type(shock(body=1.0).body) is int
+    assert type(shock(body=np.int64(2)).body) is int

@@ -1,0 +1,365 @@
+"""The paper's simulator: bodies against exact free motion, links against the exact pair, steps against their limit."""
+
+from copy import deepcopy
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models.rigid_body import (
+    RigidBody,
+    finite_rotation,
+    inertia_transform,
+    printed_inertia_transform,
+    printed_rotation,
+    rotation_between,
+    skew,
+)
+from lagrotor.models.spring_link import RigidBodySystem, link_force, printed_link_force, step_limit
+from lagrotor.models.spring_run import paper_system, run_solver, run_steps
+
+ZERO, ONE = np.zeros(3), np.eye(3)
+BAR = Link(length=1, mass=1, inertia=1)
+MOVING = Scene(spins=(10, -6), link=BAR, rates=((0.5, 0.3, 0), (0.5, -0.2, 0)))
+TILTED = Rotation.from_rotvec([0.4, -0.9, 0.3]).as_matrix()
+
+
+def slope(x, y):
+    """Exponent p of y ~ x^p."""
+    return np.polyfit(np.log(x), np.log(y), 1)[0]
+
+
+# --- one body, free of torque
+
+
+def spun(inertia, transform=inertia_transform):
+    body = RigidBody(ZERO, [[0, 0, 1]], inertia, TILTED, 1.0, [1.0, 2.0, 3.0], ZERO)
+    return RigidBodySystem([body], 1.0, 0.0, transform=transform)
+
+
+def turned(inertia, dt, t=2.0, transform=inertia_transform):
+    system = spun(inertia, transform)
+    for _ in range(round(t / dt)):
+        system.compute_forces()
+        system.step(dt)
+    return system
+
+
+def energy(system):
+    return float((system.angular_velocity() * system.L).sum() / 2)
+
+
+def free_precession(t):
+    """R(t) = exp([L] t / I1) exp([e] (1/I3 − 1/I1)(L . e) t) R(0) of a symmetric body with axis e."""
+    L, e = spun(np.diag([2, 2, 1.0])).L[0], TILTED[:, 2]
+    return (Rotation.from_rotvec(L * t / 2) * Rotation.from_rotvec(e * (1 - 0.5) * (L @ e) * t)).as_matrix() @ TILTED
+
+
+def asymmetric(t):
+    """R(t) from Euler's equations in the body frame, which know nothing of the world's."""
+    I0 = np.diag([1.0, 2.0, 2.5])
+
+    def rate(_, y):
+        Omega, R = y[:3], y[3:].reshape(3, 3)
+        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ skew(Omega[None])[0]).ravel()]
+
+    start = [*(TILTED.T @ [1, 2, 3]), *TILTED.ravel()]
+    return solve_ivp(rate, (0, t), start, method="DOP853", rtol=1e-12, atol=1e-12).y[3:, -1].reshape(3, 3)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "exact"), [(np.diag([2, 2, 1.0]), free_precession), (np.diag([1, 2, 2.5]), asymmetric)]
+)
+def test_free_body_converges_to_the_exact_motion_at_first_order(inertia, exact):
+    steps = np.array([4e-3, 2e-3, 1e-3])
+    start = spun(inertia)
+    runs = [turned(inertia, dt) for dt in steps]
+    assert all((run.L == start.L).all() for run in runs)
+    off = [abs(run.R[0] - exact(2.0)).max() for run in runs]
+    lost = [abs(energy(run) - energy(start)) for run in runs]
+    assert slope(steps, off) == pytest.approx(1, abs=0.1)
+    assert slope(steps, lost) == pytest.approx(1, abs=0.1)
+
+
+def test_the_printed_inertia_transform_fails_unless_the_body_is_isotropic():
+    unequal, equal = np.diag([2, 2, 1.0]), np.eye(3)
+    printed = [turned(unequal, dt, transform=printed_inertia_transform).R[0] for dt in (2e-3, 5e-4)]
+    assert min(abs(R - free_precession(2.0)).max() for R in printed) > 0.3
+    assert turned(equal, 1e-3, transform=printed_inertia_transform).R[0] == pytest.approx(turned(equal, 1e-3).R[0])
+
+
+def test_the_rotation_stays_orthogonal_without_repair():
+    system = turned(np.diag([1, 2, 2.5]), 1e-3, t=10.0)
+    assert abs(system.R @ system.R.swapaxes(1, 2) - ONE).max() < 1e-13
+
+
+def test_external_force_acts_on_the_centre_alone():
+    system = spun(ONE)
+    system.add_external(1, (0, 0, -9.81))
+    for _ in range(100):
+        system.compute_forces()
+        system.step(0.01)
+    assert system.U[0] == pytest.approx([0, 0, -9.81])
+    assert (system.L == spun(ONE).L).all()
+
+
+# --- finite rotation
+
+
+component = st.floats(-1e3, 1e3) | st.floats(-1e-300, 1e-300) | st.sampled_from([0.0, 5e-324, -5e-324, 1e-170, 1e-160])
+
+
+@given(st.tuples(component, component, component), st.floats(1e-6, 1.0))
+def test_finite_rotation_is_the_rotation_for_every_angular_velocity(Omega, dt):
+    dR = finite_rotation(np.array([Omega]), dt)[0]
+    assert abs(dR - Rotation.from_rotvec(np.array(Omega) * dt).as_matrix()).max() < 1e-12
+    assert abs(dR @ dR.T - ONE).max() < 1e-14
+
+
+def test_finite_rotation_holds_at_both_ends_of_the_floats():
+    for size in (0.0, 5e-324, 1e-308, 1e200, 1e307):
+        dR = finite_rotation(np.array([[size, -size, size]]), 1e-3)[0]
+        assert abs(dR @ dR.T - ONE).max() < 1e-14
+
+
+def test_printed_rotation_is_nan_where_the_square_underflows():
+    small = np.array([[0.0, 1e-170, 0.0]])
+    assert np.isnan(printed_rotation(small, 1e-3)).any()
+    assert finite_rotation(small, 1e-3)[0] == pytest.approx(ONE, abs=1e-172)
+    fine = np.array([[1.0, -2.0, 3.0], [0, 0, 0]])
+    assert printed_rotation(fine, 0.1) == pytest.approx(finite_rotation(fine, 0.1), abs=1e-15)
+
+
+def test_the_papers_shocked_run_turns_nan_with_the_printed_rotation_only():
+    scene = Scene(spins=(10, 10), link=BAR, shock=Shock((50, 0, 0), at=0.6, width=1 / 50))
+    t = np.array([0.05, 0.3, 1.0])
+    with pytest.raises(IntegrationError, match="not a number"):
+        run_steps(paper_system(scene, 1e4, 250, rotation=printed_rotation), scene.shock, t, 1e-3)
+    run = run_steps(paper_system(scene, 1e4, 250), scene.shock, t, 1e-3)
+    assert run.paper_energy == pytest.approx([100, 100, 100.44], abs=0.01)
+
+
+@pytest.mark.parametrize("v", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, 0, -0.8)])
+def test_rotation_between(v):
+    R = rotation_between(np.array([0, 0, 1.0]), np.array(v, float))
+    assert R[:, 2] == pytest.approx(v, abs=1e-15)
+    assert abs(R @ R.T - ONE).max() < 1e-15
+
+
+# --- links
+
+
+def test_link_forces_by_hand():
+    gap, along, across = np.array([[0.1, 0, 0]]), np.array([[2.0, 0, 0]]), np.array([[0, 2.0, 0]])
+    for law in (link_force, printed_link_force):
+        assert law(gap, along, 30.0, 5.0) == pytest.approx(np.array([[-13.0, 0, 0]]))
+    assert link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, -10.0, 0]]))
+    assert printed_link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, 0, 0]]))
+    assert (printed_link_force(0 * gap, along, 30.0, 5.0) == 0).all()
+
+
+def test_the_printed_damper_leaves_a_circling_gap_and_the_vector_damper_does_not():
+    left = {}
+    for law in (link_force, printed_link_force):
+        body = RigidBody(ZERO, [[0, 0, 0]], ONE, ONE, 1.0, ZERO, [0, 1.0, 0])
+        system = RigidBodySystem([body], 100.0, 1.0, force=law)
+        system.ground(1, 1)
+        system.X[0] = 0.1, 0, 0  # its speed is 0.1 sqrt(S/M): a circle
+        for _ in range(10_000):
+            system.compute_forces()
+            system.step(5e-4)
+        left[law] = np.linalg.norm(system.X[0])
+    assert left[printed_link_force] > 0.09
+    assert left[link_force] < 0.02
+
+
+def test_mobility_is_the_acceleration_of_the_gaps():
+    scene = Scene(spins=(0, 0), rotor=Rotor(2, 1, 1, 0.5), link=Link(1, 0.3, 0.2))
+    rng = np.random.default_rng(3)
+    pull = rng.normal(size=(4, 3))
+    system = paper_system(scene, 1.0, 0.0, force=lambda gap, rate, S, D: pull)
+    for i in range(3):
+        system.R[i] = Rotation.from_rotvec(rng.normal(size=3)).as_matrix()
+    W = system.joint_mobility()
+    system.compute_forces()
+    before, R = system.X.copy(), system.R.copy()
+    system.step(1e-6)
+    rate = (system.gaps(system.X, system.R) - system.gaps(before, R)) / 1e-6
+    assert rate.ravel() / 1e-6 == pytest.approx(W @ pull.ravel(), rel=1e-3, abs=1e-3)
+    assert pytest.approx(W.T) == W
+
+
+def test_angular_momentum_goes_to_the_ground_and_nowhere_else():
+    system = paper_system(MOVING, 1e3, 0.0)
+
+    def total():
+        mass = 1 / system.inverse_mass[:-1]
+        return system.L.sum(0) + np.cross(system.X[:-1], mass * system.U[:-1]).sum(0)
+
+    before = total()
+    for _ in range(500):
+        system.compute_forces()
+        system.step(1e-3)
+    assert abs(system.L[-1]).max() > 0.1
+    assert total() == pytest.approx(before, abs=1e-10)
+
+
+# --- the pair
+
+
+def test_the_papers_step_converges_to_the_solver_at_first_order():
+    t, steps = np.array([0.5, 1.0]), np.array([2e-3, 1e-3, 5e-4])
+    system = paper_system(MOVING, 2e3, 20)
+    exact = run_solver(system, None, t, 1e-9)
+    off = [abs(run_steps(system, None, t, dt).tips - exact.tips).max() for dt in steps]
+    assert slope(steps, off) == pytest.approx(1, abs=0.1)
+
+
+def test_the_solvers_agree():
+    system, t = paper_system(MOVING, 1e3, 50), [0.2]
+    tips = [run_solver(system, None, t, 1e-7, method).tips for method in ("LSODA", "Radau", "BDF", "DOP853")]
+    assert max(abs(other - tips[0]).max() for other in tips[1:]) < 1e-5
+
+
+def test_springs_converge_to_the_exact_pair_as_one_over_stiffness():
+    t, stiffness = np.linspace(0.1, 1, 10), np.array([1e3, 4e3, 1.6e4, 6.4e4])
+    exact = simulate(MOVING, t, model="spheres", tol=1e-11)
+    off = [
+        abs(run_solver(paper_system(MOVING, S, 2 * S**0.5), None, t, 1e-9).tips - exact.tips).max() for S in stiffness
+    ]
+    assert slope(stiffness, off) == pytest.approx(-1, abs=0.15)
+    assert off[-1] < 1e-3
+
+
+def test_energy_is_kept_without_damping_and_lost_with_it():
+    t = np.linspace(0, 1, 21)
+    kept = run_solver(paper_system(MOVING, 1e3, 0), None, t, 1e-10, "DOP853")
+    assert kept.energy == pytest.approx(kept.energy[0], rel=1e-9)
+    assert kept.energy == pytest.approx(kept.translation.sum(0) + kept.rotation.sum(0) + kept.spring.sum(0))
+    assert abs(kept.paper_energy - kept.paper_energy[0]).max() > 1e-4
+    assert kept.energy[0] == pytest.approx(simulate(MOVING, [0.0]).energy[0])
+    lost = run_solver(paper_system(MOVING, 1e3, 30), None, t, 1e-10)
+    assert (np.diff(lost.energy) < 1e-9).all()
+    assert lost.energy[-1] < lost.energy[0] - 1e-4
+
+
+def test_a_grounded_rotor_precesses_at_its_momentum_over_J():
+    scene = Scene(spins=(20, 20), rotor=Rotor(1, 1, 1, 0.8), link=None, rates=((0.1, 0, 0), (0.1, 0, 0)))
+    J, G, t = scene.rotor.J, scene.momenta[0], np.arange(501) * 4e-3
+    run = run_steps(paper_system(scene, 1e5, 100), None, t, 1e-3)
+    axis, rate = run.axes[0], run.rates[0]
+    centre = J * np.cross(axis[0], rate[0]) + G * axis[0]
+    centre /= np.linalg.norm(centre)
+    off = axis - (axis @ centre)[:, None] * centre
+    angle = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
+    assert np.polyfit(t, angle, 1)[0] == pytest.approx(G / J, rel=3e-3)
+    twin = run_steps(paper_system(scene, 1e5, 100, transform=printed_inertia_transform), None, t, 1e-3)
+    assert abs(twin.axes - run.axes).max() > 1e-3
+
+
+def test_the_solver_does_not_step_over_a_narrow_shock():
+    scene = Scene(spins=(0, 0), link=BAR, shock=Shock((0, 2000, 0), at=0.5, width=1e-4))
+    run = run_solver(paper_system(scene, 1e5, 600), scene.shock, [0.4, 0.8], 1e-7)
+    assert run.paper_energy[0] == 0
+    assert run.rates[:, 1] == pytest.approx(simulate(scene, [0.8]).rates[:, 0], abs=0.01)
+
+
+def test_the_misplaced_bar_is_the_papers_energy_spike():
+    scene, t = Scene(spins=(10, 10), link=BAR), np.arange(501) * 1e-3
+    assert run_steps(paper_system(scene, 1e4, 250), None, t, 1e-3).energy == pytest.approx(100, abs=1e-9)
+    spike = run_steps(paper_system(scene, 1e4, 250, bar_height=1.5), None, t, 1e-3)
+    assert spike.paper_energy.max() > 150
+    assert spike.paper_energy[[0, -1]] == pytest.approx([100, 100], abs=0.05)
+    assert spike.energy[0] == pytest.approx(100 + 2 * 1e4 * 0.5**2 / 2)
+
+
+# --- the longest stable step
+
+
+def grows(system, dt):
+    moving = deepcopy(system)
+    moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(1000):
+            moving.compute_forces()
+            moving.step(dt)
+            if not abs(moving.gaps(moving.X, moving.R)).max() < 1e-5:
+                return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("S", "D", "link", "spin"),
+    [(1e4, 250, BAR, 10), (1e4, 0, BAR, 0), (1e4, 10, Link(1, 0.01, 0.1), 10), (1e5, 1, Link(1, 0.3, 0.02), 5),
+     (1e4, 30, None, 3)],
+)  # fmt: skip
+def test_step_limit_is_where_the_step_fails(S, D, link, spin):
+    system = paper_system(Scene(spins=(spin, -spin), link=link), S, D)
+    limit = step_limit(system)
+    assert limit.whole <= limit.joints.min() * (1 + 1e-12)
+    low, high = 0.8 * limit.whole, 1.2 * limit.whole
+    for _ in range(7):
+        middle = (low + high) / 2
+        low, high = (low, middle) if grows(system, middle) else (middle, high)
+    assert (low + high) / 2 == pytest.approx(limit.whole, rel=0.01)
+
+
+# --- refusals
+
+
+def test_refusals_of_the_system():
+    system = paper_system(MOVING, 1e3, 1)
+    for wrong in (0, 4, -1, 1.0, True, "1"):
+        with pytest.raises(InputError, match="not there"):
+            system.ground(wrong, 1)
+        with pytest.raises(InputError, match="not there"):
+            system.link(1, 2, 1, 3 if wrong == 4 else wrong)
+    for force in ((0, 0), (0, 0, np.nan), "up"):
+        with pytest.raises(InputError):
+            system.push(1, 2, force)
+    for dt in (0.0, -1.0, np.nan, np.inf):
+        with pytest.raises(InputError, match="above zero"):
+            system.step(dt)
+        with pytest.raises(InputError, match="above zero"):
+            run_steps(system, None, [0.0], dt)
+    with pytest.raises(InputError, match="multiples"):
+        run_steps(system, None, [0.0015], 1e-3)
+    with pytest.raises(InputError, match="steps over"):
+        run_steps(system, Shock((1, 0, 0), 1, 1e-4), [1.0], 1e-3)
+    with pytest.raises(InputError, match="method"):
+        run_solver(system, None, [1.0], method="Euler")
+    with pytest.raises(InputError, match="no link"):
+        step_limit(spun(ONE))
+    with pytest.raises(InputError, match="two vertices"):
+        run_steps(spun(ONE), None, [0.0], 1e-3)
+    for S, D in ((0, 0), (-1, 0), (1, -1), (np.nan, 0), (1, np.inf)):
+        with pytest.raises(InputError):
+            paper_system(MOVING, S, D)
+
+
+@pytest.mark.parametrize("link", [Link(1, 0, 0), Link(1, 1, 0)])
+def test_a_bar_without_mass_or_inertia_is_no_third_body(link):
+    with pytest.raises(InputError, match=r"lagrotor\.simulate"):
+        paper_system(Scene(spins=(1, 1), link=link), 1e3, 1)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"mass": 0}, {"mass": np.nan}, {"inertia": np.diag([1, 1, 0])}, {"inertia": [[1, 1, 0], [0, 1, 0], [0, 0, 1]]},
+     {"rotation": 2 * ONE}, {"rotation": -ONE}, {"vertices": []}, {"centre": (0, 0)}, {"velocity": (0, 0, np.inf)}],
+)  # fmt: skip
+def test_bodies_that_make_no_sense_are_refused(change):
+    good = {"centre": ZERO, "vertices": [[0, 0, 1]], "inertia": ONE, "rotation": ONE, "mass": 1, "velocity": ZERO}
+    with pytest.raises(InputError):
+        RigidBody(**(good | {"angular_velocity": ZERO} | change))
+
+
+def test_a_step_beyond_the_limit_says_so():
+    system = paper_system(MOVING, 1e4, 250)
+    with pytest.raises(IntegrationError, match="longest stable step"):
+        run_steps(system, None, np.arange(11) * 0.1, 5e-3)
