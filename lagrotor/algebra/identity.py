@@ -6,7 +6,8 @@ The class: sums, products and integer powers of symbols, rationals, pi, i and sq
 
 whose arguments are rational combinations of monomials in the symbols (x, x/2, omega*t), the circular ones also of
 rational multiples of pi.  Every angle is a whole multiple of a base angle u, one for each monomial, so by the
-addition theorems everything is a quotient of polynomials in the generators, subject to
+addition theorems everything is a quotient of polynomials in the generators (exponentials, where no hyperbolic function
+stands beside them, are powers of one generator each), subject to
 
     sin(u)**2 = 1 - cos(u)**2,    sinh(u)**2 = cosh(u)**2 - 1,    sqrt(p)**2 = p,    i**2 = -1.
 
@@ -17,31 +18,17 @@ if its numerator, reduced to degree below two in every squared generator, is the
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import reduce
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import sympy as sp
-from mpmath import mp
-from sympy.polys.rings import PolyElement, PolyRing
+from sympy.polys.rings import PolyElement
 
+from lagrotor.algebra.evidence import largest_value
+from lagrotor.algebra.generators import CIRCULAR, FAMILY, HYPERBOLIC, Chart, Pair, Quotient, angle_of, chart_of, is_root
 from lagrotor.errors import NotExactError
-
-Pair = tuple[PolyElement, PolyElement]
-
-# Cosine and sine of the circular (False) and the hyperbolic (True) family.
-_FAMILY: dict[bool, tuple[Any, Any]] = {False: (sp.cos, sp.sin), True: (sp.cosh, sp.sinh)}
-# Each function as numerator and denominator in the pair (cosine, sine): 0 is the cosine, 1 the sine, None is one.
-_CIRCULAR: dict[Any, tuple[int | None, int | None]] = {
-    sp.cos: (0, None), sp.sin: (1, None), sp.tan: (1, 0), sp.cot: (0, 1), sp.sec: (None, 0), sp.csc: (None, 1),
-}  # fmt: skip
-_HYPERBOLIC: dict[Any, tuple[int | None, int | None]] = {
-    sp.cosh: (0, None), sp.sinh: (1, None), sp.tanh: (1, 0), sp.coth: (0, 1), sp.sech: (None, 0), sp.csch: (None, 1),
-}  # fmt: skip
-_POINTS = 8
-_DIGITS = 34
 
 
 @dataclass(frozen=True)
@@ -63,16 +50,16 @@ def decide_zero(expression: sp.Expr) -> Decision:
     """Decide expression = 0 exactly; outside the class, or with floats in it, the answer is "undecided"."""
     expression = sp.sympify(expression)
     try:
-        chart = _chart(expression)
+        chart = chart_of(expression)
         numerator = _quotient(chart, expression).numerator
     except NotExactError as refusal:
-        return Decision("undecided", (), str(refusal), evidence=_largest_value(expression)[1])
+        return Decision("undecided", (), str(refusal), evidence=largest_value(expression)[1])
     domain = _domain(chart)
     if not numerator:
         return Decision("zero", domain, "The reduced numerator is the zero polynomial.")
     leading = chart.ring.from_dict(dict([numerator.terms()[0]])).as_expr()
     reason = f"The reduced numerator is not zero: terms {len(numerator)}, the leading one {leading}."
-    return Decision("nonzero", domain, reason, *_largest_value(expression))
+    return Decision("nonzero", domain, reason, *largest_value(expression))
 
 
 def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase) -> Decision:
@@ -104,7 +91,7 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
     angles (x itself, or x/n if the expression has n-th parts of x).  Raises NotExactError outside the class.
     """
     expression = sp.sympify(expression)
-    chart = _chart(expression)
+    chart = chart_of(expression)
     numerator, factors = _quotient(chart, expression)
     denominator = _expanded(chart, factors)
     for index, _ in chart.rules:
@@ -117,111 +104,22 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
     return numerator.as_expr() / denominator.as_expr()
 
 
-class _Quotient(NamedTuple):
-    """numerator / product of factor**exponent; the factors are kept apart so that common ones are seen."""
-
-    numerator: PolyElement
-    factors: dict[PolyElement, int]
-
-
-@dataclass(frozen=True)
-class _Chart:
-    """The polynomial ring of an expression, its rules g**2 = square, and every factor it divides by."""
-
-    ring: PolyRing
-    generators: dict[sp.Expr, PolyElement]
-    steps: dict[tuple[bool, sp.Expr], int]
-    rules: tuple[tuple[int, PolyElement], ...]
-    divisors: dict[PolyElement, sp.Expr | None] = field(default_factory=dict)
-    known: dict[sp.Expr, _Quotient] = field(default_factory=dict)
-
-
-def _chart(expression: sp.Expr) -> _Chart:
-    """Find the generators: symbols, constants, and a cosine and sine of monomial/n, n the lcm of all denominators."""
-    if floats := expression.atoms(sp.Float):
-        raise NotExactError(f"The floating-point number {min(floats)} is not exact.")
-    atoms: set[sp.Expr] = set()
-    steps: dict[tuple[bool, sp.Expr], int] = {}
-    _survey(expression, atoms, steps, set())
-    squares: dict[sp.Expr, sp.Expr] = {atom: atom**2 for atom in atoms if not (atom.is_Symbol or atom is sp.pi)}
-    for (hyperbolic, monomial), step in steps.items():
-        c, s = (part(monomial / step) for part in _FAMILY[hyperbolic])
-        atoms |= {c, s}
-        squares[s] = c**2 - 1 if hyperbolic else 1 - c**2
-    symbols = sorted(atoms, key=sp.default_sort_key)
-    ring = PolyRing(symbols or [sp.Dummy()], sp.QQ)
-    rules = tuple((i, ring.from_expr(squares[g])) for i, g in enumerate(symbols) if g in squares)
-    return _Chart(ring, dict(zip(symbols, ring.gens, strict=False)), steps, rules)
-
-
-def _survey(node: sp.Expr, atoms: set[sp.Expr], steps: dict[tuple[bool, sp.Expr], int], seen: set[sp.Expr]) -> None:
-    """Collect atoms and base angles of everything below the node; raise NotExactError outside the class."""
-    if node in seen:
-        return
-    seen.add(node)
-    if (node.is_Symbol and node.is_commutative) or node in (sp.pi, sp.I):
-        atoms.add(node)
-    elif _is_root(node):
-        atoms.update(sp.sqrt(prime) for prime in sp.factorint(node.base))
-    elif node.func in _CIRCULAR or node.func in _HYPERBOLIC or node.func is sp.exp:
-        hyperbolic = node.func not in _CIRCULAR
-        turn, rates = _angle(node)
-        for monomial, rate in rates.items():
-            steps[hyperbolic, monomial] = sp.ilcm(steps.get((hyperbolic, monomial), 1), rate.q)
-        for value in (sp.cos(turn * sp.pi), sp.sin(turn * sp.pi)):
-            if value.has(sp.cos, sp.sin):
-                raise NotExactError(f"{value} is not made of square roots of integers.")
-            _survey(value, atoms, steps, seen)
-    elif node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer):
-        for part in node.args:
-            _survey(part, atoms, steps, seen)
-    elif not node.is_Rational:
-        raise NotExactError(f"{node} is outside the trigonometric-rational class.")
-
-
-def _is_root(node: sp.Expr) -> bool:
-    return bool(node.is_Pow and node.exp == sp.S.Half and node.base.is_Integer)
-
-
-def _angle(function: sp.Expr) -> tuple[sp.Rational, dict[sp.Expr, sp.Rational]]:
-    """Split the argument into turn*pi + sum of rate*monomial; raise NotExactError if it is nothing of the kind."""
-    turn, rates = sp.S.Zero, {}
-    for term in sp.Add.make_args(sp.expand(function.args[0])):
-        rate, monomial = term.as_coeff_Mul()
-        if monomial is sp.pi and function.func in _CIRCULAR:
-            turn = rate
-        elif rate.is_Rational and _is_monomial(monomial):
-            rates[monomial] = rate
-        elif rate != 0:
-            raise NotExactError(f"The argument of {function} is not a rational combination of monomials and pi.")
-    return turn, rates
-
-
-def _is_monomial(monomial: sp.Expr) -> bool:
-    powers = [factor.as_base_exp() for factor in sp.Mul.make_args(monomial)]
-    # Whole-number symbols are left out: sin(pi*n/2) obeys relations that sine and cosine in general do not.
-    return bool(monomial.free_symbols) and all(
-        exponent.is_Integer and (base is sp.pi or (base.is_Symbol and base.is_commutative and not base.is_integer))
-        for base, exponent in powers
-    )
-
-
-def _quotient(chart: _Chart, node: sp.Expr) -> _Quotient:
+def _quotient(chart: Chart, node: sp.Expr) -> Quotient:
     """Return the node as a quotient in the chart's ring."""
     if node not in chart.known:
         chart.known[node] = _build(chart, node)
     return chart.known[node]
 
 
-def _build(chart: _Chart, node: sp.Expr) -> _Quotient:
+def _build(chart: Chart, node: sp.Expr) -> Quotient:
     one = chart.ring.one
     if node in chart.generators:
-        return _Quotient(chart.generators[node], {})
+        return Quotient(chart.generators[node], {})
     if node.is_Rational:
-        return _Quotient(one * sp.QQ(node.p, node.q), {})
-    if _is_root(node):
+        return Quotient(one * sp.QQ(node.p, node.q), {})
+    if is_root(node):
         powers = (chart.generators[sp.sqrt(prime)] ** times for prime, times in sp.factorint(node.base).items())
-        return _Quotient(_multiplied(chart, powers), {})
+        return Quotient(_multiplied(chart, powers), {})
     if node.is_Add:
         return _sum(chart, [_quotient(chart, term) for term in node.args])
     if node.is_Mul:
@@ -229,40 +127,55 @@ def _build(chart: _Chart, node: sp.Expr) -> _Quotient:
     if node.is_Pow:
         base = _quotient(chart, node.base)
         if node.exp < 0:
-            base = _times(chart, _Quotient(_expanded(chart, base.factors), {}), _inverse(chart, base.numerator))
+            base = _times(chart, Quotient(_expanded(chart, base.factors), {}), _inverse(chart, base.numerator))
         times = abs(int(node.exp))
         numerator = _multiplied(chart, [base.numerator] * times)
-        return _Quotient(numerator, {factor: times * power for factor, power in base.factors.items()})
+        return Quotient(numerator, {factor: times * power for factor, power in base.factors.items()})
+    if node.func is sp.exp and not any(hyperbolic for hyperbolic, _ in chart.steps):
+        return _exponential(chart, node)
     pair = _cosine_and_sine(chart, node)
     if node.func is sp.exp:
-        return _Quotient(pair[0] + pair[1], {})
-    over, under = (_CIRCULAR | _HYPERBOLIC)[node.func]
-    quotient = _Quotient(one if over is None else pair[over], {})
+        return Quotient(pair[0] + pair[1], {})
+    over, under = (CIRCULAR | HYPERBOLIC)[node.func]
+    quotient = Quotient(one if over is None else pair[over], {})
     if under is None:
         return quotient
-    name = _FAMILY[node.func in _HYPERBOLIC][under](node.args[0])
+    name = FAMILY[node.func in HYPERBOLIC][under](node.args[0])
     return _times(chart, quotient, _inverse(chart, pair[under], name))
 
 
-def _cosine_and_sine(chart: _Chart, function: sp.Expr) -> Pair:
+def _exponential(chart: Chart, function: sp.Expr) -> Quotient:
+    """exp(sum of rate*monomial) as a product of powers of exp(monomial/step); none of them can vanish."""
+    numerator, factors = chart.ring.one, {}
+    for monomial, rate in angle_of(function)[1].items():
+        step = chart.steps[None, monomial]
+        generator = chart.generators[sp.exp(monomial / step)]
+        if rate > 0:
+            numerator *= generator ** int(rate * step)
+        else:
+            factors[generator] = -int(rate * step)
+    return Quotient(numerator, factors)
+
+
+def _cosine_and_sine(chart: Chart, function: sp.Expr) -> Pair:
     """Add up the angles of the function's argument: C = C1*C2 -+ S1*S2, S = S1*C2 + C1*S2."""
-    hyperbolic = function.func not in _CIRCULAR
+    hyperbolic = function.func not in CIRCULAR
     sign = 1 if hyperbolic else -1
 
     def plus(a: Pair, b: Pair) -> Pair:
         return _reduced(chart, a[0] * b[0] + sign * a[1] * b[1]), _reduced(chart, a[1] * b[0] + a[0] * b[1])
 
-    turn, rates = _angle(function)
-    cosine, sine = (_quotient(chart, part(turn * sp.pi)).numerator for part in _FAMILY[False])
+    turn, rates = angle_of(function)
+    cosine, sine = (_quotient(chart, part(turn * sp.pi)).numerator for part in FAMILY[False])
     total = cosine, sine
     for monomial, rate in rates.items():
         step = chart.steps[hyperbolic, monomial]
-        c, s = (chart.generators[part(monomial / step)] for part in _FAMILY[hyperbolic])
+        c, s = (chart.generators[part(monomial / step)] for part in FAMILY[hyperbolic])
         total = reduce(plus, [(c, s if rate > 0 else -s)] * abs(int(rate * step)), total)
     return total
 
 
-def _reduced(chart: _Chart, polynomial: PolyElement) -> PolyElement:
+def _reduced(chart: Chart, polynomial: PolyElement) -> PolyElement:
     """Replace g**(2*k + r) by square**k * g**r, r = 0 or 1, for every squared generator g."""
     for index, square in chart.rules:
         if all(monomial[index] < 2 for monomial in polynomial):
@@ -275,20 +188,20 @@ def _reduced(chart: _Chart, polynomial: PolyElement) -> PolyElement:
     return polynomial
 
 
-def _multiplied(chart: _Chart, polynomials: Iterable[PolyElement]) -> PolyElement:
+def _multiplied(chart: Chart, polynomials: Iterable[PolyElement]) -> PolyElement:
     return reduce(lambda a, b: _reduced(chart, a * b), polynomials, chart.ring.one)
 
 
-def _expanded(chart: _Chart, factors: Mapping[PolyElement, int]) -> PolyElement:
+def _expanded(chart: Chart, factors: Mapping[PolyElement, int]) -> PolyElement:
     return _multiplied(chart, (factor for factor, times in factors.items() for _ in range(times)))
 
 
-def _times(chart: _Chart, a: _Quotient, b: _Quotient) -> _Quotient:
+def _times(chart: Chart, a: Quotient, b: Quotient) -> Quotient:
     factors = {f: a.factors.get(f, 0) + b.factors.get(f, 0) for f in a.factors | b.factors}
-    return _Quotient(_reduced(chart, a.numerator * b.numerator), factors)
+    return Quotient(_reduced(chart, a.numerator * b.numerator), factors)
 
 
-def _sum(chart: _Chart, terms: list[_Quotient]) -> _Quotient:
+def _sum(chart: Chart, terms: list[Quotient]) -> Quotient:
     """Bring the terms over the least common multiple of their factors, like denominators first."""
     alike: dict[frozenset[tuple[PolyElement, int]], PolyElement] = {}
     common: dict[PolyElement, int] = {}
@@ -301,10 +214,10 @@ def _sum(chart: _Chart, terms: list[_Quotient]) -> _Quotient:
         own = dict(key)
         missing = {factor: times - own.get(factor, 0) for factor, times in common.items()}
         total += _reduced(chart, numerator * _expanded(chart, missing))
-    return _Quotient(total, common)
+    return Quotient(total, common)
 
 
-def _inverse(chart: _Chart, polynomial: PolyElement, name: sp.Expr | None = None) -> _Quotient:
+def _inverse(chart: Chart, polynomial: PolyElement, name: sp.Expr | None = None) -> Quotient:
     """Return 1/polynomial, noting its factors; raise NotExactError if it is zero in the quotient ring."""
     if not polynomial:
         raise NotExactError("A denominator vanishes identically.")
@@ -318,10 +231,10 @@ def _inverse(chart: _Chart, polynomial: PolyElement, name: sp.Expr | None = None
             chart.divisors.setdefault(factor, None)
     else:
         chart.divisors[polynomial.monic()] = name
-    return _Quotient(chart.ring.one * (1 / polynomial.LC), factors)
+    return Quotient(chart.ring.one * (1 / polynomial.LC), factors)
 
 
-def _domain(chart: _Chart) -> tuple[sp.Expr, ...]:
+def _domain(chart: Chart) -> tuple[sp.Expr, ...]:
     """Return the distinct factors of everything divided by, as functions of the input."""
     factors = [
         factor
@@ -332,7 +245,7 @@ def _domain(chart: _Chart) -> tuple[sp.Expr, ...]:
     return tuple(dict.fromkeys(factors))
 
 
-def _irreducible(chart: _Chart, polynomial: PolyElement) -> list[sp.Expr]:
+def _irreducible(chart: Chart, polynomial: PolyElement) -> list[sp.Expr]:
     found = []
     for index, square in chart.rules:
         # 1 - cos**2 vanishes where the sine does, which says it more plainly.
@@ -342,29 +255,3 @@ def _irreducible(chart: _Chart, polynomial: PolyElement) -> list[sp.Expr]:
             polynomial = quotient
     named = chart.divisors.get(polynomial.monic())
     return found + ([named] if named is not None else [factor.as_expr() for factor, _ in polynomial.factor_list()[1]])
-
-
-def _largest_value(expression: sp.Expr) -> tuple[dict[sp.Symbol, sp.Rational] | None, float | None]:
-    """Return the point, out of some random rational ones, where |expression| is largest, and that value."""
-    generator = random.Random(1)
-    symbols = sorted(expression.free_symbols, key=sp.default_sort_key)
-    try:
-        evaluate = sp.lambdify(symbols, expression, "mpmath", dummify=True)
-    except (KeyError, NotImplementedError):  # a constant or an operator that has no numeric counterpart
-        return None, None
-    best: tuple[dict[sp.Symbol, sp.Rational] | None, float | None] = (None, None)
-    for _ in range(_POINTS if symbols else 1):
-        point = {symbol: sp.Rational(generator.randrange(150, 950), 499) for symbol in symbols}
-        values = []
-        for digits in (_DIGITS, 2 * _DIGITS):
-            with mp.workdps(digits):
-                try:
-                    values.append(abs(evaluate(*(mp.mpf(value.p) / value.q for value in point.values()))))
-                except (ArithmeticError, NameError, TypeError, ValueError):
-                    break
-        # At a pole hidden by rounding, the value depends on the number of digits.
-        if len(values) == 2 and mp.almosteq(*values, 1e-9, 1e-20):
-            size = float(values[1])
-            if best[1] is None or size > best[1]:
-                best = point, size
-    return best

@@ -157,7 +157,8 @@ def _single(relation: Relation) -> _Finding:
         return _Finding("holds", domain=domain)
     if relation.small is None:
         if exact.answer == "undecided":
-            return _Finding("undecided", reasons=(f"{exact.reason} Largest value seen: {exact.evidence:.3g}.",))
+            seen = "no value could be computed" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
+            return _Finding("undecided", reasons=(f"{exact.reason} ({seen})",))
         return _Finding("refuted", domain=domain)
     try:
         first = agreement_order(relation.printed, relation.derived, relation.small, relation.claimed + BEYOND)

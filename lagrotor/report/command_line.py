@@ -65,7 +65,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
     def command(name: str, run: Any, says: str, example: str) -> argparse.ArgumentParser:
-        added = commands.add_parser(name, help=says, description=f"{says[0].upper()}{says[1:]}.", epilog=f"example: {example}")
+        added = commands.add_parser(
+            name, help=says, description=f"{says[0].upper()}{says[1:]}.", epilog=f"example: {example}"
+        )
         added.set_defaults(run=run)
         return added
 

@@ -62,7 +62,7 @@ class Report:
 
 @dataclass(frozen=True)
 class Fact:
-    """One labelled line under an equation: sentences, ids of other equations, formulas."""
+    """One labelled line under an equation: sentences, ids of other equations, formulas; a lone symbol ends the text."""
 
     label: str
     texts: tuple[str, ...] = ()
@@ -117,6 +117,6 @@ _REACHES = {
 def note(verdict: Verdict) -> str:
     """What a table says beside the verdict's word: the order or the condition."""
     if verdict.order is not None and verdict.small is not None:
-        order = f"order {verdict.order} in {verdict.small}"
+        order = f"agrees through order {verdict.order} in {verdict.small}"
         return f"{order}; {verdict.condition}" if verdict.condition else order
     return verdict.condition or ""

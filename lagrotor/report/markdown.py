@@ -63,8 +63,9 @@ def _equation(verdict: Verdict, report: Report) -> str:
 
 def _fact(fact: Fact) -> str:
     words = [_prose(text) for text in fact.texts] + [", ".join(f"[{i}](#{_anchor(i)})" for i in fact.ids)]
+    words += [f"${latex(letter)}$" for letter in fact.formulas if letter.is_Symbol]
     line = f"**{fact.label}:** " + " ".join(filter(None, words))
-    return "\n\n".join([line.rstrip(), *map(_formula, fact.formulas)])
+    return "\n\n".join([line.rstrip(), *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol)])
 
 
 def _picture(picture: Picture) -> str:

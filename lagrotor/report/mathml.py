@@ -7,25 +7,15 @@ from xml.dom.minidom import Element, Node
 
 import sympy as sp
 from sympy.printing.mathml import MathMLPresentationPrinter
+from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from ..symbols import GLOSSARY
 
 # A glossary letter: \dot{\theta}_{1} is an accent, a stem and an index.
 _LETTER = re.compile(r"(?:\\(d?dot)\{)?\\?([A-Za-z]+)\}?(?:_\{?(\w+)\}?)?$")
+_TALL = ("mfrac", "mtable", "msqrt", "mroot")
 _ACCENTS = {"dot": "˙", "ddot": "¨"}
-_GREEK = {
-    "alpha": "α",
-    "chi": "χ",
-    "ell": "ℓ",
-    "epsilon": "ε",
-    "Omega": "Ω",
-    "omega": "ω",
-    "Phi": "Φ",
-    "phi": "ϕ",
-    "psi": "ψ",
-    "sigma": "σ",
-    "theta": "θ",
-}
+_LETTERS = greek_unicode | {"ell": "ℓ"}
 
 
 class _Printer(MathMLPresentationPrinter):  # type: ignore[misc]
@@ -36,12 +26,12 @@ class _Printer(MathMLPresentationPrinter):  # type: ignore[misc]
         if not match:
             return super()._print_Symbol(symbol, style)
         accent, stem, index = match.groups()
-        node = self._leaf("mi", _GREEK.get(stem, stem))
+        node = self._leaf("mi", _LETTERS.get(stem, stem))
         if accent:
             node = self._join("mover", node, self._leaf("mo", _ACCENTS[accent]))
             node.setAttribute("accent", "true")
         if index:
-            node = self._join("msub", node, self._leaf("mn" if index.isdigit() else "mi", index))
+            node = self._join("msub", node, self._leaf("mn" if index.isdigit() else "mi", index.replace("_", " ")))
         return node
 
     def _print_Pow(self, power: sp.Pow) -> Element:
@@ -79,13 +69,18 @@ def _letter(symbol: sp.Symbol) -> str:
 
 
 def _plain(node: Any, printer: _Printer) -> Any:
-    """The tree without what browsers no longer draw: `mfenced` elements, entities by name."""
+    """The tree without what browsers no longer draw (`mfenced`, entities by name), low brackets not stretched."""
     for child in list(node.childNodes):
         if child.nodeType == Node.TEXT_NODE:
             child.data = unescape(child.data)
         else:
             node.replaceChild(_plain(child, printer), child)
-    return _unfenced(node, printer) if node.nodeName == "mfenced" else node
+    if node.nodeName == "mfenced":
+        node = _unfenced(node, printer)
+    if not any(node.getElementsByTagName(tag) for tag in _TALL):
+        for bracket in node.getElementsByTagName("mo"):
+            bracket.setAttribute("stretchy", "false")
+    return node
 
 
 def _unfenced(node: Any, printer: _Printer) -> Element:

@@ -16,6 +16,8 @@ from .mathml import mathml
 _STYLE = Path(__file__).with_name("page.css")
 # A picture larger than this as SVG goes in as PNG: two dozen of them stay under 5 MB.
 _LARGEST_SVG = 150_000
+# Characters of MathML beyond which the derived form stands below the printed one, not beside it.
+_WIDEST = 1_200
 
 
 def page(report: Report) -> str:
@@ -76,13 +78,14 @@ def _table(report: Report) -> str:
         (_link(v.id), escape(equation(v.id).title), _badge(v.verdict), f"<small>{escape(note(v))}</small>")
         for v in report.verdicts
     ]
-    return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
+    return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows, "verdicts")
 
 
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
     printed = _formulas(sides(statement.relations, "printed"))
     derived = _formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
+    layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
     read = f"<h4>As read</h4>{printed}" if printed else ""
     steps = "".join(f"<li>{escape(step)}</li>" for step in statement.steps)
     details = f"<details><summary>Steps</summary><ol>{steps}</ol></details>" if steps else ""
@@ -90,16 +93,17 @@ def _equation(verdict: Verdict, report: Report) -> str:
     return (
         f'<article id="eq-{verdict.id}"><h3><span class="id">{verdict.id}</span> {escape(entry.title)} '
         f"{_badge(verdict.verdict)}</h3>"
-        f'<div class="pair"><div><h4>As printed</h4><pre tabindex="0"><code>{escape(entry.latex)}</code></pre>{read}'
+        f'<div class="{layout}"><div><h4>As printed</h4><pre><code>{escape(entry.latex)}</code></pre>{read}'
         f"</div><div><h4>As derived</h4>{derived}</div></div>"
         f"<dl>{said}</dl>{details}</article>"
     )
 
 
 def _fact(fact: Fact) -> str:
-    parts = [f"<p>{escape(text)}</p>" for text in fact.texts]
+    symbols = "".join(f" {mathml(letter, display=False)}" for letter in fact.formulas if letter.is_Symbol)
+    parts = [f"<p>{escape(text)}{symbols}</p>" for text in fact.texts]
     parts += [f"<p>{' '.join(map(_link, fact.ids))}</p>"] * bool(fact.ids)
-    parts.append(_formulas(fact.formulas))
+    parts.append(_formulas(formula for formula in fact.formulas if not formula.is_Symbol))
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
 
 
@@ -125,11 +129,11 @@ def _made(report: Report) -> str:
     return _rows(("What", "Version or time"), rows)
 
 
-def _rows(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+def _rows(head: tuple[str, ...], rows: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
     """A table of cells that are HTML already."""
     top = "".join(f'<th scope="col">{escape(cell)}</th>' for cell in head)
     lines = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f'<div class="wide" tabindex="0"><table><thead><tr>{top}</tr></thead><tbody>{lines}</tbody></table></div>'
+    return f'<table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{lines}</tbody></table>'
 
 
 def _formulas(expressions: Iterable[sp.Basic]) -> str:

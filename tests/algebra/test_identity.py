@@ -160,6 +160,8 @@ def test_normal_form(expression: sp.Expr, form: sp.Expr) -> None:
 def test_normal_form_sees_rewritings() -> None:
     for left, right in IDENTITIES:
         angles = sp.Add(left, right).atoms(sp.Function)
+        if any(f.func is sp.exp for f in angles):
+            continue  # an exponential alone and beside cosh has other generators
         if all(rate.q == 1 for f in angles for rate in f.args[0].as_coefficients_dict().values()):
             assert normal_form(left) == normal_form(right)
 

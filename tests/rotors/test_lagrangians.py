@@ -207,8 +207,7 @@ def axes_and_accelerations(state: dict[sp.Symbol, float], signs: tuple[int, int]
     by_angles = evaluate(v.applyfunc(lambda e: total_derivative(e, system.c)), moved).ravel()
     at = VALUES | dict(zip((*AXES.q, *AXES.v), (*evaluate(r, state).ravel(), *evaluate(v, state).ravel()), strict=True))
     at |= {G_1: signs[0] * VALUES[G_1], G_2: signs[1] * VALUES[G_2]}
-    pair, gyroscopic = axes_pair()
-    return by_angles, accelerated(pair, at, gyroscopic)
+    return by_angles, axes_accelerated(at)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -220,15 +219,15 @@ def test_routh_reduction_leaves_a_gyroscopic_force_on_each_axis(seed: int) -> No
     assert np.abs(wrong - by_angles).max() > 1e-2
 
 
+def axes_accelerated(state: dict[sp.Symbol, float]) -> np.ndarray:
+    pair, gyroscopic = axes_pair()
+    return accelerated(pair, state, gyroscopic)
+
+
 def rate_of(expression: sp.Expr, state: dict[sp.Symbol, float]) -> float:
     """d/dt of f(axes, rates) along the constrained pair with its gyroscopic forces."""
-    moved = dict(zip(AXES.a, accelerated(*axes_pair_at(state)), strict=True))
+    moved = dict(zip(AXES.a, axes_accelerated(state), strict=True))
     return value(total_derivative(expression, AXES), state | moved)
-
-
-def axes_pair_at(state: dict[sp.Symbol, float]) -> tuple[Constrained, dict[sp.Symbol, float], sp.Matrix]:
-    system, forces = axes_pair()
-    return system, state, forces
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -240,8 +239,7 @@ def test_the_momentum_about_the_joint_line_is_conserved_and_the_ansatz_integral_
     x1_v, y1_v, _, x2_v, y2_v, _ = AXES.v
     about_1, about_2 = J * (x1 * y1_v - y1 * x1_v) + G_1 * z1, J * (x2 * y2_v - y2 * x2_v) + G_2 * z2
     assert abs(rate_of(about_1 - about_2, state)) > 1e-2
-    # Nor is P without the spins' share, or with one of the wrong sign.
-    x1 = AXES.q[0]
+    # Nor is P with one spin's share of the wrong sign.
     assert abs(rate_of(joint_line_momentum() - 2 * G_1 * x1, state)) > 1e-2
 
 
@@ -260,18 +258,17 @@ def test_turning_about_the_joint_line_is_a_symmetry_of_the_pair_and_turning_abou
 
 def test_in_mercator_coordinates_the_bar_knows_only_twist_and_latitude() -> None:
     u1, al1, u2, al2 = MERCATOR.q
-    r1, r2 = mercator_axis(u1, al1), mercator_axis(u2, al2)
-    assert sp.expand((r1.dot(r1) - 1) * sp.cosh(u1) ** 2).rewrite(sp.exp).simplify() == 0
-    scaled = link_constraint(r1, r2) * sp.cosh(u1) * sp.cosh(u2)
+    by_name = {sp.tanh(u): sp.sinh(u) / sp.cosh(u) for u in (u1, u2)}
+    scaled = link_constraint(mercator_axis(u1, al1), mercator_axis(u2, al2)).subs(by_name) * sp.cosh(u1) * sp.cosh(u2)
     w, Delta = u1 - u2, al2 - al1
 
     def difference(sign: int) -> sp.Expr:
-        return scaled - (sp.cosh(w) - sign * k * sp.sinh(w) - sp.cos(Delta))
+        """Zero by the addition theorems alone, once everything is in functions of one angle."""
+        claimed = sp.cosh(w) - sign * k * sp.sinh(w) - sp.cos(Delta)
+        return sp.expand(scaled - sp.expand_trig(claimed))
 
-    draw = np.random.default_rng(3)
-    states = [dict(zip((*MERCATOR.q, k), draw.uniform(0.2, 1.5, 5), strict=True)) for _ in range(4)]
-    assert sp.expand(sp.expand_trig(difference(1).rewrite(sp.exp))).simplify() == 0
-    assert all(abs(value(difference(-1), state)) > 1e-3 for state in states)
+    assert difference(1) == 0
+    assert difference(-1) != 0
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -289,7 +286,7 @@ def test_the_mercator_lagrangian_moves_the_axes_alike(seed: int) -> None:
     moved = at | dict(zip(MERCATOR.a, accelerated(system, at), strict=True))
     rates = sp.Matrix([*r[0], *r[1]]).applyfunc(lambda e: total_derivative(e, MERCATOR))
     by_mercator = evaluate(rates.applyfunc(lambda e: total_derivative(e, MERCATOR)), moved).ravel()
-    assert by_mercator == pytest.approx(accelerated(*axes_pair_at(state)), abs=1e-10)
+    assert by_mercator == pytest.approx(axes_accelerated(state), abs=1e-10)
     assert value(mercator_lagrangian().subs({G_1: 0, G_2: 0}), at) == pytest.approx(value(axes_pair()[0].L, state))
 
 
@@ -297,7 +294,7 @@ RATIOS = {"short": 0.7, "equal": 1.0, "long": 1.6}
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(chi=st.floats(-1.5, 1.5), U=st.floats(-1, 1), alpha=st.floats(-3, 3))
 def test_the_bars_curve_satisfies_the_bar(ratio: Any, chi: float, U: float, alpha: float) -> None:
     curve = bar_curve(ratio)
@@ -315,7 +312,7 @@ def test_the_bars_curve_satisfies_the_bar(ratio: Any, chi: float, U: float, alph
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(share=st.floats(-0.9, 0.9))
 def test_the_derivatives_the_minimal_model_uses_are_those_of_the_curve(ratio: Any, share: float) -> None:
     chi = MINIMAL.q[1]

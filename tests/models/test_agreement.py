@@ -1,0 +1,286 @@
+"""Three exact models, one motion: against each other, against independent right-hand sides, and against symmetry."""
+
+from functools import lru_cache
+from math import cos, hypot, sin
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.mechanics import project_position, project_velocity, solve_constrained
+from lagrotor.models import euler, minimal, spheres
+from lagrotor.numerics.trajectory import Trajectory
+
+TIMES = np.linspace(0, 10, 41)
+TOL = 1e-11
+ROTOR = Rotor(mass=1.3, length=0.9, I1=0.7, I3=1.1)
+TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
+
+
+def constraints(q: np.ndarray, k: float) -> np.ndarray:
+    r1, r2 = q[:3], q[3:]
+    return np.array([(r1 @ r1 - 1) / 2, (r2 @ r2 - 1) / 2, k * (r2[0] - r1[0]) + 1 - r1 @ r2])
+
+
+def normals(q: np.ndarray, k: float) -> np.ndarray:
+    r1, r2, line, none = q[:3], q[3:], np.array([k, 0, 0]), np.zeros(3)
+    return np.array([[*r1, *none], [*none, *r2], [*(-line - r2), *(line - r1)]])
+
+
+def scene_near(seed: int, rotor: Rotor, link: Link, spins: tuple[float, float], around: Any = (0.5, 0.2, 0.85)) -> Scene:
+    """A random start near two parallel axes, brought onto its constraints."""
+    draw, k = np.random.default_rng(seed), link.length / rotor.length
+    guess = np.tile(np.array(around) / hypot(*around), 2) + draw.normal(0, 0.15, 6)
+    q = project_position(lambda q: constraints(q, k), lambda q: normals(q, k), guess)
+    v = project_velocity(normals(q, k), draw.normal(0, 1.2, 6))
+    return Scene(spins, rotor, link, axes=q.reshape(2, 3), rates=v.reshape(2, 3))
+
+
+def scene_at(state: tuple[float, ...], rotor: Rotor, link: Link, spins: tuple[float, float]) -> Scene:
+    """The scene of a state (U, chi, alpha, rates) of the model without the bar."""
+    seen = minimal._observe(Scene(spins, rotor, link), np.array([state]))
+    return Scene(spins, rotor, link, axes=seen.axes[:, 0], rates=seen.rates[:, 0])
+
+
+PAIRED = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
+ALONG = ((0.3 * cos(0.3), 2.0, -0.3 * sin(0.3)), (0.3 * cos(0.3), -2.8, -0.3 * sin(0.3)))
+# name → scene, and whether the Euler angles stay off theta = 0.
+SCENES: dict[str, tuple[Scene, bool]] = {
+    "opposite": (Scene((10, -10), axes=TILTED, rates=PAIRED), True),
+    "opposite, heavy bar": (Scene((10, -10), link=Link(1, 0.5, 0.1), axes=TILTED, rates=PAIRED), True),
+    "opposite, short bar": (Scene((10, -10), link=Link(0.8, 0, 0), axes=TILTED, rates=PAIRED), True),
+    "unequal": (Scene((10, -7), axes=TILTED, rates=ALONG), True),
+    "equal spins": (scene_near(3, Rotor(), Link(1, 0.2, 0.02), (10, 10)), True),
+    "long heavy bar, other rotor": (scene_near(5, ROTOR, Link(1.4, 0.5, 0.1), (10, -7)), True),
+    "short heavy bar, other rotor": (scene_near(8, ROTOR, Link(0.8, 0.4, 0.05), (6, 9)), True),
+    "from rest upright": (Scene((10, -9), link=Link(1, 0.3, 0.1), rates=((0.4, 1, 0), (0.4, -0.5, 0))), False),
+    "folding over": (scene_at((0.1, 1.2, 0.3, 0.2, 4.0, 0.5), ROTOR, Link(0.7, 0, 0), (0.5, -0.8)), False),
+    "folding over, heavy": (scene_at((0.1, 1.2, 0.3, 0.2, 4.0, 0.5), ROTOR, Link(0.7, 0.3, 0.02), (0.5, -0.8)), False),
+}
+RUNS = [(name, model) for name, (_, angles) in SCENES.items() for model in ("minimal", "spheres", "euler")[: 2 + angles]]
+
+
+@lru_cache(maxsize=64)
+def run_of(name: str, model: str) -> Trajectory:
+    return simulate(SCENES[name][0], TIMES, model, TOL)
+
+
+def distance(one: Trajectory, other: Trajectory) -> float:
+    return float(max(np.abs(one.axes - other.axes).max(), np.abs(one.rates - other.rates).max() / 10))
+
+
+@pytest.mark.parametrize(("name", "model"), [run for run in RUNS if run[1] != "minimal"])
+def test_the_models_agree(name: str, model: str) -> None:
+    assert distance(run_of(name, "minimal"), run_of(name, model)) < 1e-9
+
+
+@pytest.mark.parametrize(("name", "model"), RUNS)
+def test_every_model_conserves_what_the_motion_does(name: str, model: str) -> None:
+    run = run_of(name, model)
+    for part in (run.energy, *run.invariants.values()):
+        assert np.abs(part - part[0]).max() < 1e-10 * max(1, run.energy[0] / 100)
+    assert np.abs(run.link_length - run.scene.link.length).max() < 1e-11
+    assert np.abs(np.linalg.norm(run.axes, axis=-1) - 1).max() < 1e-12
+    assert np.abs((run.axes * run.rates).sum(-1)).max() < 1e-10
+    # Twin: the axes do move, and the momentum of one rotor alone is not kept.
+    assert np.ptp(run.axes[0, :, 0] + run.axes[0, :, 1]) > 0.1
+    alone = run.scene.rotor.J * np.cross(run.axes[0], run.rates[0])[:, 0] + run.momenta[0] * run.axes[0, :, 0]
+    assert np.ptp(alone) > 1e-2
+
+
+def test_the_agreement_sees_a_changed_scene() -> None:
+    scene = SCENES["unequal"][0]
+    changed = Scene((10, -7.000001), axes=scene.axes, rates=scene.rates)
+    assert distance(run_of("unequal", "minimal"), simulate(changed, TIMES, "spheres", TOL)) > 1e-8
+
+
+@pytest.mark.parametrize("name", ["folding over", "folding over, heavy"])
+def test_the_short_bar_does_fold_over(name: str) -> None:
+    run, k = run_of(name, "spheres"), 0.7 / 0.9
+    w = np.arctanh(run.axes[0, :, 0]) - np.arctanh(run.axes[1, :, 0])
+    rho = k * np.cosh(w) - np.sinh(w)
+    assert rho.min() < -0.1
+    assert rho.max() > 0.1
+
+
+# Right-hand sides at one state.
+
+
+def oracle(scene: Scene) -> np.ndarray:
+    """r'' from the energy of three rigid bodies: mass matrix by polarisation, constraints and spins by hand."""
+    assert scene.link is not None
+    R, ell, rotor, link = scene.rotor.length, scene.link.length, scene.rotor, scene.link
+    q, v, k = np.ravel(scene.axes), np.ravel(scene.rates), scene.link.length / scene.rotor.length
+
+    def energy(w: np.ndarray) -> float:
+        tip_1, tip_2 = R * w[:3], R * w[3:]
+        turning = (tip_2 - tip_1) / ell
+        bar = link.mass / 2 * ((tip_1 + tip_2) / 2) @ ((tip_1 + tip_2) / 2) + link.inertia / 2 * turning @ turning
+        return bar + (rotor.I1 / 2 + rotor.mass * (R / 2) ** 2 / 2) * w @ w
+
+    basis = np.eye(6)
+    mass = np.array([[energy(p + w) - energy(p) - energy(w) for w in basis] for p in basis])
+    gamma = np.array([v[:3] @ v[:3], v[3:] @ v[3:], -2 * v[:3] @ v[3:]])
+    G_1, G_2 = scene.momenta
+    forces = np.concatenate([G_1 * np.cross(q[:3], v[:3]), G_2 * np.cross(q[3:], v[3:])])
+    return solve_constrained(mass, np.zeros(6), normals(q, k), gamma, forces)[0]
+
+
+def accelerations(model: Any, scene: Scene) -> np.ndarray:
+    """r'' of a model: its rates of change seen through a complex step of `observe`, exact."""
+    state = model.MODEL.start(scene)
+    change = np.array(model.MODEL.rate(scene, False)(0.0, state))
+    seen = model.MODEL.observe(scene, np.array([state + 1e-30j * change]))
+    return (seen.rates[:, 0].imag / 1e-30).ravel()
+
+
+positive = st.floats(0.3, 2)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    seed=st.integers(0, 10**6),
+    k=st.one_of(st.just(1.0), st.floats(0.6, 1.8)),
+    masses=st.one_of(st.just((0.0, 0.0)), st.tuples(st.floats(0.01, 2), st.floats(0, 0.5))),
+    spins=st.tuples(st.floats(-20, 20), st.floats(-20, 20)),
+    sizes=st.tuples(positive, positive, positive),
+)
+def test_the_right_hand_sides_are_those_of_the_bodies(
+    seed: int, k: float, masses: tuple[float, float], spins: tuple[float, float], sizes: tuple[float, float, float]
+) -> None:
+    mass, R, I1 = sizes
+    scene = scene_near(seed, Rotor(mass, R, I1, 1.2 * I1), Link(k * R, *masses), spins)
+    expected = oracle(scene)
+    scale = 1 + np.abs(expected).max()
+    assert accelerations(spheres, scene) == pytest.approx(expected, abs=1e-10 * scale)
+    squared = min(r[1] ** 2 + r[2] ** 2 for r in scene.axes)
+    assert accelerations(minimal, scene) == pytest.approx(expected, abs=1e-10 * scale / squared**2)
+    if min(hypot(*r[:2]) for r in scene.axes) > 0.05:
+        assert accelerations(euler, scene) == pytest.approx(expected, abs=1e-7 * scale)
+    # Twin: the first rotor spinning a little faster is told apart.
+    faster = Scene((spins[0] + 1, spins[1]), scene.rotor, scene.link, axes=scene.axes, rates=scene.rates)
+    assert np.abs(oracle(faster) - expected).max() > 1e-6 or hypot(*scene.rates[0]) < 0.1
+
+
+@settings(max_examples=5, deadline=None)
+@given(seed=st.integers(0, 10**6), k=st.sampled_from([0.8, 1.0, 1.4]), massive=st.booleans())
+def test_random_scenes_agree(seed: int, k: float, massive: bool) -> None:
+    link = Link(0.9 * k, 0.3, 0.05) if massive else Link(0.9 * k)
+    scene = scene_near(seed, ROTOR, link, (10, -6), around=(0, 0, 1))
+    assert distance(simulate(scene, TIMES[:9], "minimal", TOL), simulate(scene, TIMES[:9], "spheres", TOL)) < 1e-8
+
+
+# Shocks.
+
+
+@pytest.mark.parametrize("body", [1, 2])
+@pytest.mark.parametrize("link", [Link(1, 0.01, 0.1), Link(0.8), Link(1.4, 0.2, 0)], ids=["equal", "short", "long"])
+def test_shocked_scenes_agree(link: Link, body: int) -> None:
+    hit = Shock((40, -11, 5), at=2, width=1 / 20, body=body)
+    one, other = (simulate(Scene((10, -10), link=link, shock=hit), TIMES, m, TOL) for m in ("minimal", "spheres"))
+    assert distance(one, other) < 1e-9
+    early, late = one.t < 1.5, one.t > 2.5
+    assert np.abs(one.axes[..., :2][:, early]).max() == 0
+    assert np.ptp(one.energy[late]) < 1e-9
+    assert one.energy[-1] - one.energy[0] > 0.1
+    # Twin: hitting the other rotor is another motion.
+    elsewhere = Scene((10, -10), link=link, shock=Shock(hit.force, 2, 1 / 20, 3 - body))
+    assert distance(simulate(elsewhere, TIMES, "minimal", TOL), one) > 1e-2
+
+
+def test_a_shocked_tilted_pair_agrees_in_the_papers_angles() -> None:
+    scene = Scene((10, -10), shock=Shock((3, -2, 1), at=2, width=0.05, body=2), axes=TILTED, rates=PAIRED)
+    assert distance(simulate(scene, TIMES[:17], "minimal", TOL), simulate(scene, TIMES[:17], "euler", TOL)) < 1e-9
+
+
+# Symmetries of the motion.
+
+
+def from_end(run: Trajectory, **changed: Any) -> Scene:
+    scene = run.scene
+    given = {"spins": scene.spins, "axes": run.axes[:, -1], "rates": run.rates[:, -1]} | changed
+    return Scene(rotor=scene.rotor, link=scene.link, **given)
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres", "euler"])
+def test_time_turned_round_with_the_spins_leads_back(model: str) -> None:
+    there = run_of("unequal", model)
+    back = simulate(
+        from_end(there, rates=-there.rates[:, -1], spins=[-w for w in there.scene.spins]), TIMES, model, TOL
+    )
+    assert back.axes == pytest.approx(there.axes[:, ::-1], abs=1e-8)
+    # Twin: with the spins left as they are it does not.
+    astray = simulate(from_end(there, rates=-there.rates[:, -1]), TIMES, "minimal", 1e-8)
+    assert np.abs(astray.axes - there.axes[:, ::-1]).max() > 0.1
+
+
+@pytest.mark.parametrize("name", ["unequal", "long heavy bar, other rotor", "folding over"])
+def test_the_mirrored_scene_moves_as_the_mirror_image(name: str) -> None:
+    scene, run = SCENES[name][0], run_of(name, "minimal")
+    flip = np.array([-1, 1, 1])
+
+    def mirrored(sign: int) -> Trajectory:
+        spins = [sign * w for w in scene.spins[::-1]]
+        axes, rates = (np.array(x)[::-1] * flip for x in (scene.axes, scene.rates))
+        return simulate(Scene(spins, scene.rotor, scene.link, axes=axes, rates=rates), TIMES, "minimal", TOL)
+
+    assert mirrored(-1).axes == pytest.approx(run.axes[::-1] * flip, abs=1e-9)
+    assert np.abs(mirrored(1).axes - run.axes[::-1] * flip).max() > 1e-2
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres"])
+def test_the_scene_turned_about_the_joint_line_moves_turned(model: str) -> None:
+    scene, run = SCENES["unequal"][0], run_of("unequal", model)
+
+    def turned(angle: float, about: int) -> tuple[Any, Any, np.ndarray]:
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.roll(np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), (about, about), (0, 1))
+        return np.array(scene.axes) @ turn.T, np.array(scene.rates) @ turn.T, turn
+
+    axes, rates, turn = turned(0.8, 0)
+    moved = simulate(Scene(scene.spins, axes=axes, rates=rates), TIMES, model, TOL)
+    assert moved.axes == pytest.approx(run.axes @ turn.T, abs=1e-9)
+    # Twin: turned about the vertical the bar's direction counts.
+    axes, rates, turn = turned(0.8, 2)
+    with_bar = np.array(rates)
+    with_bar[1] += [rates[0][0] - rates[1][0], 0, -(rates[0][0] - rates[1][0]) * axes[1][0] / axes[1][2]]
+    other = simulate(Scene(scene.spins, axes=axes, rates=with_bar), TIMES, model, 1e-8)
+    assert np.abs(other.axes - run.axes @ turn.T).max() > 1e-2
+
+
+# Closed forms.
+
+
+def precessing(r: np.ndarray, v: np.ndarray, inertia: float, G: float, t: np.ndarray) -> np.ndarray:
+    """A free symmetric body: its axis turns about L = J r × r' + G r at the rate |L| / J (Rodrigues)."""
+    L = inertia * np.cross(r, v) + G * r
+    n, angle = L / np.linalg.norm(L), np.linalg.norm(L) / inertia * t[:, None]
+    return r * np.cos(angle) + np.cross(n, r) * np.sin(angle) + n * (n @ r) * (1 - np.cos(angle))
+
+
+def test_rotors_without_a_bar_precess_each_for_itself() -> None:
+    rates = np.array([[0.5, 2.0, 0], [-1, 0.3, 0]])
+    run = simulate(Scene((8, -3), ROTOR, None, rates=rates), TIMES, "spheres", TOL)
+    for i in (0, 1):
+        G = ROTOR.I3 * (8, -3)[i]
+        expected = precessing(np.array([0, 0, 1]), rates[i], ROTOR.J, G, TIMES)
+        assert run.axes[i] == pytest.approx(expected, abs=1e-9)
+        wrong = precessing(np.array([0, 0, 1]), rates[i], ROTOR.I1, G, TIMES)
+        assert np.abs(run.axes[i] - wrong).max() > 1e-2
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres"])
+@pytest.mark.parametrize("link", [Link(0.8), Link(0.9), Link(1.4), Link(0.9, 0.6, 0), Link(1.4, 0.6, 0.3)])
+def test_equal_rotors_started_alike_are_one_rotor(model: str, link: Link) -> None:
+    """The bar is only carried along: half its mass at each tip, its turning unused."""
+    v = np.array([0.5, 2.0, 0])
+    run = simulate(Scene((8, 8), ROTOR, link, rates=(v, v)), TIMES, model, TOL)
+    inertia = ROTOR.J + link.mass / 2 * ROTOR.length**2
+    expected = precessing(np.array([0, 0, 1]), v, inertia, 8 * ROTOR.I3, TIMES)
+    assert run.axes == pytest.approx(np.array([expected, expected]), abs=1e-9)
+    # Twin: opposite spins are not.
+    opposite = simulate(Scene((8, -8), ROTOR, link, rates=(v, v)), TIMES, model, 1e-8)
+    assert np.abs(opposite.axes[0] - expected).max() > 1e-2

@@ -1,0 +1,160 @@
+"""`simulate`: what it refuses, what `auto` picks, and shocks however short."""
+
+from functools import lru_cache
+from math import cos, inf, nan, pi, sin, sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.errors import InputError, IntegrationError, SingularError
+from lagrotor.mechanics import project_velocity
+
+UPRIGHT = Scene((10, -10))
+TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
+TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("t", "message"),
+    [
+        ([1, 0.5], "must increase; sort them"),
+        ([0, 1, 1], "must increase; sort them and drop repeated"),
+        ([0, nan], "not finite"),
+        ([0, inf], "not finite"),
+        ([], r"shape \(0,\): give a row"),
+        ([[0, 1], [2, 3]], r"shape \(2, 2\): give a row"),
+        ([-1, 1], "starts at -1 s"),
+        ("soon", "t = 'soon' is not an array of times"),
+        (None, "not finite|is not an array of times"),
+        ([0, "x"], "is not an array of times"),
+        ([[0], [1, 2]], "is not an array of times"),
+    ],
+)
+def test_times_that_make_no_sense_are_refused(t: Any, message: str) -> None:
+    with pytest.raises(InputError, match=f"simulate: .*({message})"):
+        simulate(UPRIGHT, t)
+
+
+def test_times_that_make_sense_are_kept() -> None:
+    assert simulate(UPRIGHT, 0).t.tolist() == [0]
+    assert simulate(UPRIGHT, (0, 1)).t.tolist() == [0, 1]
+    assert simulate(UPRIGHT, [0.5]).t.tolist() == [0.5]
+
+
+@pytest.mark.parametrize("tol", [0, 1e-14, 0.11, -1e-9, nan, "tight"])
+def test_tolerances_out_of_range_are_refused(tol: Any) -> None:
+    with pytest.raises(InputError, match="simulate: tol = "):
+        simulate(UPRIGHT, [0, 1], tol=tol)
+
+
+def test_unknown_models_and_scenes_are_refused_by_name() -> None:
+    with pytest.raises(InputError, match="model = 'maximal' is not one of auto, minimal, spheres, euler"):
+        simulate(UPRIGHT, [0, 1], model="maximal")
+    with pytest.raises(InputError, match="scene = 'two rotors' must be a Scene"):
+        simulate("two rotors", [0, 1])  # type: ignore[arg-type]
+
+
+def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:
+    with pytest.raises(SingularError, match="euler: theta_1 = 0 rad.* use model='minimal' or 'spheres'"):
+        simulate(UPRIGHT, [0, 1], model="euler")
+    free = Scene((10, -10), link=None, axes=TILTED)
+    for model in ("minimal", "euler"):
+        with pytest.raises(SingularError, match=f"{model}: the scene has no bar.*use model='spheres'"):
+            simulate(free, [0, 1], model=model)
+    with pytest.raises(SingularError, match="axis 1 lies along the joint line.*use model='spheres'"):
+        simulate(on_the_line(), [0, 1], model="minimal")
+    for model in ("spheres", "auto"):
+        simulate(free, [0, 1], model=model)
+
+
+def on_the_line() -> Scene:
+    """One axis along the joint line: ell (x_2 − x_1) + R (1 − r_1 . r_2) = 0 at r_1 = e_x leaves (ell − R)(x_2 − 1) = 0,
+    so that for ell = R the other may point anywhere."""
+    return Scene((10, -10), axes=((1, 0, 0), (0, 0, 1)), rates=((0, 1, 0), (0, 1, 0)))
+
+
+def test_auto_takes_the_least_model_and_says_why() -> None:
+    run = simulate(UPRIGHT, [0, 1])
+    assert run.model == "minimal"
+    assert run.why == "least exact model: bar eliminated, six states"
+    assert simulate(UPRIGHT, [0, 1], "minimal").why == "asked for"
+
+
+@pytest.mark.parametrize(
+    ("scene", "reason"),
+    [
+        (Scene((10, -10), link=None), "the scene has no bar to eliminate"),
+        (on_the_line(), "axis 1 lies along the joint line"),
+        # Without spins and gyroscopic forces, thrown straight through the joint line.
+        (Scene((0, 0), rates=((1, 0, 0), (1, 0, 0))), "the solver stopped near t = 1.57"),
+    ],
+)
+def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str) -> None:
+    times = np.linspace(0, 2, 9)
+    run = simulate(scene, times, tol=1e-10)
+    assert run.model == "spheres"
+    assert run.why.startswith("regular everywhere; minimal: " if "axis" in reason or "bar" in reason else "regular")
+    assert reason in run.why
+    assert run.axes == pytest.approx(simulate(scene, times, "spheres", 1e-10).axes, abs=1e-14)
+    assert np.ptp(run.energy) < 1e-8
+
+
+def test_refused_input_is_not_run_by_another_model() -> None:
+    with pytest.raises(InputError, match="must increase"):
+        simulate(Scene((10, -10), link=None), [1, 0])
+
+
+def test_a_run_out_of_reach_is_stopped() -> None:
+    with pytest.raises(IntegrationError, match="try another model or a larger tol"):
+        simulate(Scene((0, 0), rates=((1, 0, 0), (1, 0, 0))), [0, 2], "minimal")
+
+
+# A shock of given impulse, shorter and shorter, becomes a jump of the rates.
+IMPULSE, AT, END = (0.8, -1.1, 0.3), 1.0, 2.5
+ROTOR, LINK = Rotor(1.3, 0.9, 0.7, 1.1), Link(0.8, 0.3, 0.05)
+
+
+def start(body: int = 1, width: float | None = None) -> Scene:
+    shock = None if width is None else Shock([p / (width * sqrt(pi)) for p in IMPULSE], AT, width, body)
+    return Scene((10, -9), ROTOR, LINK, shock, TILTED, TURNING)
+
+
+@lru_cache
+def limit(body: int) -> np.ndarray:
+    """Run to the shock, throw the rates by M⁻¹ (impulse + Gᵀ λ) with λ such that the constraints hold, run on."""
+    before = simulate(start(), [AT], "spheres", 1e-13)
+    (r1,), (r2,) = before.axes
+    k, zero, line = LINK.length / ROTOR.length, np.zeros(3), np.array([LINK.length / ROTOR.length, 0, 0])
+    G = np.array([[*r1, *zero], [*zero, *r2], [*(-line - r2), *(line - r1)]])
+    assert k * (r2[0] - r1[0]) + 1 - r1 @ r2 == pytest.approx(0, abs=1e-12)
+    a, b = start().inertias
+    mass = np.kron([[a, b], [b, a]], np.eye(3))
+    push = np.zeros(6)
+    push[3 * body - 3 : 3 * body] = ROTOR.length * np.array(IMPULSE)
+    thrown = before.rates.ravel() + project_velocity(G, np.linalg.solve(mass, push), mass)
+    after = Scene((10, -9), ROTOR, LINK, axes=before.axes[:, 0], rates=thrown.reshape(2, 3))
+    return simulate(after, [END - AT], "spheres", 1e-13).axes[:, 0]
+
+
+@pytest.mark.parametrize("body", [1, 2])
+@pytest.mark.parametrize("model", ["minimal", "spheres", "euler"])
+def test_shocks_of_one_impulse_converge_to_the_jump_with_second_order(model: str, body: int) -> None:
+    """The pulse is even about its centre, so the first order cancels."""
+    widths = [1e-2, 1e-3, 1e-5, 1e-7]
+    errors = [
+        np.abs(simulate(start(body, w), [END], model, 1e-12).axes[:, 0] - limit(body)).max() for w in widths
+    ]
+    order = np.log10(errors[0] / errors[1])
+    assert order == pytest.approx(2, abs=0.1)
+    assert max(errors[2:]) < 1e-9
+    # Twin: the other rotor's jump is not the limit.
+    assert np.abs(limit(body) - limit(3 - body)).max() > 1e-2
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres", "euler"])
+def test_a_loose_tolerance_misses_no_shock(model: str) -> None:
+    found = simulate(start(1, 1e-6), [END], model, 1e-3).axes[:, 0]
+    assert found == pytest.approx(limit(1), abs=1e-2)
+    assert np.abs(simulate(start(), [END], model, 1e-3).axes[:, 0] - limit(1)).max() > 0.1

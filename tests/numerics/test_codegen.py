@@ -1,0 +1,174 @@
+"""Generated code against the expressions it came from, and linear solves against numpy."""
+
+import json
+import shutil
+import subprocess
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.errors import SingularError
+from lagrotor.numerics.codegen import (
+    Program,
+    compile_program,
+    javascript,
+    operations,
+    reduce_common,
+    solve_symmetric,
+)
+
+x, y, z = sp.symbols("x y z", real=True)
+s, t = sp.symbols("s t", real=True)
+
+
+def staged() -> Program:
+    """Two stages, one made of the other, shared pieces, and functions of every kind the models use."""
+    first, second = sp.sin(x + y) * sp.exp(-y), s**2 + sp.sqrt(1 + x**2)
+    outputs = (s + t * sp.cos(x + y), sp.log(t) / sp.cosh(y), sp.tanh(x) * sp.asin(s / 10) - sp.atan2(y, x + 3), x)
+    return Program((x, y), ((s, first), (t, second)), outputs)
+
+
+def by_substitution(program: Program, at: dict[sp.Symbol, float]) -> list[float]:
+    known: dict[sp.Symbol, sp.Expr] = dict(at)
+    for name, expression in program.stages:
+        known[name] = expression.subs(known)
+    return [float(e.subs(known)) for e in program.outputs]
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda: Program((x,), (), (x + y,)),
+        lambda: Program((x,), ((s, y),), (s,)),
+        # A stage may use what comes before it, not after it, nor itself.
+        lambda: Program((x,), ((t, s + x), (s, x)), (t,)),
+        lambda: Program((x,), ((s, s + x),), (s,)),
+    ],
+)
+def test_what_is_used_before_it_is_defined_is_refused(build: Callable[[], Program]) -> None:
+    with pytest.raises(SingularError, match="used before it is defined; add it to arguments"):
+        build()
+
+
+def test_the_missing_symbol_is_named() -> None:
+    with pytest.raises(SingularError, match=r"\['y'\]"):
+        Program((x,), (), (x + y,))
+    Program((x, y), ((s, x), (t, s + y)), (t,))
+
+
+values = st.floats(-2, 2)
+
+
+@settings(max_examples=30, deadline=None)
+@given(values, values)
+def test_reducing_and_compiling_change_nothing(at_x: float, at_y: float) -> None:
+    program, at = staged(), {x: at_x, y: at_y}
+    stages, outputs = reduce_common(program)
+    assert by_substitution(Program(program.arguments, tuple(stages), tuple(outputs)), at) == pytest.approx(
+        by_substitution(program, at), rel=1e-12, abs=1e-14
+    )
+    assert compile_program(program)(at_x, at_y) == pytest.approx(by_substitution(program, at), rel=1e-12, abs=1e-14)
+
+
+def test_reducing_drops_what_no_output_needs_and_shares_the_rest() -> None:
+    heavy = (x + y + z) ** 3
+    program = Program((x, y, z), ((s, sp.sin(heavy)), (t, sp.exp(heavy) * x)), (t + heavy, heavy * t))
+    stages, outputs = reduce_common(program)
+    assert not any(e.has(sp.sin) for _, e in stages)
+    counted = sum(sp.count_ops(e) for _, e in stages) + sum(sp.count_ops(e) for e in outputs)
+    assert operations(program) == counted
+    # exp, product, two sums, the cube, one sum, one product.
+    assert operations(program) == 7
+    # Twin: without sharing it would be more.
+    unshared = [e.subs(t, sp.exp(heavy) * x) for e in program.outputs]
+    assert operations(program) < sum(sp.count_ops(e) for e in unshared)
+
+
+def test_every_stage_stands_before_its_use() -> None:
+    stages, outputs = reduce_common(staged())
+    known = {x, y}
+    for name, expression in stages:
+        assert expression.free_symbols <= known
+        known.add(name)
+    assert all(e.free_symbols <= known for e in outputs)
+
+
+def test_a_numpy_function_broadcasts_as_the_scalar_one_counts() -> None:
+    program = Program((x, y), staged().stages, staged().outputs[:3])
+    many, one = compile_program(program, "numpy"), compile_program(program)
+    at_x, at_y = np.linspace(-1, 1, 5)[:, None], np.linspace(0.1, 2, 4)
+    for i, found in enumerate(many(at_x, at_y)):
+        assert found.shape == (5, 4)
+        expected = [[one(p, q)[i] for q in at_y.tolist()] for p in at_x.ravel().tolist()]
+        assert found == pytest.approx(np.array(expected), rel=1e-14)
+
+
+def test_every_call_returns_its_own_output() -> None:
+    """A solver keeps several right-hand sides at once."""
+    one = compile_program(staged())
+    first = one(0.3, 0.4)
+    copy = list(first)
+    second = one(-1.0, 0.7)
+    assert first is not second
+    assert first == copy
+    assert first != second
+    many = compile_program(Program((x, y), (), (x * y, x + y)), "numpy")
+    kept = many(np.ones(3), np.ones(3))
+    many(np.zeros(3), np.zeros(3))
+    assert [part.tolist() for part in kept] == [[1, 1, 1], [2, 2, 2]]
+
+
+def test_the_docstring_says_what_goes_in_and_out() -> None:
+    assert compile_program(staged()).__doc__ == "x, y -> 4 numbers"
+    assert compile_program(staged(), doc="two to four").__doc__ == "two to four"
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_javascript_says_the_same_as_python() -> None:
+    program = staged()
+    points = [(0.3, 0.4), (-1.2, 0.7), (1.9, -0.8)]
+    call = f"console.log(JSON.stringify({json.dumps(points)}.map(p => f(...p))))"
+    ran = subprocess.run(
+        ["node", "-e", f"{javascript(program, 'f')}\n{call}"], capture_output=True, text=True, check=True, timeout=30
+    )
+    found = json.loads(ran.stdout)
+    python = compile_program(program)
+    assert found == [pytest.approx(python(*p), rel=1e-14, abs=1e-16) for p in points]
+    assert found[0] != pytest.approx(python(*points[1]))
+
+
+entries = st.floats(-2, 2)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(1, 4).flatmap(lambda n: st.lists(entries, min_size=n * (n + 2), max_size=n * (n + 2))))
+def test_symmetric_systems_are_solved(numbers: list[float]) -> None:
+    n = {3: 1, 8: 2, 15: 3, 24: 4}[len(numbers)]
+    root = np.reshape(numbers[: n * n], (n, n))
+    matrix, right = root @ root.T + np.eye(n), np.reshape(numbers[n * n :], (n, 2))
+    names = sp.Matrix(n, n, lambda i, j: sp.Symbol(f"A_{max(i, j)}{min(i, j)}", real=True))
+    sides = sp.Matrix(n, 2, lambda i, j: sp.Symbol(f"B_{i}{j}", real=True))
+    stages, solution = solve_symmetric(names, sides, "q")
+    lower = [(i, j) for i in range(n) for j in range(i + 1)]
+    program = Program((*(names[i, j] for i, j in lower), *sides), tuple(stages), tuple(solution))
+    found = compile_program(program)(*(float(matrix[i, j]) for i, j in lower), *right.ravel().tolist())
+    assert np.reshape(found, (n, 2)) == pytest.approx(np.linalg.solve(matrix, right), rel=1e-9, abs=1e-9)
+
+
+def test_the_system_given_is_left_as_it_was_and_zeros_cost_nothing() -> None:
+    matrix, right = sp.Matrix([[x, 0], [0, y]]), sp.Matrix([1, z])
+    stages, solution = solve_symmetric(matrix, right, "q")
+    assert matrix == sp.Matrix([[x, 0], [0, y]])
+    assert right == sp.Matrix([1, z])
+    assert operations(Program((x, y, z), tuple(stages), tuple(solution))) == 2
+
+
+def test_a_pivot_that_is_zero_is_refused() -> None:
+    with pytest.raises(SingularError, match="pivot 0 is zero"):
+        solve_symmetric(sp.Matrix([[0, 1], [1, x]]), sp.Matrix([1, 1]), "q")
+    with pytest.raises(SingularError, match="pivot 1 is zero"):
+        solve_symmetric(sp.Matrix([[x, 0], [0, 0]]), sp.Matrix([1, 1]), "q")

@@ -1,0 +1,372 @@
+"""The command line: what it prints and writes, its exit status, and that bad input leaves nothing but one line."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lagrotor
+from lagrotor.models import simulate as simulate_module
+from lagrotor.paper import audit, scripts
+from lagrotor.report import figures, reproduce, terminal
+from lagrotor.report.command_line import main
+
+ROOT = Path(lagrotor.__file__).parent.parent
+SCENE = ["simulate", "--spins", "10", "-10"]
+PULSE = ["--shock", "40", "-11", "0", "--shock-time", "2", "--shock-width", "0.05"]
+FIGURE = """
+from matplotlib.figure import Figure
+TITLE, CAPTION, ALT = "A < B", "caption | with a pipe", 'the "alt" text'
+def figure():
+    drawn = Figure()
+    drawn.subplots().plot([0, 1], [0, 1])
+    return drawn
+def measure():
+    return {"slope": 1.0}
+"""
+
+
+@pytest.fixture(autouse=True)
+def small_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """One derivation, one figure, nothing on record; the working folder is empty."""
+    drawn, work = tmp_path / "drawn", tmp_path / "work"
+    for folder in (drawn, work):
+        folder.mkdir()
+    (drawn / "fig17_stub.py").write_text(FIGURE, encoding="utf-8")
+    real = scripts.folder
+    monkeypatch.setattr(scripts, "folder", lambda name: drawn if name == "figures" else real(name))
+    names = scripts.names
+    monkeypatch.setattr(scripts, "names", lambda kind: ["s5_2a_single_rotor"] if kind == "derivations" else names(kind))
+    monkeypatch.setattr(reproduce, "RECORDED", tmp_path / "recorded.json")
+    monkeypatch.chdir(work)
+    return work
+
+
+def record(verdicts: dict[str, str]) -> None:
+    reproduce.RECORDED.write_text(json.dumps(verdicts), encoding="utf-8")
+
+
+def found() -> dict[str, str]:
+    return {verdict.id: verdict.verdict for verdict in audit.audit()}
+
+
+BAD: dict[str, tuple[list[str], str]] = {
+    "no command": ([], "required"),
+    "unknown command": (["prove"], "invalid choice"),
+    "unknown option": (["audit", "--fast"], "--fast"),
+    "abbreviated option": ([*SCENE, "--samp", "10"], "--samp"),
+    "unknown equation": (["audit", "9.99"], "9.99"),
+    "equation not judged": (["audit", "5.15"], "not yet judged"),
+    "figure no number": (["figure", "seventeen"], "invalid int"),
+    "figure without a script": (["figure", "1"], "those drawn are 17"),
+    "figure none": (["figure"], "required"),
+    "figure folder missing": (["figure", "17", "--out", "missing"], "no folder missing"),
+    "report below a missing folder": (["reproduce", "--out", "missing/report"], "is missing"),
+    "no spins": (["simulate"], "--spins"),
+    "one spin": (["simulate", "--spins", "10"], "expected 2 arguments"),
+    "spin not a number": (["simulate", "--spins", "fast", "10"], "'fast'"),
+    "spin NaN": (["simulate", "--spins", "nan", "10"], "not a finite number"),
+    "spin minus infinity": (["simulate", "--spins", "-inf", "10"], "not a finite number"),
+    "negative mass": ([*SCENE, "--rotor-mass", "-1"], "mass = -1 kg"),
+    "no length": ([*SCENE, "--rotor-length", "0"], "length = 0 m"),
+    "impossible inertia": ([*SCENE, "--I3", "3"], "no body has that inertia"),
+    "negative bar": ([*SCENE, "--link-mass", "-1e-3"], "mass = -0.001 kg"),
+    "inertia without mass": ([*SCENE, "--link-inertia", "0.1"], "give the bar a mass"),
+    "shock without time": ([*SCENE, "--shock", "1", "0", "0", "--shock-width", "0.1"], "--shock-time"),
+    "shock without both": ([*SCENE, "--shock", "1", "0", "0"], "--shock-time and --shock-width"),
+    "shock time alone": ([*SCENE, "--shock-time", "2"], "without --shock"),
+    "shock body alone": ([*SCENE, "--shock-body", "2"], "without --shock"),
+    "shock of two components": ([*SCENE, "--shock", "1", "0"], "expected 3 arguments"),
+    "shock of no width": ([*SCENE, *PULSE[:-1], "0"], "width = 0 s"),
+    "third rotor": ([*SCENE, *PULSE, "--shock-body", "3"], "body = 3"),
+    "axes not unit": ([*SCENE, "--axes", *"001002"], "length 2, not 1"),
+    "axes out of reach": ([*SCENE, "--axes", *"001010"], "cannot reach"),
+    "five axes numbers": ([*SCENE, "--axes", *"00100"], "expected 6 arguments"),
+    "rates not tangent": ([*SCENE, "--rates", *"001001"], "not tangent"),
+    "no time": ([*SCENE, "--t-end", "0"], "--t-end 0"),
+    "time backwards": ([*SCENE, "--t-end", "-1"], "--t-end -1"),
+    "endless": ([*SCENE, "--t-end", "inf"], "--t-end inf"),
+    "one sample": ([*SCENE, "--samples", "1"], "--samples 1"),
+    "too many samples": ([*SCENE, "--samples", "10000001"], "--samples 10000001"),
+    "half a sample": ([*SCENE, "--samples", "10.5"], "invalid int"),
+    "unknown model": ([*SCENE, "--model", "magic"], "model = 'magic'"),
+    "no tolerance": ([*SCENE, "--tol", "0"], "tol = 0.0"),
+    "unknown format": ([*SCENE, "--out", "run.txt"], ".npz or .csv"),
+    "no format": ([*SCENE, "--out", "run"], ".npz or .csv"),
+    "output folder missing": ([*SCENE, "--out", "missing/run.npz"], "no folder missing"),
+    "rate without spins": (["rate"], "--spins"),
+    "rate with a shock": (["rate", "--spins", "1", "1", "--shock", "1", "0", "0"], "--shock"),
+}
+
+
+@pytest.mark.parametrize(("argv", "says"), BAD.values(), ids=BAD)
+def test_bad_input_is_one_line_and_leaves_nothing(
+    argv: list[str], says: str, capsys: pytest.CaptureFixture[str], small_paper: Path
+) -> None:
+    assert main(argv) == 2
+    out, err = capsys.readouterr()
+    assert err.startswith("lagrotor: ")
+    assert err.count("\n") == 1
+    assert says in err
+    assert not out
+    assert not list(small_paper.iterdir())
+
+
+def test_output_is_refused_before_the_run(monkeypatch: pytest.MonkeyPatch, small_paper: Path) -> None:
+    monkeypatch.setattr(simulate_module, "simulate", lambda *a, **k: pytest.fail("the run began"))
+    (small_paper / "folder.npz").mkdir()
+    assert main([*SCENE, "--out", "folder.npz"]) == 2
+    assert main([*SCENE, "--out", "folder.npz/run.txt"]) == 2
+
+
+@pytest.mark.parametrize("argv", [[*SCENE, "--out", "run.npz"], ["figure", "17"], ["reproduce"]])
+def test_read_only_folder_is_refused(
+    argv: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    assert main(argv) == 2
+    assert "cannot be written to" in capsys.readouterr().err
+
+
+def test_folder_that_is_no_report_is_not_replaced(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (small_paper / "thesis.tex").write_text("years of work")
+    assert main(["reproduce", "--out", "."]) == 2
+    assert "other files" in capsys.readouterr().err
+    assert (small_paper / "thesis.tex").read_text() == "years of work"
+    assert main(["reproduce", "--out", "thesis.tex"]) == 2
+
+
+def run(*argv: str) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-m", "lagrotor", *argv]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
+
+
+@pytest.mark.parametrize("argv", [("audit", "0.0"), ("simulate", "--spins", "x", "1"), ("figure", "999"), ()])
+def test_bad_input_as_a_program(argv: tuple[str, ...]) -> None:
+    done = run(*argv)
+    assert done.returncode == 2
+    assert not done.stdout
+    assert done.stderr.count("\n") == 1
+    assert "Traceback" not in done.stderr
+
+
+def test_help_is_quick_and_needs_nothing_heavy() -> None:
+    code = (
+        "import sys; from lagrotor.report.command_line import main; main(['--help']);"
+        "print(sorted({'sympy', 'matplotlib', 'scipy', 'numpy'} & sys.modules.keys()), file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=os.environ | {"PYTHONPATH": str(ROOT)}
+    )
+    assert done.stderr.strip() == "[]"
+    assert "reproduce" in done.stdout
+
+
+def test_closed_pipe_is_quiet() -> None:
+    program = f"{sys.executable} -m lagrotor rate --spins 10 -10 --json | true"
+    done = subprocess.run(
+        program, shell=True, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": str(ROOT)}
+    )
+    assert "Traceback" not in done.stderr
+    assert "Exception" not in done.stderr
+
+
+@pytest.mark.parametrize("command", ["reproduce", "audit", "figure", "simulate", "rate"])
+def test_each_help_ends_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "--help"]) == 0
+    assert capsys.readouterr().out.strip().splitlines()[-1].startswith(f"example: lagrotor {command}")
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"lagrotor {lagrotor.__version__}\n"
+
+
+def test_run_is_written(small_paper: Path) -> None:
+    argv = f"{' '.join(SCENE)} --link-mass 0.01 --link-inertia 0.1 {' '.join(PULSE)} --t-end 10 --samples 1001"
+    assert main([*argv.split(), "--model", "minimal", "--tol", "1e-11", "--out", "run.npz"]) == 0
+    kept = np.load(small_paper / "run.npz")
+    shapes = {name: kept[name].shape for name in ("t", "axes", "tips", "energy", "link_length")}
+    n = 1001
+    assert shapes == {"t": (n,), "axes": (2, n, 3), "tips": (2, n, 3), "energy": (n,), "link_length": (n,)}
+    assert kept["energy"][0] == pytest.approx(100)
+    assert [path.name for path in small_paper.iterdir()] == ["run.npz"]
+
+
+def test_run_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    short = [*SCENE, "--t-end", "0.1", "--samples", "3"]
+    assert main(short) == 0
+    out = capsys.readouterr().out
+    for part in ("minimal", "evaluations", "energy", "link length", "tip 1", "tip 2"):
+        assert part in out
+    assert main([*short, "--model", "spheres", "--json", "--out", "run.csv"]) == 0
+    summary = json.loads(capsys.readouterr().out)
+    assert summary["model"] == "spheres"
+    assert summary["samples"] == 3
+    assert summary["energy_last"] == pytest.approx(100)
+    assert summary["tip_1"] == pytest.approx([-0.5, 0, 1])
+    assert Path("run.csv").read_text().startswith("t [s],")
+
+
+def test_negative_numbers_in_any_notation(capsys: pytest.CaptureFixture[str]) -> None:
+    argv = [*SCENE, "--rates", "-1e-3", "-.1", "0", "-1E-3", "-.1", "-0", "--t-end", "0.1", "--samples", "2"]
+    assert main(argv) == 0
+    assert capsys.readouterr().out
+
+
+def test_rate(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rate", "--spins", "10", "-10", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["rate"] == pytest.approx(8)  # I3 omega / J = 10 / (5/4)
+    assert answer["period"] == pytest.approx(2 * np.pi / 8)
+    assert main(["rate", "--spins", "10", "-10"]) == 0
+    assert "8 rad/s" in capsys.readouterr().out
+
+
+def test_audit_table_and_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["audit"]) == 0
+    assert "holds if" in capsys.readouterr().out
+    assert main(["audit", "5.02", "5.06", "--json"]) == 0
+    listed = json.loads(capsys.readouterr().out)
+    assert [entry["id"] for entry in listed] == ["5.02", "5.06"]
+    keys = (
+        "id, section, title, printed, derived, verdict, condition, order, small, domain, correction, "
+        "correction_verdict, depends_on, reaches_result, evidence, seconds"
+    )
+    assert ", ".join(listed[0]) == keys
+
+
+@pytest.mark.parametrize(
+    ("change", "status"),
+    [
+        (lambda kept: kept, 0),
+        (lambda kept: kept | {"5.02": "refuted"}, 1),
+        (lambda kept: {i: v for i, v in kept.items() if i != "5.02"}, 1),
+        (lambda kept: kept | {"5.15": "holds"}, 1),
+    ],
+    ids=["as recorded", "another verdict", "not on record", "no longer judged"],
+)
+def test_status_tells_whether_verdicts_are_as_recorded(
+    change: Callable[[dict[str, str]], dict[str, str]], status: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record(change(found()))
+    assert main(["audit", "--json"]) == status
+    assert main(["reproduce"]) == status
+    out, err = capsys.readouterr()
+    assert err.count("lagrotor: changed: 5.") == 2 * status
+    assert "5.01" in out
+
+
+def test_only_the_asked_equations_are_compared() -> None:
+    record(found() | {"5.02": "refuted"})
+    assert main(["audit", "5.01"]) == 0
+    assert main(["audit", "5.02"]) == 1
+
+
+def test_broken_record_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    reproduce.RECORDED.write_text("{", encoding="utf-8")
+    assert main(["audit"]) == 2
+    assert "restore it" in capsys.readouterr().err
+
+
+def test_figure_writes_the_same_bytes_twice(small_paper: Path) -> None:
+    assert main(["figure", "17", "17"]) == 0
+    first = {path.name: path.read_bytes() for path in small_paper.iterdir()}
+    assert set(first) == {"fig17_stub.svg", "fig17_stub.png"}
+    assert main(["figure", "17"]) == 0
+    assert {path.name: path.read_bytes() for path in small_paper.iterdir()} == first
+
+
+def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reproduce"]) == 0
+    report = small_paper / "report"
+    kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
+    assert kept == {"index.html", "report.md", "verdicts.json", "measured.json"} | {
+        f"figures/fig17_stub.{kind}" for kind in ("svg", "png")
+    }
+    assert {entry["id"] for entry in json.loads((report / "verdicts.json").read_text())} == set(found())
+    assert json.loads((report / "measured.json").read_text()) == {"fig17_stub": {"slope": 1.0}}
+    assert "no verdicts are on record" in capsys.readouterr().err
+    assert main(["reproduce"]) == 0, "a report may be replaced"
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt, RuntimeError])
+def test_interrupted_report_leaves_the_last_good_one(
+    stop: type[BaseException], small_paper: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["reproduce"]) == 0
+    page = small_paper / "report" / "index.html"
+    good = page.read_text()
+    capsys.readouterr()
+
+    def interrupted(*_: object) -> None:
+        raise stop
+
+    monkeypatch.setattr(figures, "draw", interrupted)
+    if stop is KeyboardInterrupt:
+        assert main(["reproduce"]) == 130
+        assert capsys.readouterr().err == "lagrotor: interrupted\n"
+    else:
+        with pytest.raises(stop):
+            main(["reproduce"])
+    assert page.read_text() == good
+    assert [path.name for path in small_paper.iterdir()] == ["report"]
+
+
+def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = small_paper / "report"
+    with reproduce.replaced(target) as folder:
+        (folder / "index.html").write_text("good")
+    for name in ("report.md", "verdicts.json", "measured.json", "figures"):
+        (target / name).touch()
+    rename = Path.rename
+
+    def failing(path: Path, to: Path) -> Path:
+        if path.name == ".report.new":
+            raise KeyboardInterrupt
+        return rename(path, to)
+
+    monkeypatch.setattr(Path, "rename", failing)
+    with pytest.raises(KeyboardInterrupt), reproduce.replaced(target) as folder:
+        (folder / "index.html").write_text("new")
+    assert (target / "index.html").read_text() == "good"
+    assert [path.name for path in small_paper.iterdir()] == ["report"]
+
+
+def test_killed_swap_is_mended_by_the_next_run(small_paper: Path) -> None:
+    (small_paper / ".report.old").mkdir()
+    (small_paper / ".report.old" / "index.html").write_text("good")
+    (small_paper / ".report.new").mkdir()
+    with pytest.raises(RuntimeError), reproduce.replaced(small_paper / "report"):
+        raise RuntimeError
+    assert (small_paper / "report" / "index.html").read_text() == "good"
+    assert [path.name for path in small_paper.iterdir()] == ["report"]
+
+
+def test_progress_is_shown_in_a_terminal_only(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record(found())
+    assert main(["reproduce"]) == 0
+    assert not capsys.readouterr().err
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert main(["reproduce"]) == 0
+    steps = capsys.readouterr().err.splitlines()
+    names = ("[1/3] s5_2a_single_rotor …", "[2/3] figure 17 …", "[3/3] report …")
+    assert [line.rsplit(" ", 2)[0] for line in steps] == list(names)
+
+
+def test_table_wraps_at_the_edge_of_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = [("5.01", "holds", "word " * 30)]
+    assert terminal.table(("id", "verdict", "title"), rows).count("\n") == 1
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.setenv("COLUMNS", "60")
+    lines = terminal.table(("id", "verdict", "title"), rows).splitlines()
+    assert len(lines) > 3
+    assert max(map(len, lines)) <= 60
