@@ -9,8 +9,9 @@ from math import atanh, pi
 
 import numpy as np
 
-from ..errors import DomainError, InputError, IntegrationError
+from ..errors import DomainError, IntegrationError
 from ..numerics.solve import TIGHTEST, Problem, integrate
+from ..rotors.orbit import shape_of
 from ..rotors.parameters import Scene
 from .minimal import MODEL
 from .model import Array
@@ -24,13 +25,6 @@ class ExactOrbit:
     frequency: float
 
 
-def require_opposite(scene: Scene, where: str) -> None:
-    """Refuse a scene whose spins are not opposite, or that has no bar: the paired precession needs both."""
-    first, second = scene.spins
-    if first != -second or first == 0 or scene.link is None:
-        raise InputError(f"{where}: the paired precession needs a bar and opposite spins, not {scene.spins}")
-
-
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     """The orbit of amplitude r0 = sin(theta) when the axes are parallel, for the scene's rotor, bar and spins.
 
@@ -38,7 +32,7 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     """
     from scipy.optimize import root
 
-    require_opposite(scene, "exact_orbit")
+    shape_of(scene)
     if not 0 < abs(r0) < 1:
         raise DomainError(f"exact_orbit: r0 = {r0:g} must lie between 0 and 1: it is the sine of an inclination")
     still = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)

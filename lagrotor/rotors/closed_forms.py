@@ -141,7 +141,7 @@ def natural_frequency() -> ClosedForm:
 @cache
 def paired_frequency(order: int = 3) -> ClosedForm:
     """Omega / Omega_0 of the paired precession at amplitude r_0 (opposite spins), through r_0**order (5.21)."""
-    series = paired_series(order)
+    series = paired_series(order + 1)  # order n of the orbit fixes the frequency's order n − 1
     return ClosedForm(
         "paired_frequency",
         ("Omega/Omega_0",),

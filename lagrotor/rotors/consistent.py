@@ -7,10 +7,11 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import InputError
+from ..errors import DomainError, InputError
 from ..mechanics import jacobian, mass_matrix, project_position, project_velocity
-from ..symbols import AXES, Phi, a, b, k
+from ..symbols import AXES, a, b, k
 from .lagrangians import axes_pair
+from .orbit import evaluate, paired_series, shape_of
 from .parameters import Link, Rotor, Scene, Shock
 
 Array = NDArray[np.float64]
@@ -59,18 +60,22 @@ def paired_scene(scene: Scene, r0: float, order: int = 9) -> Scene:
     The start is exact on the bar; its velocities are off the periodic orbit by O(r0**(order + 1)) Omega.
     Raises InputError unless the spins are opposite; DomainError unless |r0| < 1.
     """
-    from .closed_forms import corrected_trajectories, natural_rate, paired_frequency
+    from .closed_forms import natural_rate
 
-    if scene.spins[0] != -scene.spins[1] or scene.link is None:
-        raise InputError(f"paired_scene: the paired precession needs a bar and opposite spins, not {scene.spins}")
-    inertia_a, inertia_b = scene.inertias
-    shape = (inertia_a + inertia_b) / (inertia_a - inertia_b)
-    ratio = scene.link.length / scene.rotor.length
-    form = corrected_trajectories(order)
-    rate = natural_rate(scene) * float(paired_frequency(order)(r0, shape, ratio)) * np.sign(scene.spins[0])  # type: ignore[arg-type]
-    axes = np.array(form(r0, 0.0, shape, ratio)).reshape(2, 3)
-    slopes = [sp.diff(e, Phi) for e in form.expressions]
-    rates = rate * np.array(sp.lambdify(form.arguments, slopes)(r0, 0.0, shape, ratio), dtype=float).reshape(2, 3)
+    shape, ratio = shape_of(scene)
+    if not -1 < r0 < 1:
+        raise DomainError(f"paired_scene: r0 = {r0:g} must lie between −1 and 1: it is the sine of an inclination")
+    series = paired_series(order, shape, ratio)
+    rate = natural_rate(scene) * float(evaluate(series.frequency, r0, 0.0)) * np.sign(scene.spins[0])
+    widths = np.array([1.0, np.sqrt(float(shape)), 1.0])
+    first, slope = (
+        widths * [float(evaluate(part, r0, 0.0)) for part in parts]
+        for parts in ((series.x, series.Y, series.z), [p.derivative() for p in (series.x, series.Y, series.z)])
+    )
+    later = widths * [float(evaluate(p, r0, np.pi)) for p in (series.x, series.Y, series.z)]
+    later_slope = widths * [float(evaluate(p.derivative(), r0, np.pi)) for p in (series.x, series.Y, series.z)]
+    mirror = np.array([-1.0, 1.0, 1.0])
+    axes, rates = (first, mirror * later), (rate * slope, rate * mirror * later_slope)
     return consistent_scene(scene.spins, axes, rates, scene.rotor, scene.link, scene.shock)
 
 

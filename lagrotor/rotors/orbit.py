@@ -15,12 +15,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike, NDArray
 from sympy.polys.domains.domain import Domain
 
 from ..mechanics.fourier import FourierSeries, constant
 from ..mechanics.perturbation import lindstedt_poincare
-from ..symbols import Phi, k, r0, sigma
+from ..errors import InputError
+from ..symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
+from .lagrangians import INERTIAS, J_OF
+from .parameters import Scene
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,32 @@ class PairedSeries:
         return total
 
 
+def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
+    """(sigma, k) of a scene as exact rationals, its parameters read as the decimals they are written as.
+
+    Raises InputError unless the spins are opposite and there is a bar: the paired precession needs both.
+    """
+    if scene.link is None or scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
+        raise InputError(f"the paired precession needs a bar and opposite spins, not spins = {scene.spins}")
+    exact = {M: scene.rotor.mass, R: scene.rotor.length, I1: scene.rotor.I1}
+    exact |= {ell: scene.link.length, m: scene.link.mass, K: scene.link.inertia}
+    values = {symbol: sp.Rational(repr(value)) for symbol, value in exact.items()}
+    both = {symbol: INERTIAS[symbol].subs(J, J_OF).subs(values) for symbol in (a, b)}
+    return (both[a] + both[b]) / (both[a] - both[b]), values[ell] / values[R]
+
+
+def evaluate(series: FourierSeries, amplitude: float, phases: ArrayLike) -> NDArray[np.float64]:
+    """A series with numbers for coefficients at an amplitude and phases (n,): the sum of its harmonics."""
+    phases = np.asarray(phases, dtype=float)
+    waves: dict[int, float] = {}
+    for (n, h), value in series.terms.items():
+        waves[h] = waves.get(h, 0.0) + float(value) * amplitude**n
+    total = np.zeros_like(phases)
+    for h, size in waves.items():
+        total += size * (np.cos(h * phases) if h >= 0 else np.sin(-h * phases))
+    return total
+
+
 def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
     free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)
@@ -56,8 +87,8 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> Pai
     field = field_of(shape, ratio)
     s, length = field.from_sympy(shape), field.from_sympy(ratio)
     one = field.one
-    # Units a + b = 1, so a − b = 1/sigma.
-    a, b = (one + one / s) / 2, (one - one / s) / 2
+    # Units a + b = 1, so a − b = 1/sigma; own = a, shared = b.
+    own, shared = (one + one / s) / 2, (one - one / s) / 2
 
     def residual(unknowns: Sequence[FourierSeries], frequency: FourierSeries) -> list[FourierSeries]:
         x, Y, z, unit, pull = unknowns
@@ -69,7 +100,7 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> Pai
         squared = frequency * frequency
 
         def inertia(first: FourierSeries, second: FourierSeries) -> FourierSeries:
-            return squared * (first.derivative().derivative().scaled(a) + second.derivative().derivative().scaled(b))
+            return squared * (first.derivative().derivative().scaled(own) + second.derivative().derivative().scaled(shared))
 
         return [
             inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (constant(length, order) + x2),

@@ -1,5 +1,6 @@
 """`simulate`: what it refuses, what `auto` picks, and shocks however short."""
 
+import re
 from functools import lru_cache
 from math import cos, inf, nan, pi, sin, sqrt
 from typing import Any
@@ -57,22 +58,27 @@ def test_unknown_models_and_scenes_are_refused_by_name() -> None:
 
 
 def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:
-    with pytest.raises(SingularError, match="euler: theta_1 = 0 rad.* use model='minimal' or 'spheres'"):
+    with pytest.raises(SingularError, match=r"euler: theta_1 = 0 rad.* use model='minimal' or 'spheres'"):
         simulate(UPRIGHT, [0, 1], model="euler")
     free = Scene((10, -10), link=None, axes=TILTED)
     for model in ("minimal", "euler"):
-        with pytest.raises(SingularError, match=f"{model}: the scene has no bar.*use model='spheres'"):
+        with pytest.raises(SingularError, match=rf"{model}: the scene has no bar.*use model='spheres'"):
             simulate(free, [0, 1], model=model)
-    with pytest.raises(SingularError, match="axis 1 lies along the joint line.*use model='spheres'"):
+    with pytest.raises(SingularError, match=r"axis 1 lies along the joint line.*use model='spheres'"):
         simulate(on_the_line(), [0, 1], model="minimal")
     for model in ("spheres", "auto"):
         simulate(free, [0, 1], model=model)
 
 
 def on_the_line() -> Scene:
-    """One axis along the joint line: ell (x_2 − x_1) + R (1 − r_1 . r_2) = 0 at r_1 = e_x leaves (ell − R)(x_2 − 1) = 0,
-    so that for ell = R the other may point anywhere."""
+    """One axis along the joint line: at r_1 = e_x the bar asks (ell − R)(x_2 − 1) = 0, for ell = R nothing."""
     return Scene((10, -10), axes=((1, 0, 0), (0, 0, 1)), rates=((0, 1, 0), (0, 1, 0)))
+
+
+def towards_the_line() -> Scene:
+    """For ell = R an axis passes through the joint line whenever the twist reaches 90°: here at t = 0.5."""
+    since = simulate(Scene((2, -2), axes=on_the_line().axes, rates=on_the_line().rates), [0.5], "spheres", 1e-12)
+    return Scene((-2, 2), axes=since.axes[:, 0], rates=-since.rates[:, 0])
 
 
 def test_auto_takes_the_least_model_and_says_why() -> None:
@@ -87,16 +93,14 @@ def test_auto_takes_the_least_model_and_says_why() -> None:
     [
         (Scene((10, -10), link=None), "the scene has no bar to eliminate"),
         (on_the_line(), "axis 1 lies along the joint line"),
-        # Without spins and gyroscopic forces, thrown straight through the joint line.
-        (Scene((0, 0), rates=((1, 0, 0), (1, 0, 0))), "the solver stopped near t = 1.57"),
+        (towards_the_line(), r"the solver stopped near t = 0\.(5|499)"),
     ],
 )
 def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str) -> None:
-    times = np.linspace(0, 2, 9)
+    times = np.linspace(0, 1, 9)
     run = simulate(scene, times, tol=1e-10)
     assert run.model == "spheres"
-    assert run.why.startswith("regular everywhere; minimal: " if "axis" in reason or "bar" in reason else "regular")
-    assert reason in run.why
+    assert re.match(f"regular everywhere; .*{reason}", run.why)
     assert run.axes == pytest.approx(simulate(scene, times, "spheres", 1e-10).axes, abs=1e-14)
     assert np.ptp(run.energy) < 1e-8
 
@@ -107,6 +111,7 @@ def test_refused_input_is_not_run_by_another_model() -> None:
 
 
 def test_a_run_out_of_reach_is_stopped() -> None:
+    """Both axes through the joint line at once, where the bar's constraint itself is singular."""
     with pytest.raises(IntegrationError, match="try another model or a larger tol"):
         simulate(Scene((0, 0), rates=((1, 0, 0), (1, 0, 0))), [0, 2], "minimal")
 
@@ -140,15 +145,14 @@ def limit(body: int) -> np.ndarray:
 
 @pytest.mark.parametrize("body", [1, 2])
 @pytest.mark.parametrize("model", ["minimal", "spheres", "euler"])
-def test_shocks_of_one_impulse_converge_to_the_jump_with_second_order(model: str, body: int) -> None:
-    """The pulse is even about its centre, so the first order cancels."""
-    widths = [1e-2, 1e-3, 1e-5, 1e-7]
-    errors = [
-        np.abs(simulate(start(body, w), [END], model, 1e-12).axes[:, 0] - limit(body)).max() for w in widths
-    ]
-    order = np.log10(errors[0] / errors[1])
-    assert order == pytest.approx(2, abs=0.1)
-    assert max(errors[2:]) < 1e-9
+def test_shocks_of_one_impulse_converge_to_the_jump_with_first_order(model: str, body: int) -> None:
+    """The pulse is even about its centre, but the kinetic energy is quadratic in the rates: the first order stays."""
+    widths = [1e-2, 1e-4, 1e-5, 1e-7]
+    errors = [np.abs(simulate(start(body, w), [END], model, 1e-12).axes[:, 0] - limit(body)).max() for w in widths]
+    assert np.log10(errors[1] / errors[2]) == pytest.approx(1, abs=0.02)
+    assert np.log10(errors[2] / errors[3]) == pytest.approx(2, abs=0.02)
+    assert errors[3] < 2e-8
+    assert errors[0] < 1e-2
     # Twin: the other rotor's jump is not the limit.
     assert np.abs(limit(body) - limit(3 - body)).max() > 1e-2
 

@@ -71,7 +71,8 @@ def test_evaluations_are_counted() -> None:
         calls += 1
         return oscillate(s, y)
 
-    solution = integrate(Problem(counted, START, ENOUGH, project=lambda y: y / np.hypot(*y)), np.array([1.0, 3.0]), 1e-8)
+    problem = Problem(counted, START, ENOUGH, project=lambda y: y / np.hypot(*y))
+    solution = integrate(problem, np.array([1.0, 3.0]), 1e-8)
     assert solution.evaluations == pytest.approx(calls, abs=1)
 
 
@@ -183,10 +184,9 @@ def test_a_motion_that_blows_up_is_stopped_where_it_does() -> None:
 
 
 def test_the_time_of_the_stop_is_the_scenes_time() -> None:
+    problem = Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], at=3.0, width=0.1)
     with pytest.raises(IntegrationError, match=r"near t = 0\.5 s"):
-        integrate(
-            Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], 3.0, 0.1), np.array([9.0]), 1e-9
-        )
+        integrate(problem, np.array([9.0]), 1e-9)
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf")])

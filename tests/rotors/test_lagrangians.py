@@ -42,7 +42,7 @@ from lagrotor.rotors.lagrangians import (
     pair_with_bar,
     rotor_lagrangian,
 )
-from lagrotor.symbols import ANSATZ, AXES, G_1, G_2, I1, I3, J, K, M, MERCATOR, MINIMAL, PAIR, R, ROTOR, a, b, ell, k, m
+from lagrotor.symbols import ANSATZ, AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, PAIR, ROTOR, J, K, M, R, a, b, ell, k, m
 
 SEEDS = range(5)
 VALUES = {M: 1.3, R: 0.9, I1: 0.7, I3: 1.1, m: 0.4, K: 0.05, ell: 1.2, G_1: 2.3, G_2: -1.7}
@@ -90,7 +90,8 @@ def constrained(seed: int, c: Coordinates, g: tuple[sp.Expr, ...], guess: np.nda
     draw = np.random.default_rng(seed)
     g_at = sp.lambdify([c.q], [e.subs(VALUES) for e in g])
     G_at = sp.lambdify([c.q], jacobian(g, c).subs(VALUES))
-    q = project_position(lambda q: np.array(g_at(q)), lambda q: np.array(G_at(q)), guess + draw.normal(0, 0.3, len(guess)))
+    near = guess + draw.normal(0, 0.3, len(guess))
+    q = project_position(lambda q: np.array(g_at(q)), lambda q: np.array(G_at(q)), near)
     v = project_velocity(np.array(G_at(q)), draw.normal(0, 1.5, len(guess)))
     return dict(zip(c.q + c.v, (*q.tolist(), *v.tolist()), strict=True)) | VALUES
 
@@ -110,8 +111,7 @@ def accelerated(system: Constrained, state: dict[sp.Symbol, float], forces: sp.M
     L, c, g = system.L, system.c, system.g
     Q = sp.zeros(len(c.q), 1) if forces is None else forces
     M_at, h, G, gamma, Q_at = (
-        evaluate(e, state)
-        for e in (mass_matrix(L, c), bias(L, c), jacobian(g, c), acceleration_bias(g, c), Q)
+        evaluate(e, state) for e in (mass_matrix(L, c), bias(L, c), jacobian(g, c), acceleration_bias(g, c), Q)
     )
     return solve_constrained(M_at, h.ravel(), G, gamma.ravel(), Q_at.ravel())[0]
 

@@ -144,7 +144,9 @@ size = st.floats(0.2, 3)
 
 @given(size, size, size)
 def test_transverse_inertia_is_steiners(mass: float, length: float, I1: float) -> None:
-    assert Rotor(mass, length, I1, I1).J == pytest.approx(I1 + mass * (length / 2) ** 2)
+    rotor = Rotor(mass, length, I1, I1)
+    assert pytest.approx(I1 + mass * (length / 2) ** 2) == rotor.J
+    assert pytest.approx(I1 + mass * length**2, rel=1e-3) != rotor.J
 
 
 @given(size, st.floats(-100, 100), size)

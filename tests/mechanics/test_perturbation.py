@@ -1,0 +1,124 @@
+"""Linear modes and Lindstedt–Poincaré series of textbook oscillators."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lagrotor.errors import SingularError
+from lagrotor.mechanics import Constrained, coordinates
+from lagrotor.mechanics.fourier import FourierSeries, constant
+from lagrotor.mechanics.perturbation import lindstedt_poincare, linearise
+
+
+def value(series: FourierSeries, eps: float, phase: float) -> float:
+    waves = {(n, h): np.cos(h * phase) if h >= 0 else np.sin(-h * phase) for n, h in series.terms}
+    return float(sum(float(v) * eps**n * waves[n, h] for (n, h), v in series.terms.items()))
+
+
+ORDER = 6
+series = st.dictionaries(
+    st.tuples(st.integers(0, 2), st.integers(-3, 3)), st.fractions(-3, 3, max_denominator=5), max_size=4
+).map(lambda terms: FourierSeries({k: v for k, v in terms.items() if v}, ORDER))
+
+
+@given(series, series, st.floats(-3, 3))
+def test_products_and_derivatives_are_those_of_the_functions(f: FourierSeries, g: FourierSeries, phase: float) -> None:
+    # Products of two series through eps² lie within the order kept, so nothing is dropped.
+    eps, step = 0.7, 1e-5
+    assert value(f * g, eps, phase) == pytest.approx(value(f, eps, phase) * value(g, eps, phase), abs=1e-9)
+    slope = (value(f, eps, phase + step) - value(f, eps, phase - step)) / (2 * step)
+    assert value(f.derivative(), eps, phase) == pytest.approx(slope, abs=1e-5)
+    assert value(f.half_period_later(), eps, phase) == pytest.approx(value(f, eps, phase + np.pi), abs=1e-9)
+    assert value(f - g, eps, phase) == pytest.approx(value(f, eps, phase) - value(g, eps, phase), abs=1e-9)
+
+
+def test_terms_beyond_the_order_are_dropped() -> None:
+    high = FourierSeries({(4, 1): Fraction(1)}, ORDER)
+    assert (high * high).terms == {}
+
+
+def duffing(order: int, cubic: int = 1):
+    """x'' + x + cubic x³ = 0 in the phase: w² x'' + x + cubic x³."""
+
+    def residual(unknowns, frequency):
+        (x,) = unknowns
+        return [frequency * frequency * x.derivative().derivative() + x + (x * x * x).scaled(cubic)]
+
+    one = sp.QQ.one
+    return lindstedt_poincare(residual, [sp.QQ.zero], [{1: one}], order, sp.QQ)
+
+
+def test_duffing_has_its_known_series() -> None:
+    # Nayfeh & Mook: w = 1 + 3/8 e² − 21/256 e⁴ + 81/2048 e⁶ for x(0) = e.
+    found = duffing(7)
+    assert found.frequency.terms == {
+        (0, 0): 1,
+        (2, 0): sp.QQ(3, 8),
+        (4, 0): sp.QQ(-21, 256),
+        (6, 0): sp.QQ(81, 2048),
+    }
+    x = found.unknowns[0].harmonics(3)
+    assert x == {1: sp.QQ(-1, 32), 3: sp.QQ(1, 32)}
+
+
+def test_another_spring_has_another_series() -> None:
+    assert duffing(3, -1).frequency.terms[2, 0] == sp.QQ(-3, 8)
+
+
+def test_an_even_force_shifts_the_mean() -> None:
+    """x'' + x + x² = 0: mean −e²/2, w = 1 − 5/12 e²."""
+
+    def residual(unknowns, frequency):
+        (x,) = unknowns
+        return [frequency * frequency * x.derivative().derivative() + x + x * x]
+
+    found = lindstedt_poincare(residual, [sp.QQ.zero], [{1: sp.QQ.one}], 3, sp.QQ)
+    assert found.unknowns[0].harmonics(2)[0] == sp.QQ(-1, 2)
+    assert found.frequency.terms[2, 0] == sp.QQ(-5, 12)
+
+
+def test_a_resonance_is_refused() -> None:
+    """A second oscillator at twice the frequency, driven by x²: no periodic orbit near the first mode."""
+
+    def residual(unknowns, frequency):
+        x, y = unknowns
+        squared = frequency * frequency
+        return [
+            squared * x.derivative().derivative() + x,
+            squared * y.derivative().derivative() + y.scaled(4) + x * x,
+        ]
+
+    with pytest.raises(SingularError, match="resonance"):
+        lindstedt_poincare(residual, [sp.QQ.zero] * 2, [{1: sp.QQ.one}, {}], 3, sp.QQ)
+
+
+def test_linear_modes_of_a_double_pendulum() -> None:
+    # Equal masses and lengths, g = l = 1: w² = 2 ± sqrt 2.
+    c = coordinates("p q")
+    (p, q), (pv, qv) = c.q, c.v
+    lagrangian = pv**2 + qv**2 / 2 + pv * qv * sp.cos(p - q) + 2 * sp.cos(p) + sp.cos(q)
+    s = sp.Symbol("s")
+    polynomial = linearise(Constrained(lagrangian, c), {p: 0, q: 0}).characteristic(s)
+    assert sp.expand(polynomial - (s**4 + 4 * s**2 + 2)) == 0
+
+
+def test_linear_modes_in_redundant_coordinates() -> None:
+    """A mass on a horizontal circle held by a spring along y: x'' = 0 is bound by the constraint, w² = stiffness."""
+    c = coordinates("x y")
+    (x, y), (xv, yv) = c.q, c.v
+    k = sp.Symbol("k", positive=True)
+    system = Constrained((xv**2 + yv**2) / 2 - k * y**2 / 2, c, (x**2 + y**2 - 1,))
+    s = sp.Symbol("s")
+    linear = linearise(system, {x: 1, y: 0})
+    assert linear.basis.shape == (2, 1)
+    assert sp.expand(linear.characteristic(s) / linear.mass[0] - (s**2 + k)) == 0
+
+
+def test_a_place_that_is_no_equilibrium_is_refused() -> None:
+    c = coordinates("p")
+    with pytest.raises(SingularError, match="no equilibrium"):
+        linearise(Constrained(c.v[0] ** 2 / 2 + sp.cos(c.q[0]), c), {c.q[0]: 1})
