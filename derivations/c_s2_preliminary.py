@@ -70,9 +70,7 @@ def measure_c01(spins):
 def decide_c01(m):
     same = m["precession_1_rad_per_s"] * m["precession_2_rad_per_s"] > 0
     stays = abs(m["displacement_1_last_cycles"] / m["displacement_1_first_cycles"] - 1) < 0.01
-    as_7 = all(
-        abs(m[f"displacement_{i}_last_cycles"] / m["displacement_by_equation_7"] - 1) < 0.1 for i in (1, 2)
-    )
+    as_7 = all(abs(m[f"displacement_{i}_last_cycles"] / m["displacement_by_equation_7"] - 1) < 0.1 for i in (1, 2))
     how = (
         f"The axes turn at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their means "
         f"stay displaced by {m['displacement_1_last_cycles']:+.4f} and {m['displacement_2_last_cycles']:+.4f} across the "
@@ -92,7 +90,7 @@ def decide_c01(m):
 # %% [markdown]
 # ## C02: opposite spins as if there were none
 #
-# The largest x in the 2.4 s after the shock against that without spins, which by then has fallen to 0.94. "As if": to
+# The largest x in the 2.4 s after the shock against that without spins, which by then has nearly fallen flat. "As if": to
 # one part in ten. Beside it the mean displacement over (7) for equal and for unequal spins (a shock a fifth as large, so
 # that squares of the amplitude do not show), and the turning about the joint line after a shock along y.
 

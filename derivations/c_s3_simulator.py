@@ -154,12 +154,16 @@ def decide_c05(m):
     )
     if m["ground_moved_m"] or m["error_over_motion"] > 0.1:
         return Finding("refuted", how)
-    return Finding("confirmed-if", how, "S large: the springs faster than the motion; exact only as S grows without bound")
+    return Finding(
+        "confirmed-if", how, "S large: the springs faster than the motion; exact only as S grows without bound"
+    )
 
 
 # %%
 trials = [
     Trial("C03", (10, 10), (0, 0), "one step of a rigid body", measure_c03, decide_c03),
-    Trial("C04", (10, 10), (0, 0), "spring-linked bodies, and one free body of unequal inertia", measure_c04, decide_c04),
+    Trial(
+        "C04", (10, 10), (0, 0), "spring-linked bodies, and one free body of unequal inertia", measure_c04, decide_c04
+    ),
     Trial("C05", (10, 10), (100, 100), "spring-linked bodies against the exact pair", measure_c05, decide_c05),
 ]

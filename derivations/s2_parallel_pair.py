@@ -266,6 +266,7 @@ statements = [
     Statement(
         "2.08",
         chain(r.cross(f_solved) + rho * r.cross(f_solved), r.cross(F) / 2 - rho * r.cross(F) / 2),
+        wrong="The left side has the wrong sign.",
         correction=chain(r.cross(f_solved) + rho * r.cross(f_solved), rho * r.cross(F) / 2 - r.cross(F) / 2),
         depends_on=("2.07",),
         evidence=("The left side has the wrong sign: collecting 2.07 gives rho r x F/2 - r x F/2.",),
@@ -273,6 +274,7 @@ statements = [
     Statement(
         "2.09",
         chain(r.cross(f_solved), printed_g),
+        wrong="The sign of 2.08 is carried on.",
         correction=chain(r.cross(f_solved), correct_g),
         depends_on=("2.08",),
         evidence=("It inherits the sign of 2.08: the faster rotor takes more of the force, not less.",),
@@ -280,12 +282,14 @@ statements = [
     Statement(
         "2.10",
         chain(omega_1 * I * w, r.cross(F) / 2 + printed_g),
+        wrong="The sign of 2.08 is carried on.",
         correction=chain(omega_1 * I * w, r.cross(F) / 2 + correct_g),
         depends_on=("2.09", "2.04"),
     ),
     Statement(
         "2.11",
         chain(w, printed_6),
+        wrong="The sign of 2.08 makes the factor 2/(1 + rho) where the premises give 2 rho/(1 + rho).",
         correction=chain(w, correct_6),
         depends_on=("2.10",),
         evidence=(

@@ -148,6 +148,7 @@ statements = [
     Statement(
         "3.04",
         chain(U_cm, U1 + U2 + U3),
+        wrong="The weights m_i/M of the mean are missing.",
         correction=chain(U_cm, (m1 * U1 + m2 * U2 + m3 * U3) / (m1 + m2 + m3)),
         depends_on=("3.03",),
         evidence=(
@@ -195,6 +196,7 @@ statements = [
     Statement(
         "3.12",
         chain(I_turned, Q.adjugate() * I_0 * Q, Q.T * I_0 * Q),
+        wrong="R and its transpose have changed places.",
         correction=chain(I_turned, Q * I_0 * Q.T),
         depends_on=("3.11",),
         evidence=(

@@ -59,7 +59,7 @@ tips = (-ell / 2 * sp.Matrix([1, 0, 0]) + R * axis(th1, ph1), ell / 2 * sp.Matri
 squared = (tips[1] - tips[0]).dot(tips[1] - tips[0])
 system = pair_with_bar()
 state = {th1: sp.Rational(1, 3), ph1: sp.Rational(2, 5), th2: sp.Rational(1, 4), ph2: sp.Rational(-3, 7), k: 1}
-freedom = degrees_of_freedom(system, {**{q: 0 for q in PAIR.q}, **state, a: 1, b: 0, I3: 1})
+freedom = degrees_of_freedom(system, {**dict.fromkeys(PAIR.q, 0), **state, a: 1, b: 0, I3: 1})
 
 # %% [markdown]
 # ## The ansatz in the Lagrangian

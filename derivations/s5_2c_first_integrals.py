@@ -52,12 +52,9 @@ rates = {name: noether_rate(system, xi, [lam]) for name, xi in turning.items()}
 conserved = {name: decide_zero(rate).answer for name, rate in rates.items()}
 assert conserved == {"A": "nonzero", "B": "zero"}
 exact_B = noether_integral(system.L, PAIR, turning["B"])
-on_ansatz = dict(
-    zip(
-        (*PAIR.q, *PAIR.v),
-        (theta_1, phi, psi, theta_2, -phi, -psi, *ANSATZ.v[:1], phi_v, psi_v, ANSATZ.v[1], -phi_v, -psi_v),
-    )
-)
+first, second = (theta_1, phi, psi), (theta_2, -phi, -psi)
+first_v, second_v = (ANSATZ.v[0], phi_v, psi_v), (ANSATZ.v[1], -phi_v, -psi_v)
+on_ansatz = dict(zip((*PAIR.q, *PAIR.v), (*first, *second, *first_v, *second_v), strict=True))
 assert decide_zero(exact_B.subs(on_ansatz) - integral_B).answer == "zero"
 
 # %% [markdown]

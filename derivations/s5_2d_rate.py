@@ -16,7 +16,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.paper.ledger import Relation, Statement, chain
 from lagrotor.rotors.closed_forms import natural_frequency, pair_precession_rate
 from lagrotor.rotors.lagrangians import ansatz_integrals
-from lagrotor.symbols import ANSATZ, I1, I3, A, B, G, G_1, G_2, I, J, a, b, omega
+from lagrotor.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
 
 theta_1, theta_2 = ANSATZ.q[:2]
 phi_v, psi_v = ANSATZ.v[2:]
@@ -79,6 +79,7 @@ statements = [
     Statement(
         "5.16",
         (Relation(printed_B, value_B), Relation(printed_A, value_A, half, 1)),
+        wrong="B lacks the factor I.",
         correction=(Relation(2 * I * omega, value_B), Relation(printed_A, value_A, half, 1)),
         depends_on=("5.12", "5.13"),
         evidence=(

@@ -129,6 +129,7 @@ statements = [
     Statement(
         "5.20",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_sines, sines, strict=True)),
+        wrong="The correction keeps the bar at the wrong length, longer than it is by 2 r_0².",
         correction=tuple(Relation(p, q, r0, 2) for p, q in zip(corrected_sines, sines, strict=True)),
         depends_on=("5.19",),
         evidence=(
@@ -144,6 +145,7 @@ statements = [
             *chain(derived, printed_first, printed_last),
             Relation(sp.Integer(1), massless_frequency, r0, 2),
         ),
+        wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
         correction=(
             *chain(derived, printed_last),
             Relation(1 - r0**2 / 4, massless_frequency, r0, 2),
@@ -159,6 +161,7 @@ statements = [
     Statement(
         "5.22",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_x, (x1 - half, x2 + half), strict=True)),
+        wrong="A constant of second order in the amplitude is missing.",
         correction=(
             *(Relation(p, q, r0, 2) for p, q in zip(corrected_x, (x1 - half, x2 + half), strict=True)),
             *in_y,

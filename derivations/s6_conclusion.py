@@ -109,6 +109,7 @@ statements = [
             Relation(sp.Integer(5 - 2), sp.Integer(without_spins)),
             Relation(sp.Integer(2), sp.Integer(modes)),
         ),
+        wrong="A third freedom, the place of the precession centre, is left out; only one of the three oscillates.",
         correction=(
             Relation(sp.Integer(5), sp.Integer(with_spins)),
             Relation(sp.Integer(3), sp.Integer(without_spins)),
@@ -132,6 +133,7 @@ statements = [
             Relation(printed_rate, equal),
             Relation(printed_rate**2, opposite_squared * ratio.subs(r0, sp.sin(theta)) ** 2),
         ),
+        wrong="The constant belongs to one bar and to equal spins, and opposite spins slow down with amplitude.",
         correction=(
             Relation(omega * I3 / (sp.cos(theta) * whole), equal),
             Relation(omega**2 * I3**2 / (whole * twisting), opposite_squared),

@@ -14,7 +14,7 @@ from sympy.polys.matrices import DomainMatrix
 from ..errors import SingularError
 from .constraints import Constrained, jacobian
 from .fourier import Coefficient, FourierSeries, constant
-from .lagrangian import force_column, euler_lagrange
+from .lagrangian import euler_lagrange, force_column
 
 Residual = Callable[[Sequence[FourierSeries], FourierSeries], list[FourierSeries]]
 
@@ -39,7 +39,7 @@ def linearise(system: Constrained, at: Mapping[sp.Symbol, Any], forces: Sequence
     For an equilibrium that the constraints need not hold (multipliers zero there).
     """
     c = system.c
-    still = dict(at) | {s: 0 for s in (*c.v, *c.a)}
+    still = dict(at) | dict.fromkeys((*c.v, *c.a), 0)
     motion = euler_lagrange(system.L, c) - force_column(forces, c, "linearise")
     if any(e != 0 for e in motion.subs(still)):
         raise SingularError(f"linearise: {dict(at)} is no equilibrium: a force is left over; start from one")

@@ -85,7 +85,7 @@ def _run(model: Model, scene: Scene, times: Array, tol: float, why: str) -> Traj
     problem = Problem(
         free=model.rate(scene, False),
         start=model.start(scene),
-        allowance=20_000 + 5_000 * _fastest(scene) * times[-1],
+        allowance=20_000 + 500 * _fastest(scene) * times[-1],
         driven=model.rate(scene, True) if scene.shock else None,
         at=scene.shock.at if scene.shock else 0.0,
         width=scene.shock.width if scene.shock else 0.0,

@@ -25,7 +25,7 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     """Rotation of each body along its run, (k, n, 3, 3), body to world: Q' = [Omega]× Q, Omega = r × r' + omega r.
 
     t (n,) in s; axes, rates (k, n, 3): unit vectors r and r' (1/s); spins (k,): omega in rad/s, constant. At t[0] the
-    body is turned the shortest way from e_z to r.
+    body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down).
 
     From sample to sample r is carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, where
     `area` is what the path encloses with that circle. For the great circle's own frame it grows at the rate
@@ -36,10 +36,10 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     Raises InputError where an axis turns by pi between two samples.
     """
     r0, r1, v0, v1 = axes[:, :-1], axes[:, 1:], rates[:, :-1], rates[:, 1:]
-    h = np.diff(t)
+    carried, h = turn_between(r0, r1), np.diff(t)
     swept = (r0 * np.cross(r1, v1)).sum(-1) + (r1 * np.cross(r0, v0)).sum(-1)
     angle = h * (spins[:, None] + swept / (6 * (1 + (r0 * r1).sum(-1))))
-    steps = turn_between(r0, r1) @ _turn_about(r0, angle)
+    steps = carried @ _turn_about(r0, angle)
     Q = np.empty((*axes.shape, 3))
     Q[:, 0] = _from_upright(axes[:, 0])
     for i in range(len(h)):
@@ -63,11 +63,11 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
 
 
 def _from_upright(axes: Array) -> Array:
-    """Shortest rotations from e_z to the axes (k, 3), over e_x for those that hang down, (k, 3, 3)."""
-    e_z, over = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
-    start = np.where(axes[:, 2:] < 0, over, e_z)
-    first = turn_between(np.broadcast_to(e_z, axes.shape), start)
-    return turn_between(start, axes) @ first
+    """Rotations (k, 3, 3) from e_z to the axes (k, 3): the shortest, or for those that hang down by way of ±e_x."""
+    e_z = np.broadcast_to([0.0, 0.0, 1.0], axes.shape)
+    side = np.where(axes[:, :1] < 0, -1.0, 1.0) * np.array([1.0, 0.0, 0.0])
+    over = np.where(axes[:, 2:] < 0, side, e_z)
+    return turn_between(over, axes) @ turn_between(e_z, over)
 
 
 def _turn_about(n: Array, angle: Array) -> Array:

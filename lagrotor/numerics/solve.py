@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +68,7 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
     states = np.empty((len(times), len(problem.start)))
     states[asked == begin] = problem.start
     y, evaluations = problem.start, 0
-    for left, right in zip(edges, edges[1:], strict=False):
+    for left, right in pairwise(edges):
         if right > left:
             inside = (asked > left) & (asked <= right)
             pulsed = problem.driven is not None and abs(left + right) / 2 < reach

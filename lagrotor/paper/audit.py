@@ -19,13 +19,21 @@ def statements(stem: str) -> list[Statement]:
     return list(scripts.run("derivations", stem)["statements"])
 
 
+def findings(prefix: str) -> list[tuple[str, str]]:
+    """(title, sentence) of what the derivations with this prefix found beyond the judged equations."""
+    found = []
+    for stem in scripts.names("derivations", prefix):
+        found += scripts.run("derivations", stem).get("findings", [])
+    return found
+
+
 def audit(progress: Progress | None = None) -> list[Verdict]:
     """Every equation that a derivation states, judged: verdicts in the paper's order.
 
     `progress` is called with the name of each script before it runs. Seconds include an equal share of its script's.
     """
     verdicts: dict[str, Verdict] = {}
-    for stem in scripts.names("derivations"):
+    for stem in scripts.names("derivations", "s"):
         if progress:
             progress(stem)
         began = time.perf_counter()

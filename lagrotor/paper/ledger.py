@@ -42,7 +42,8 @@ class Statement:
     """What one equation of the paper is held to.
 
     relations: printed against derived. given: substitutions that state a condition, tried when the bare relations fail.
-    correction: what should stand there, as relations of its own. definition: the line only names something.
+    correction: what should stand there, as relations of its own; wrong: what was wrong, in a line.
+    definition: the line only names something.
     measured: the line is a number read off a run; the relations hold what it should have been.
     depends_on: ids of the equations that this one uses. evidence: sentences with the numbers that were computed.
     """
@@ -52,6 +53,7 @@ class Statement:
     given: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     condition: str = ""
     correction: tuple[Relation, ...] = ()
+    wrong: str = ""
     definition: bool = False
     measured: bool = False
     depends_on: tuple[str, ...] = ()
@@ -157,7 +159,7 @@ def _single(relation: Relation) -> _Finding:
         return _Finding("holds", domain=domain)
     if relation.small is None:
         if exact.answer == "undecided":
-            seen = "no value could be computed" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
+            seen = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
             return _Finding("undecided", reasons=(f"{exact.reason} ({seen})",))
         return _Finding("refuted", domain=domain)
     try:
@@ -176,7 +178,7 @@ RESULTS = ("2.12", "5.15", "5.22", "5.28", "6.02")
 
 
 def follow_errors(verdicts: Iterable[Verdict]) -> list[Verdict]:
-    """For each refuted equation, whether a result of the paper that rests on it, judged from sound premises, falls too."""
+    """For each refuted equation, whether a result of the paper that rests on it falls too, judged from sound premises."""
     listed = list(verdicts)
     by_id = {v.id: v for v in listed}
     users = {i: [v.id for v in listed if i in v.statement.depends_on] for i in by_id}

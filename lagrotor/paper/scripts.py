@@ -1,6 +1,7 @@
 """Where the literate scripts live: beside the package in a checkout, inside it when installed from a wheel."""
 
 import runpy
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +18,12 @@ def folder(name: str) -> Path:
     raise LagrotorError(f"the folder {name} is missing beside {_PACKAGE}: install lagrotor again")
 
 
-def names(kind: str) -> list[str]:
-    """Stems of the scripts in a folder, in order."""
-    return sorted(path.stem for path in folder(kind).glob("*.py") if not path.stem.startswith("_"))
+def names(kind: str, prefix: str = "") -> list[str]:
+    """Stems of the scripts in a folder, in order. Derivations: s… sections, c… claims, t… theory past the paper."""
+    return sorted(path.stem for path in folder(kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
 
 
+@cache
 def run(kind: str, stem: str) -> dict[str, Any]:
-    """Run one script and hand on the names it defines."""
+    """Run one script, once in a process, and hand on the names it defines."""
     return runpy.run_path(str(folder(kind) / f"{stem}.py"))

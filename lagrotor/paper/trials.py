@@ -64,8 +64,8 @@ def trials(stem: str) -> list[Trial]:
 
 
 def hear_all(progress: Callable[[str], None] | None = None, wanted: frozenset[str] | None = None) -> list[Result]:
-    """Every claim (or the wanted ones) in the paper's order. `progress` is called with each claim's id before its run."""
-    found = {trial.id: trial for stem in scripts.names("derivations") if stem.startswith("c") for trial in trials(stem)}
+    """Every claim (or the wanted ones) in the paper's order; `progress` is called with each claim's id before its run."""
+    found = {trial.id: trial for stem in scripts.names("derivations", "c") for trial in trials(stem)}
     results = []
     for identifier in claims():
         if identifier in found and (wanted is None or identifier in wanted):

@@ -20,9 +20,9 @@ import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 from sympy.polys.domains.domain import Domain
 
+from ..errors import InputError
 from ..mechanics.fourier import FourierSeries, constant
 from ..mechanics.perturbation import lindstedt_poincare
-from ..errors import InputError
 from ..symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from .lagrangians import INERTIAS, J_OF
 from .parameters import Scene

@@ -11,7 +11,7 @@ point masses at its ends have.
 """
 
 from functools import cache
-from math import cos, pi, sin, sqrt
+from math import cos, pi, sin
 
 import numpy as np
 import sympy as sp
@@ -121,11 +121,6 @@ def twist_safe(scene: Scene) -> bool:
     if scene.link is None:
         raise InputError("twist_safe: the scene has no bar: nothing couples the twist")
     return scene.link.inertia <= scene.link.mass * scene.link.length**2 / 4
-
-
-def shock_cone(displacement: float) -> float:
-    """rho of the precession after a short shock from rest: the sine of its centre's inclination (linear: the offset)."""
-    return displacement / sqrt(1 + displacement**2)
 
 
 def _equal(scene: Scene, angle: float, where: str) -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics import Constrained, coordinates
-from lagrotor.mechanics.fourier import FourierSeries, constant
+from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.mechanics.perturbation import lindstedt_poincare, linearise
 
 

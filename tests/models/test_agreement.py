@@ -172,6 +172,20 @@ def test_the_right_hand_sides_are_those_of_the_bodies(
     assert np.abs(oracle(faster) - expected).max() > 1e-6 or hypot(*scene.rates[0]) < 0.1
 
 
+@pytest.mark.parametrize("name", ["folding over", "folding over, heavy"])
+def test_a_scene_may_start_folded_over(name: str) -> None:
+    """Where the twist has turned back, the curve's parameter must come from the other branch."""
+    run = run_of(name, "spheres")
+    scene = run.scene
+    for i in range(0, len(TIMES), 2):
+        here = Scene(scene.spins, scene.rotor, scene.link, axes=run.axes[:, i], rates=run.rates[:, i])
+        seen = minimal.MODEL.observe(here, np.array([minimal.MODEL.start(here)]))
+        assert seen.axes[:, 0] == pytest.approx(run.axes[:, i], abs=1e-9)
+        assert seen.rates[:, 0] == pytest.approx(run.rates[:, i], abs=1e-7)
+        expected = oracle(here)
+        assert accelerations(minimal, here) == pytest.approx(expected, abs=1e-6 * (1 + np.abs(expected).max()))
+
+
 @settings(max_examples=5, deadline=None)
 @given(seed=st.integers(0, 10**6), k=st.sampled_from([0.8, 1.0, 1.4]), massive=st.booleans())
 def test_random_scenes_agree(seed: int, k: float, massive: bool) -> None:

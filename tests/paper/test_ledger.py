@@ -42,7 +42,10 @@ def test_a_condition_is_used_only_where_it_is_needed() -> None:
 
 def test_an_order_is_found_and_held_to_what_is_claimed() -> None:
     cosine = Relation(1 - x**2 / 2, sp.cos(x), x, 2)
-    assert (judge(Statement("5.01", (cosine,))).verdict, judge(Statement("5.01", (cosine,))).order) == ("holds-to-order", 3)
+    assert (judge(Statement("5.01", (cosine,))).verdict, judge(Statement("5.01", (cosine,))).order) == (
+        "holds-to-order",
+        3,
+    )
     too_much = Relation(1 - x**2 / 2, sp.cos(x), x, 4)
     refused = judge(Statement("5.01", (too_much,)))
     assert (refused.verdict, refused.order) == ("refuted", 3)

@@ -1,0 +1,236 @@
+"""Motion: a run as a GIF or an MP4, with its wheels, the bar, and the paths of the tips."""
+
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import IO, Any, Self
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from ..errors import InputError, LagrotorError
+from ..numerics.attitude import Array, between_samples, body_rotations
+from ..numerics.files import write_beside
+from ..numerics.trajectory import Trajectory
+from ..rotors.parameters import Scene
+from .style import paper_style
+from .wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
+
+SUFFIXES = (".gif", ".mp4")
+FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
+SIZE = (720, 420)  # of a frame, in pixels; even, as MP4 wants them
+SPOKES, ARCS = 5, 8  # few spokes, so that a turn of 0.4 rad from frame to frame is not seen as one backwards
+LONGEST = 600  # s of a film
+_DPI = 100
+Pixels = NDArray[np.uint8]
+
+
+def check_target(path: Path, fps: float) -> None:
+    """Raises InputError unless a film of `fps` frames per second can be written to `path`."""
+    if path.suffix not in SUFFIXES:
+        raise InputError(f"animate: {path}: the name must end in .gif or .mp4")
+    if path.is_dir():
+        raise InputError(f"animate: {path} is a folder: give a file")
+    if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
+        raise InputError("animate: an .mp4 needs the program ffmpeg, which is not here: install it, or write a .gif")
+    if not (isfinite(fps) and 1 <= fps <= FASTEST):
+        raise InputError(f"animate: fps = {fps:g} must lie between 1 and {FASTEST:g} frames per second")
+
+
+def frame_times(run: Trajectory, fps: float) -> Array:
+    """Times of the frames (m,) in s, 1/fps apart from the run's first time to its last."""
+    if len(run.t) < 2 or run.t[-1] - run.t[0] > LONGEST:
+        raise InputError(f"animate: the run must hold two times at least and last {LONGEST} s at most")
+    count = int(np.floor((run.t[-1] - run.t[0]) * fps * (1 + 1e-12))) + 1
+    return np.minimum(run.t[0] + np.arange(count) / fps, run.t[-1])
+
+
+def animate(
+    run: Trajectory, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
+) -> Path:
+    """Write `run` at its own speed as a film of `fps` frames per second: `.gif`, or `.mp4` where ffmpeg is there.
+
+    Left, the pair from the side with its wheels (drawn, not to the inertia's scale), one spoke marked so that the spin
+    is seen; right, the paths of the tips from above. `step` is told each second of the film as it begins.
+
+    Raises InputError for a name, a folder or a rate that will not do, before anything is drawn; LagrotorError when
+    ffmpeg fails. A file is written whole or not at all.
+    """
+    target = Path(path)
+    check_target(target, fps)
+    times = frame_times(run, fps)
+    drawn = _told(_frames(run, times), fps, step)
+    if target.suffix == ".gif":
+        return write_beside(target, lambda file: _write_gif(file, drawn, fps))
+    return write_beside(target, lambda file: _write_mp4(file, drawn, fps))
+
+
+def _told(frames: Iterator[Pixels], fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
+    second = -1
+    for i, frame in enumerate(frames):
+        if int(i / fps) > second:
+            second = int(i / fps)
+            step(f"second {second + 1}")
+        yield frame
+
+
+def _write_gif(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
+    """Frames in one palette, so that nothing flickers; durations in hundredths of a second whose sum is right."""
+    from PIL import Image
+
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(_palette().ravel().tolist())
+    images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    # Two neighbours that are the same become one frame that lasts as long as both.
+    ends = 10 * np.rint(100 / fps * np.arange(2 + fps * LONGEST)).astype(int)
+    next(images).save(
+        file, "GIF", save_all=True, append_images=images, duration=np.diff(ends).tolist(), loop=0, optimize=False
+    )
+
+
+def _palette() -> Pixels:
+    """Every ink in steps from white to itself, (k, 3), k ≤ 256: all that anti-aliasing can make of it on white."""
+    inks = np.array([to_rgb(ink) for ink in (INK, ROTORS[0], ROTORS[1], BAR, MARK, GROUND)])
+    share = np.linspace(0, 1, 42)[:, None, None]
+    return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
+
+
+def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
+    """Through ffmpeg's standard input and output; a fragmented MP4, as a pipe cannot be wound back."""
+    width, height = SIZE
+    command = ["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
+    command += ["-r", f"{fps:g}", "-i", "pipe:0", "-an", "-c:v", "libx264", "-pix_fmt", "yuv420p"]
+    command += ["-movflags", "frag_keyframe+empty_moov", "-f", "mp4", "pipe:1"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=file, stderr=subprocess.PIPE) as ffmpeg:
+        assert ffmpeg.stdin and ffmpeg.stderr
+        try:
+            for frame in frames:
+                ffmpeg.stdin.write(frame.tobytes())
+            ffmpeg.stdin.close()
+        except BrokenPipeError:
+            pass
+        except BaseException:
+            ffmpeg.kill()
+            raise
+        said = ffmpeg.stderr.read().decode(errors="replace").strip()
+    if ffmpeg.returncode:
+        raise LagrotorError(f"animate: ffmpeg failed ({said or ffmpeg.returncode}): write a .gif instead")
+
+
+def _frames(run: Trajectory, times: Array) -> Iterator[Pixels]:
+    """The frames (height, width, 3). What stands still is drawn once; of the rest only the data change."""
+    moving = Motion.of(run, times)
+    with paper_style():
+        figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
+        canvas = FigureCanvasAgg(figure)
+        side, above = figure.subplots(1, 2, width_ratios=(1.5, 1))
+        update = _Stage(moving, side, above)
+        canvas.draw()
+        still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
+        for i in range(len(times)):
+            canvas.restore_region(still)  # type: ignore[no-untyped-call]
+            for artist in update(i):
+                artist.axes.draw_artist(artist)
+            yield np.asarray(canvas.buffer_rgba())[..., :3]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What is drawn, at the times t (m,) in s: rotations (2, m, 3, 3), tips and centres (2, m, 3), joints (2, 3) in m."""
+
+    scene: Scene
+    t: Array
+    rotations: Array
+    tips: Array
+    centres: Array
+    joints: Array
+
+    @classmethod
+    def of(cls, run: Trajectory, times: Array) -> Self:
+        """The run between its samples: axes by Hermite cubics, the bodies turned along samples and frames together."""
+        dense = np.union1d(run.t, times)
+        axes, rates = between_samples(run.t, run.axes, run.rates, dense)
+        spins = run.momenta[:, 0] / run.scene.rotor.I3
+        at = np.searchsorted(dense, times)
+        rotations = body_rotations(dense, axes, rates, spins)[:, at]
+        reach = run.scene.rotor.length * axes[:, at]
+        feet = run.joints[:, None, :]
+        return cls(run.scene, times, rotations, feet + reach, feet + reach / 2, run.joints)
+
+
+class _Stage:
+    """The artists, and how they follow the motion: call with a frame's number for those to draw."""
+
+    def __init__(self, moving: Motion, side: Axes, above: Axes) -> None:
+        self.moving, self.camera, length = moving, Camera(), moving.scene.rotor.length
+        self.points, self.segments = wheel(RADIUS * length, length, SPOKES, ARCS)
+        self.paths = self.camera(moving.tips)
+        self._still(side, above, RADIUS * length)
+
+        def line(axes: Axes, colour: Any, width: float, **more: Any) -> Line2D:
+            return axes.plot([], [], color=colour, linewidth=width, animated=True, solid_capstyle="round", **more)[0]
+
+        self.traces = [line(side, ink, 1.2) for ink in ROTORS]
+        self.traces_above = [line(above, ink, 1.2) for ink in ROTORS]
+        self.bar = line(side, BAR, 4.0) if moving.scene.link else None
+        self.bar_above = line(above, BAR, 3.0) if moving.scene.link else None
+        self.wheels = [LineCollection([], colors=[ink], linewidths=1.3, animated=True) for ink in ROTORS]
+        for drawn in self.wheels:
+            side.add_collection(drawn)
+        self.marks = [line(side, MARK, 3.0) for _ in ROTORS]
+        self.axes = [line(side, INK, 2.4) for _ in ROTORS]
+        self.ends = [line(axes, INK, 0, marker="o", markersize=5) for axes in (side, above)]
+        self.clock = side.text(0.02, 0.98, "", transform=side.transAxes, va="top", animated=True, fontsize=11)
+
+    def _still(self, side: Axes, above: Axes, radius: float) -> None:
+        moving, up = self.moving, self.camera
+        rim = up(carried(self.points, moving.rotations[:, :: max(len(moving.t) // 200, 1)].reshape(-1, 3, 3),
+                         moving.centres[:, :: max(len(moving.t) // 200, 1)].reshape(-1, 3)))  # fmt: skip
+        seen = np.vstack([rim.reshape(-1, 2), self.paths.reshape(-1, 2), up(moving.joints)])
+        low, high = seen.min(0), seen.max(0)
+        room = 0.08 * (high - low).max()
+        side.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + 2.5 * room), aspect="equal")
+        side.axis("off")
+        side.plot(*up(moving.joints).T, color=GROUND, linewidth=2, zorder=0)
+        side.plot(*up(moving.joints).T, "^", color=INK, markersize=9, zorder=0)
+        for spin, ink, name, place in zip(moving.scene.spins, ROTORS, "12", (0.02, 0.52), strict=True):
+            side.text(place, 0.0, f"rotor {name}: ω = {spin:g} rad/s", color=ink, transform=side.transAxes, fontsize=10)
+        flat = moving.tips[..., :2].reshape(-1, 2)
+        middle, half = (flat.max(0) + flat.min(0)) / 2, 0.55 * max(np.ptp(flat, axis=0).max(), 1.2 * radius)
+        above.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal")
+        above.set(xlabel="x [m]", ylabel="y [m]", title="tips from above")
+
+    def __call__(self, i: int) -> list[Artist]:
+        moving = self.moving
+        order = np.argsort(self.camera.depth(moving.centres[:, i]))
+        points = self.camera(carried(self.points, moving.rotations[:, i], moving.centres[:, i]))
+        spokes = len(self.points) - 2
+        drawn: list[Artist] = []
+        for k in (0, 1):
+            self.traces[k].set_data(*self.paths[k, : i + 1].T)
+            self.traces_above[k].set_data(*moving.tips[k, : i + 1, :2].T)
+            self.wheels[k].set_segments(list(points[k][self.segments[:-1]]))
+            self.marks[k].set_data(*points[k][[0, spokes + 1]].T)
+            self.axes[k].set_data(*points[k][self.segments[-1]].T)
+        tips = self.paths[:, i]
+        self.ends[0].set_data(*tips.T)
+        self.ends[1].set_data(*moving.tips[:, i, :2].T)
+        drawn += [*self.traces, *self.traces_above]
+        for bar, ends in ((self.bar, tips), (self.bar_above, moving.tips[:, i, :2])):
+            if bar is not None:
+                bar.set_data(*ends.T)
+                drawn.append(bar)
+        for k in order:
+            drawn += [self.wheels[k], self.axes[k], self.marks[k]]
+        self.clock.set_text(f"t = {moving.t[i]:5.2f} s")
+        return [*drawn, *self.ends, self.clock]
