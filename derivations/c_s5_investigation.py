@@ -41,7 +41,7 @@ def angle(run):
 # ## C10: no spin
 #
 # The paper's program for its 8 s after a shock along x, as in figure 10; and the exact pair with the same shock along y.
-# Toppled: an axis is more than 90° from upright. Turning about the line through the two grounds (the x axis) is an angle
+# The paper does not say which shock figure 11 has. Toppled: an axis is more than 90° from upright. Turning about the line through the two grounds (the x axis) is an angle
 # in the y-z plane.
 
 
@@ -67,7 +67,7 @@ def decide_c10(m):
     how = (
         f"After a shock along x the pair topples in the X-Z plane, {m['shock_along_x_turned_in_XZ_rad']:.2f} rad within 8 s at "
         f"{m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f}), each "
-        f"rotor about its own ground: y stays below {m['shock_along_x_largest_y']:.0e}, nothing turns about the line through the "
+        f"rotor about its own ground: |y| is {m['shock_along_x_largest_y']:.0e} at most, so nothing turns about the line through the "
         f"grounds. After a shock along y it does: {m['shock_along_y_turned_about_joint_line_rad']:.2f} rad within 6 s."
     )
     topples = m["shock_along_x_tilt_deg"] > 90 and m["shock_along_y_tilt_deg"] > 90
@@ -82,7 +82,7 @@ def decide_c10(m):
 # ## C11: stability in x
 #
 # For each sign and direction of the paper's shock: how far x goes within the paper's 8 s, when it has fallen, and how far
-# the pair has turned about the joint line. Then the same for other shocks: the powers with which those times go.
+# the pair has turned about the joint line (less than 0.1 rad, 6°, would not be seen as toppling). Then the same for other shocks: the powers with which those times go.
 
 # %%
 PAPER_SHOCKS = {"+x": (50, 0, 0), "-x": (-50, 0, 0), "+y": (0, 50, 0), "-y": (0, -50, 0)}

@@ -21,8 +21,8 @@ TITLE = "Corrected trajectories of the pair"
 ALT = (
     "Top view: round each ground joint the exact closed orbit with the series of order 3 on top of it, and the paper's "
     "corrected curve, displaced outwards by about 0.04 m. Below, on a logarithmic scale, the "
-    "distance from the exact tip over one turn: about 0.03 to 0.04 m for the paper, several millimetres for order 2, about "
-    "a millimetre for order 3."
+    "distance from the exact tip over one turn: about 0.04 m for the paper, up to several millimetres for order 2, about "
+    "two millimetres for order 3."
 )
 
 
@@ -64,7 +64,7 @@ CAPTION = (
 def figure() -> Figure:
     """Top view, and the distance from the exact orbit."""
     d = data()
-    picture = Figure(figsize=(7.0, 6.6))
+    picture = Figure(figsize=(7.0, 6.2))
     top, residual = picture.subplots(2, 1, height_ratios=(1.4, 1))
     for i in (0, 1):
         first = i == 0
@@ -81,7 +81,7 @@ def figure() -> Figure:
     residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTED, ls=":", label="corrected series, order 2")
     residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTED)
     residual.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
-    residual.set_ylim(1e-5, 0.2)
+    residual.set_ylim(5e-5, 0.2)
     residual.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
     picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)

@@ -20,8 +20,8 @@ R0, TOL = 0.5, 1e-11
 
 TITLE = "Corrected trajectories at a large oscillation"
 ALT = (
-    "Top view: the exact orbits are closed curves of half-width 0.5 m, displaced towards each other; the paper's curves "
-    "are far outside, pinched on one side and up to 0.75 m wide on the other. The series of order 3 leaves the exact "
+    "Top view: the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin; the paper's "
+    "curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 leaves the exact "
     "orbit visibly, that of order 9 covers it. Below, on a logarithmic scale: distances near 0.3 m for the paper, some "
     "centimetres for order 3, millimetres for order 9."
 )
@@ -82,7 +82,7 @@ CAPTION = (
 def figure() -> Figure:
     """Top view, and the distance from the exact orbit."""
     d = data()
-    picture = Figure(figsize=(7.0, 7.6))
+    picture = Figure(figsize=(7.0, 7.3))
     top, residual = picture.subplots(2, 1, height_ratios=(2, 1))
     curves = (
         ("paper", PAPER, "-", 1.6, "paper's correction (5.20)"),

@@ -45,8 +45,10 @@ def linearise(system: Constrained, at: Mapping[sp.Symbol, Any], forces: Sequence
         raise SingularError(f"linearise: {dict(at)} is no equilibrium: a force is left over; start from one")
     tangent = jacobian(system.g, c).subs(still).nullspace()
     basis = sp.Matrix.hstack(*tangent) if system.g else sp.eye(len(c.q))
-    parts = (basis.T * motion.jacobian(list(names)).subs(still) * basis for names in (c.a, c.v, c.q))
-    return LinearSystem(*(part.applyfunc(sp.factor) for part in parts), basis)
+    mass, gyroscopic, stiffness = (
+        (basis.T * motion.jacobian(list(names)).subs(still) * basis).applyfunc(sp.factor) for names in (c.a, c.v, c.q)
+    )
+    return LinearSystem(mass, gyroscopic, stiffness, basis)
 
 
 @dataclass(frozen=True)

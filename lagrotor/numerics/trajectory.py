@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +12,9 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..rotors.parameters import Scene
 from .files import write_beside
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -78,6 +83,37 @@ class Trajectory:
     def azimuths(self) -> Array:
         """Azimuths phi_i of the axes, unwrapped, (2, n), in rad."""
         return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)
+
+    def plot(self) -> "Figure":
+        """A figure: tips over time and from above, energy and length of the bar over time."""
+        from ..report.run_figure import run_figure
+
+        return run_figure(self)
+
+    def animate(self, path: str | Path, fps: float = 25.0) -> Path:
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.report.animate`."""
+        from ..report.animate import animate
+
+        return animate(self, path, fps)
+
+    def summary(self) -> dict[str, str]:
+        """What the run is and how well it kept what it should keep, name → words."""
+        first, last = float(self.energy[0]), float(self.energy[-1])
+        scene, bar, shock = self.scene, self.scene.link, self.scene.shock
+        return {
+            "spins [rad/s]": f"{scene.spins[0]:g}, {scene.spins[1]:g}",
+            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
+            "shock": f"{shock.force} N on rotor {shock.body} at {shock.at:g} s" if shock else "none",
+            "model": f"{self.model}: {self.why}",
+            "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
+            "evaluations": str(self.evaluations),
+            "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
+            "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if bar else "none",
+        }
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self.summary().items())
+        return f"<table><caption>Trajectory</caption>{rows}</table>"
 
     def save(self, path: str | Path) -> Path:
         """Write `.npz` (t, axes, rates, tips, energy, link_length, momenta, P) or `.csv` (a column a component)."""

@@ -8,7 +8,7 @@ the condition under which they may agree, the small quantity in which they may o
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
@@ -17,7 +17,7 @@ from ..errors import NotExactError
 from .catalogue import equation
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
-Side = sp.Expr | sp.MatrixBase
+Side: TypeAlias = Any  # a sympy expression or matrix
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
 

@@ -4,7 +4,6 @@ import shutil
 import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import IO, Any, Self
 
@@ -35,24 +34,25 @@ _DPI = 100
 Pixels = NDArray[np.uint8]
 
 
-def check_target(path: Path, fps: float) -> None:
-    """Raises InputError unless a film of `fps` frames per second can be written to `path`."""
+def check_film(path: Path, duration: float, fps: float) -> None:
+    """Raises InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
     if path.suffix not in SUFFIXES:
         raise InputError(f"animate: {path}: the name must end in .gif or .mp4")
     if path.is_dir():
         raise InputError(f"animate: {path} is a folder: give a file")
     if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
         raise InputError("animate: an .mp4 needs the program ffmpeg, which is not here: install it, or write a .gif")
-    if not (isfinite(fps) and 1 <= fps <= FASTEST):
+    if not 1 <= fps <= FASTEST:
         raise InputError(f"animate: fps = {fps:g} must lie between 1 and {FASTEST:g} frames per second")
+    if not 1 / fps <= duration <= LONGEST:
+        raise InputError(
+            f"animate: {duration:g} s: a film lasts one frame ({1 / fps:g} s) at least, {LONGEST} s at most"
+        )
 
 
-def frame_times(run: Trajectory, fps: float) -> Array:
-    """Times of the frames (m,) in s, 1/fps apart from the run's first time to its last."""
-    if len(run.t) < 2 or run.t[-1] - run.t[0] > LONGEST:
-        raise InputError(f"animate: the run must hold two times at least and last {LONGEST} s at most")
-    count = int(np.floor((run.t[-1] - run.t[0]) * fps * (1 + 1e-12))) + 1
-    return np.minimum(run.t[0] + np.arange(count) / fps, run.t[-1])
+def frame_times(begin: float, end: float, fps: float) -> Array:
+    """Times of the frames (m,) in s, 1/fps apart from `begin` to `end`, both counted where the last falls on it."""
+    return np.minimum(begin + np.arange(int((end - begin) * fps * (1 + 1e-12)) + 1) / fps, end)
 
 
 def animate(
@@ -67,11 +67,11 @@ def animate(
     ffmpeg fails. A file is written whole or not at all.
     """
     target = Path(path)
-    check_target(target, fps)
-    times = frame_times(run, fps)
+    check_film(target, float(run.t[-1] - run.t[0]), fps)
+    times = frame_times(run.t[0], run.t[-1], fps)
     drawn = _told(_frames(run, times), fps, step)
     if target.suffix == ".gif":
-        return write_beside(target, lambda file: _write_gif(file, drawn, fps))
+        return write_beside(target, lambda file: _write_gif(file, drawn, len(times), fps))
     return write_beside(target, lambda file: _write_mp4(file, drawn, fps))
 
 
@@ -84,7 +84,7 @@ def _told(frames: Iterator[Pixels], fps: float, step: Callable[[str], None]) -> 
         yield frame
 
 
-def _write_gif(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
+def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float) -> None:
     """Frames in one palette, so that nothing flickers; durations in hundredths of a second whose sum is right."""
     from PIL import Image
 
@@ -92,16 +92,16 @@ def _write_gif(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
     palette.putpalette(_palette().ravel().tolist())
     images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
     # Two neighbours that are the same become one frame that lasts as long as both.
-    ends = 10 * np.rint(100 / fps * np.arange(2 + fps * LONGEST)).astype(int)
+    ends = 10 * np.rint(100 / fps * np.arange(count + 1)).astype(int)
     next(images).save(
         file, "GIF", save_all=True, append_images=images, duration=np.diff(ends).tolist(), loop=0, optimize=False
     )
 
 
 def _palette() -> Pixels:
-    """Every ink in steps from white to itself, (k, 3), k ≤ 256: all that anti-aliasing can make of it on white."""
+    """Every ink in steps from white to itself, (144, 3): what anti-aliasing makes of it on white."""
     inks = np.array([to_rgb(ink) for ink in (INK, ROTORS[0], ROTORS[1], BAR, MARK, GROUND)])
-    share = np.linspace(0, 1, 42)[:, None, None]
+    share = np.linspace(0, 1, 24)[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
 
 
@@ -112,7 +112,8 @@ def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
     command += ["-r", f"{fps:g}", "-i", "pipe:0", "-an", "-c:v", "libx264", "-pix_fmt", "yuv420p"]
     command += ["-movflags", "frag_keyframe+empty_moov", "-f", "mp4", "pipe:1"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=file, stderr=subprocess.PIPE) as ffmpeg:
-        assert ffmpeg.stdin and ffmpeg.stderr
+        assert ffmpeg.stdin
+        assert ffmpeg.stderr
         try:
             for frame in frames:
                 ffmpeg.stdin.write(frame.tobytes())
@@ -135,13 +136,13 @@ def _frames(run: Trajectory, times: Array) -> Iterator[Pixels]:
         canvas = FigureCanvasAgg(figure)
         side, above = figure.subplots(1, 2, width_ratios=(1.5, 1))
         update = _Stage(moving, side, above)
-        canvas.draw()
+        canvas.draw()  # type: ignore[no-untyped-call]
         still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
         for i in range(len(times)):
             canvas.restore_region(still)  # type: ignore[no-untyped-call]
             for artist in update(i):
-                artist.axes.draw_artist(artist)
-            yield np.asarray(canvas.buffer_rgba())[..., :3]
+                side.draw_artist(artist)  # which hands it to the figure's renderer: any of the figure's axes will do
+            yield np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])  # type: ignore[no-untyped-call]
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,11 +205,19 @@ class _Stage:
         side.plot(*up(moving.joints).T, color=GROUND, linewidth=2, zorder=0)
         side.plot(*up(moving.joints).T, "^", color=INK, markersize=9, zorder=0)
         for spin, ink, name, place in zip(moving.scene.spins, ROTORS, "12", (0.02, 0.52), strict=True):
-            side.text(place, 0.0, f"rotor {name}: ω = {spin:g} rad/s", color=ink, transform=side.transAxes, fontsize=10)
+            side.text(
+                place,
+                0.0,
+                f"rotor {name}: ω = {spin:g} rad/s".replace("-", "−"),
+                color=ink,
+                transform=side.transAxes,
+                fontsize=10,
+            )
         flat = moving.tips[..., :2].reshape(-1, 2)
         middle, half = (flat.max(0) + flat.min(0)) / 2, 0.55 * max(np.ptp(flat, axis=0).max(), 1.2 * radius)
         above.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal")
         above.set(xlabel="x [m]", ylabel="y [m]", title="tips from above")
+        above.locator_params(nbins=6)
 
     def __call__(self, i: int) -> list[Artist]:
         moving = self.moving

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -83,6 +84,10 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
 
+    added = command("claims", _claims, "put the paper's claims on trial", "lagrotor claims C08 C22 --json")
+    added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
+
     added = command("figure", _figure, "draw figures of the paper as SVG and PNG", "lagrotor figure 17 18 --out .")
     added.add_argument("numbers", nargs="+", type=int, metavar="N", help="the paper's figure number")
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
@@ -102,6 +107,23 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--out", type=Path, metavar="FILE", help="write .npz or .csv instead of showing a table")
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
+    from ..rotors.scenes import SCENES
+
+    added = command(
+        "animate",
+        _animate,
+        "write a ready scene's motion as GIF or MP4",
+        "lagrotor animate free-precession --out pair.gif",
+    )
+    says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
+    added.epilog = f"scenes:\n{says}\n\n{added.epilog}"
+    added.add_argument("scene", choices=SCENES, metavar="SCENE", help="one of the scenes below")
+    added.add_argument(
+        "--out", type=Path, metavar="FILE", help="a .gif, or an .mp4 by ffmpeg (default: SCENE.gif here)"
+    )
+    added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
+    added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
+
     added = command(
         "rate", _rate, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
     )
@@ -120,20 +142,23 @@ def _reproduce(given: argparse.Namespace) -> int:
         report = reproduce(given.out, step)
     counts = ", ".join(f"{count} {word(answer)}" for answer, count in report.counts.items())
     print(f"{len(report.verdicts)} equations judged: {counts or 'none'}; {len(report.waiting)} not yet judged")
+    if report.claims:
+        told = Counter(word(result.finding.outcome) for result in report.claims)
+        print(f"{len(report.claims)} claims tried: {', '.join(f'{n} {outcome}' for outcome, n in told.items())}")
     print(f"{len(report.pictures)} figures drawn; {report.seconds:.1f} s; report: {given.out / 'index.html'}")
     return _compared(list(report.changes), recorded())
 
 
 def _audit(given: argparse.Namespace) -> int:
     from ..paper import audit, scripts
-    from ..paper.catalogue import equation
+    from ..paper.catalogue import equation, equations
     from .content import note, word
-    from .reproduce import changes, recorded
+    from .reproduce import changes, outcomes, recorded
     from .terminal import progress, table
 
     for identifier in given.ids:
         equation(identifier)
-    with progress(len(scripts.names("derivations"))) as step:
+    with progress(len(scripts.names("derivations", "s"))) as step:
         verdicts = audit.audit(step)
     judged = {verdict.id for verdict in verdicts}
     if waiting := [i for i in given.ids if i not in judged]:
@@ -145,7 +170,28 @@ def _audit(given: argparse.Namespace) -> int:
         rows = [(v.id, word(v.verdict), ": ".join(filter(None, (equation(v.id).title, note(v))))) for v in shown]
         print(table(("id", "verdict", "equation: order or condition"), rows))
     on_record = recorded()
-    return _compared(changes(verdicts, on_record, given.ids), on_record)
+    return _compared(changes(outcomes(shown), on_record, given.ids or equations()), on_record)
+
+
+def _claims(given: argparse.Namespace) -> int:
+    from ..paper import trials
+    from ..paper.catalogue import claims
+    from .content import word
+    from .reproduce import changes, outcomes, recorded
+    from .terminal import progress, table
+
+    if unknown := [i for i in given.ids if i not in claims()]:
+        raise InputError(f"claim {unknown[0]!r} is not in the catalogue: ids run from C01 to C{len(claims()):02d}")
+    wanted = frozenset(given.ids or claims())
+    with progress(len(wanted)) as step:
+        results = trials.hear_all(step, wanted)
+    if given.json:
+        print(trials.to_json(results))
+    else:
+        rows = [(r.trial.id, word(r.finding.outcome), r.finding.explanation) for r in results]
+        print(table(("id", "outcome", "what was measured"), rows))
+    on_record = recorded()
+    return _compared(changes(outcomes(heard=results), on_record, wanted), on_record)
 
 
 def _compared(changes: list[str], on_record: dict[str, str] | None) -> int:
@@ -167,6 +213,28 @@ def _figure(given: argparse.Namespace) -> int:
             step(f"figure {number}")
             picture = draw(number, given.out)
             print(picture.svg, picture.png, sep="\n")
+    return 0
+
+
+def _animate(given: argparse.Namespace) -> int:
+    from ..rotors.scenes import SCENES
+    from .animate import animate, check_film
+    from .terminal import progress
+
+    ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
+    t_end = ready.duration if given.t_end is None else given.t_end
+    check_film(target, t_end, given.fps)
+    check_folder(target.parent)
+
+    import numpy as np
+
+    from ..models.simulate import simulate
+
+    with progress(1 + math.ceil(t_end)) as step:
+        step("motion")
+        run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
+        animate(run, target, given.fps, step)
+    print(target)
     return 0
 
 

@@ -10,6 +10,7 @@ import sympy as sp
 
 from ..paper.catalogue import Equation, equation, equations
 from ..paper.ledger import Relation, Verdict
+from ..paper.trials import Result
 from .figures import Picture
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
@@ -22,18 +23,25 @@ MEANINGS = {
     "refuted": "they differ; the correction, where there is one, is judged by the same rules",
     "measured": "a number read off a run, beside what it should have been",
     "definition": "the line only gives a name",
+    "confirmed": "a claim that its own run bears out",
+    "confirmed-if": "a claim that holds under the condition that is named",
     "undecided": "outside what can be decided exactly; numbers are given as evidence",
 }
 
 
 @dataclass(frozen=True)
 class Report:
-    """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each."""
+    """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
+
+    claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides.
+    """
 
     verdicts: tuple[Verdict, ...]
     pictures: tuple[Picture, ...]
     changes: tuple[str, ...]
     seconds: float
+    claims: tuple[Result, ...] = ()
+    findings: tuple[tuple[str, str], ...] = ()
 
     @property
     def waiting(self) -> list[Equation]:

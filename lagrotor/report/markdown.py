@@ -5,10 +5,12 @@ from collections.abc import Iterable
 
 import sympy as sp
 
-from ..paper.catalogue import equation
+from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
+from ..paper.trials import Result
 from ..symbols import latex
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
+from .errata import errata
 from .figures import Picture
 
 
@@ -18,6 +20,13 @@ def markdown(report: Report) -> str:
     for section, verdicts in report.sections.items():
         blocks.append(f"## Section {section}")
         blocks += [_equation(verdict, report) for verdict in verdicts]
+    blocks += errata_blocks(report.verdicts)
+    if report.claims:
+        blocks.append("## Claims")
+        blocks += [_claim(result) for result in report.claims]
+    if report.findings:
+        blocks.append("## Findings")
+        blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.findings]
     if report.pictures:
         blocks.append("## Figures")
         blocks += [_picture(picture) for picture in report.pictures]
@@ -66,6 +75,32 @@ def _fact(fact: Fact) -> str:
     words += [f"${latex(letter)}$" for letter in fact.formulas if letter.is_Symbol]
     line = f"**{fact.label}:** " + " ".join(filter(None, words))
     return "\n\n".join([line.rstrip(), *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol)])
+
+
+def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
+    """The errata sheet as Markdown blocks; none when nothing is refuted."""
+    blocks = []
+    for e in errata(verdicts):
+        used = ", ".join(f"[{i}](#{_anchor(i)})" for i in e.used_by) or "none"
+        blocks += [
+            f"### Erratum {e.id} {_prose(e.title)}",
+            _prose(e.wrong),
+            "Printed:",
+            _display(e.printed),
+            f"Correct ({e.verdict_of_correction}):",
+            *map(_display, e.corrected),
+            f"Used by: {used}; {e.reach}.",
+        ]
+    return ["## Errata", *blocks] if blocks else []
+
+
+def _claim(result: Result) -> str:
+    entry, finding = claims()[result.trial.id], result.finding
+    parts = [f"### {entry.id}: {word(finding.outcome)}", f"> {_prose(entry.text)}", _prose(finding.explanation)]
+    if finding.condition:
+        parts.append(f"**If:** {_prose(finding.condition)}")
+    rows = [(_prose(name.replace("_", " ")), f"{value:.6g}") for name, value in result.measured.items()]
+    return "\n\n".join([*parts, _rows((f"Measured ({_prose(result.trial.model)})", "Value"), rows)])
 
 
 def _picture(picture: Picture) -> str:

@@ -1,15 +1,18 @@
 """The report as one HTML page that needs nothing else: style, formulas and figures are inside it."""
 
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 
 import sympy as sp
 
-from ..paper.catalogue import equation
+from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
+from ..paper.trials import Result
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
+from .errata import Erratum, errata
 from .figures import Picture
 from .mathml import mathml
 
@@ -24,6 +27,10 @@ def page(report: Report) -> str:
     """The whole report."""
     sections = [(f"section-{name}", f"Section {name}", verdicts) for name, verdicts in report.sections.items()]
     links = [(anchor, heading) for anchor, heading, _ in sections]
+    sheet = list(errata(report.verdicts))
+    links += [("errata", "Errata")] * bool(sheet)
+    links += [("claims", "Claims")] * bool(report.claims)
+    links += [("findings", "Findings")] * bool(report.findings)
     links += [("figures", "Figures")] * bool(report.pictures)
     links += [("waiting", "Not yet judged")] * bool(report.waiting)
     links.append(("made", "How this was made"))
@@ -36,6 +43,14 @@ def page(report: Report) -> str:
     for anchor, heading, verdicts in sections:
         body.append(f'<h2 id="{anchor}">{escape(heading)}</h2>')
         body += [_equation(verdict, report) for verdict in verdicts]
+    if sheet:
+        body += ['<h2 id="errata">Errata</h2>', _errata(sheet, report)]
+    if report.claims:
+        body.append('<h2 id="claims">Claims</h2>')
+        body += [_claim(result) for result in report.claims]
+    if report.findings:
+        body.append('<h2 id="findings">Findings</h2>')
+        body += [f"<h3>{escape(title)}</h3><p>{escape(text)}</p>" for title, text in report.findings]
     if report.pictures:
         body.append('<h2 id="figures">Figures</h2>')
         body += [_picture(picture) for picture in report.pictures]
@@ -68,6 +83,10 @@ def _summary(report: Report) -> str:
             f'<li><b>{len(report.waiting)}</b> <span class="badge">not yet judged</span> '
             "<span>no derivation states them so far</span></li>"
         )
+    outcomes = Counter(result.finding.outcome for result in report.claims)
+    if outcomes:
+        told = ", ".join(f"{count} {word(outcome)}" for outcome, count in outcomes.items())
+        items.append(f'<li><b>{len(report.claims)}</b> <span class="badge">claims</span> <span>{told}</span></li>')
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
     warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
     return f'<ul class="summary">{"".join(items)}</ul>{warning}'
@@ -107,6 +126,32 @@ def _fact(fact: Fact) -> str:
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
 
 
+def _errata(sheet: list[Erratum], report: Report) -> str:
+    corrections = {v.id: sides(v.statement.correction, "printed") for v in report.verdicts}
+    rows = [
+        (
+            _link(e.id),
+            f"{escape(e.wrong)} <small>Used by: {' '.join(map(_link, e.used_by)) or 'none'}; {escape(e.reach)}.</small>",
+            f"<pre><code>{escape(e.printed)}</code></pre>",
+            _formulas(corrections[e.id]) + f"<small>{escape(e.verdict_of_correction)}</small>",
+        )
+        for e in sheet
+    ]
+    return _rows(("Equation", "What was wrong", "Printed", "Correct"), rows, "errata")
+
+
+def _claim(result: Result) -> str:
+    entry, finding = claims()[result.trial.id], result.finding
+    rows = [(escape(name.replace("_", " ")), f"{value:.6g}") for name, value in result.measured.items()]
+    condition = f"<p><b>If:</b> {escape(finding.condition)}</p>" if finding.condition else ""
+    return (
+        f'<article id="claim-{entry.id}"><h3><span class="id">{entry.id}</span> {_badge(finding.outcome)}</h3>'
+        f"<blockquote>{escape(entry.text)}</blockquote><p>{escape(finding.explanation)}</p>{condition}"
+        f"<details><summary>Measured ({escape(result.trial.model)}, {result.seconds:.1f} s)</summary>"
+        f"{_rows(('What', 'Value'), rows)}</details></article>"
+    )
+
+
 def _picture(picture: Picture) -> str:
     as_svg = picture.svg.stat().st_size <= _LARGEST_SVG
     file, kind = (picture.svg, "svg+xml") if as_svg else (picture.png, "png")
@@ -123,6 +168,7 @@ def _made(report: Report) -> str:
     rows = [(escape(name), escape(number)) for name, number in versions().items()]
     rows += [
         ("Judging", f"{sum(v.seconds for v in report.verdicts):.1f} s"),
+        *([("Claims", f"{sum(c.seconds for c in report.claims):.1f} s")] if report.claims else []),
         *((f"Figure {p.number}", f"{p.seconds:.1f} s") for p in report.pictures),
         ("In all", f"{report.seconds:.1f} s"),
     ]

@@ -10,15 +10,26 @@ from pathlib import Path
 
 from ..errors import InputError, LagrotorError
 from ..numerics.files import write_text
-from ..paper import audit, catalogue, scripts
+from ..paper import audit, catalogue, scripts, trials
 from ..paper.ledger import Verdict
+from ..paper.trials import Result
 from . import figures
 from .content import Report
-from .markdown import markdown
+from .errata import latex_document
+from .markdown import errata_blocks, markdown
 from .page import page
 
 RECORDED = Path(catalogue.__file__).with_name("recorded.json")
-_HOLDS = {"index.html", "report.md", "verdicts.json", "measured.json", "figures"}
+_HOLDS = {
+    "index.html",
+    "report.md",
+    "verdicts.json",
+    "claims.json",
+    "measured.json",
+    "errata.md",
+    "errata.tex",
+    "figures",
+}
 
 
 def reproduce(target: Path, step: Callable[[str], None]) -> Report:
@@ -29,17 +40,24 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
     began = time.perf_counter()
     with replaced(target) as folder:
         verdicts = audit.audit(step)
+        heard = trials.hear_all(step)
+        findings = audit.findings("s")
         pictures = []
         (folder / "figures").mkdir()
         for number in sorted(figures.stems()):
             step(f"figure {number}")
             pictures.append(figures.draw(number, folder / "figures"))
         step("report")
-        changed = changes(verdicts, recorded())
-        report = Report(tuple(verdicts), tuple(pictures), tuple(changed), time.perf_counter() - began)
+        found = outcomes(verdicts, heard)
+        changed = changes(found, recorded())
+        seconds = time.perf_counter() - began
+        report = Report(tuple(verdicts), tuple(pictures), tuple(changed), seconds, tuple(heard), tuple(findings))
         write_text(folder / "index.html", page(report))
         write_text(folder / "report.md", markdown(report))
         write_text(folder / "verdicts.json", audit.to_json(verdicts) + "\n")
+        write_text(folder / "claims.json", trials.to_json(heard) + "\n")
+        write_text(folder / "errata.md", "\n\n".join(errata_blocks(verdicts)) + "\n")
+        write_text(folder / "errata.tex", latex_document(verdicts))
         measured = {picture.stem: picture.measured for picture in pictures}
         write_text(folder / "measured.json", json.dumps(measured, indent=1) + "\n")
     return report
@@ -47,7 +65,7 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
 
 def steps() -> int:
     """How many times `reproduce` calls its `step`."""
-    return len(scripts.names("derivations")) + len(figures.stems()) + 1
+    return len(scripts.names("derivations", "s")) + len(catalogue.claims()) + len(figures.stems()) + 1
 
 
 def recorded() -> dict[str, str] | None:
@@ -61,15 +79,19 @@ def recorded() -> dict[str, str] | None:
     return dict(found)
 
 
-def changes(verdicts: Iterable[Verdict], on_record: dict[str, str] | None, only: Iterable[str] = ()) -> list[str]:
-    """A sentence for each verdict that differs from the recorded one, of the ids in `only` or of all."""
+def outcomes(verdicts: Iterable[Verdict] = (), heard: Iterable[Result] = ()) -> dict[str, str]:
+    """Id → verdict or outcome, in the form that is recorded."""
+    return {v.id: v.verdict for v in verdicts} | {r.trial.id: r.finding.outcome for r in heard}
+
+
+def changes(found: dict[str, str], on_record: dict[str, str] | None, only: Iterable[str] = ()) -> list[str]:
+    """A sentence for each id in `only`, or of all, whose verdict differs from the recorded one."""
     if on_record is None:
         return []
-    found: dict[str, str] = {verdict.id: verdict.verdict for verdict in verdicts}
     asked = set(only) or found.keys() | on_record.keys()
     return [
         f"{i}: recorded {on_record.get(i, 'nothing')}, found {found.get(i, 'nothing')}"
-        for i in catalogue.equations()
+        for i in (*catalogue.equations(), *catalogue.claims())
         if i in asked and on_record.get(i) != found.get(i)
     ]
 

@@ -26,7 +26,9 @@ def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDA
     Raises InputError for a length not above zero, n below 3, arcs below 1.
     """
     if not (radius > 0 and axle > 0 and n >= 3 and arcs >= 1):
-        raise InputError(f"wheel: radius = {radius:g} m, axle = {axle:g} m must exceed 0, n = {n} be 3 at least, arcs 1")
+        raise InputError(
+            f"wheel: radius = {radius:g} m, axle = {axle:g} m must exceed 0, n = {n} be 3 at least, arcs 1"
+        )
     count = n * arcs
     angle = 2 * pi / count * np.arange(count)
     rim = radius * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])

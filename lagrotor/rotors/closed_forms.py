@@ -3,6 +3,7 @@
 Every expression is derived here from the Lagrangian; none is typed in.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -47,6 +48,12 @@ class ClosedForm:
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
         values = compile_program(Program(self.arguments, (), self.expressions), "numpy", doc)
         return values, tuple(sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain)
+
+    def _repr_latex_(self) -> str:
+        pairs = zip(self.outputs, self.expressions, strict=True)
+        named = ((re.sub("(?=Omega|phi|theta|sin)", r"\\", name), sp.latex(e)) for name, e in pairs)
+        lines = r" \\ ".join(f"{name} &= {expression}" for name, expression in named)
+        return rf"$\displaystyle \begin{{aligned}} {lines} \end{{aligned}}$"
 
     def __call__(self, *values: ArrayLike) -> NDArray[np.float64] | tuple[NDArray[np.float64], ...]:
         """The outputs at these argument values: one array, or a tuple where there are several outputs.

@@ -14,7 +14,7 @@ from .lagrangians import axes_pair
 from .orbit import evaluate, paired_series, shape_of
 from .parameters import Link, Rotor, Scene, Shock
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 
 def consistent_scene(

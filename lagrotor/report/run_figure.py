@@ -1,0 +1,43 @@
+"""A run at a glance: what `Trajectory.plot()` shows at a prompt."""
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .style import paper_style
+from .wheel import ROTORS
+
+if TYPE_CHECKING:
+    from ..numerics.trajectory import Trajectory
+
+
+def run_figure(run: "Trajectory") -> Figure:
+    """Tips x, y, z over time, from above, and the energy: five panels, a colour a rotor."""
+    with paper_style():
+        figure = Figure(figsize=(9.0, 6.0))
+        panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
+        for j, letter in enumerate("xyz"):
+            panel = panels[letter]
+            for i, ink in enumerate(ROTORS):
+                panel.plot(run.t, run.tips[i, :, j], color=ink, label=f"rotor {i + 1}")
+            panel.set_ylabel(f"{letter} of the tip [m]")
+            _over_time(panel, letter == "z")
+        above = panels["above"]
+        for i, ink in enumerate(ROTORS):
+            above.plot(run.tips[i, :, 0], run.tips[i, :, 1], color=ink)
+        above.set(xlabel="x of the tip [m]", ylabel="y of the tip [m]", aspect="equal", xmargin=0.05)
+        above.set_adjustable("datalim")
+        panels["energy"].plot(run.t, run.energy, color=ROTORS[0])
+        panels["energy"].set_ylabel("energy [J]")
+        panels["energy"].margins(y=0.2)
+        _over_time(panels["energy"], True)
+        handles, labels = panels["x"].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper left", ncols=2)
+        figure.suptitle(f"spins {run.scene.spins[0]:g} and {run.scene.spins[1]:g} rad/s, model {run.model}")
+    return figure
+
+
+def _over_time(panel: Axes, labelled: bool) -> None:
+    panel.set_xlabel("t [s]" if labelled else "")
+    panel.tick_params(labelbottom=labelled)
