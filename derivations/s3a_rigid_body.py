@@ -149,6 +149,7 @@ statements = [
         "3.04",
         chain(U_cm, U1 + U2 + U3),
         wrong="The weights m_i/M of the mean are missing.",
+        quantities=(r"\vec U_{cm}",),
         correction=chain(U_cm, (m1 * U1 + m2 * U2 + m3 * U3) / (m1 + m2 + m3)),
         depends_on=("3.03",),
         evidence=(
@@ -197,6 +198,7 @@ statements = [
         "3.12",
         chain(I_turned, Q.adjugate() * I_0 * Q, Q.T * I_0 * Q),
         wrong="R and its transpose have changed places.",
+        quantities=(r"I(t) = R I_0 R^T",),
         correction=chain(I_turned, Q * I_0 * Q.T),
         depends_on=("3.11",),
         evidence=(

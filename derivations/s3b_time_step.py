@@ -178,6 +178,7 @@ statements = [
         "3.14",
         chain(vertex_rate, X_r.cross(w * n)),
         wrong="The two factors of the cross product have changed places.",
+        quantities=(r"\dot{\vec X_r} = \vec\Omega \times \vec X_r",),
         correction=chain(vertex_rate, (w * n).cross(X_r)),
         depends_on=("3.09",),
         evidence=(
@@ -201,6 +202,7 @@ statements = [
         "3.16",
         chain(projector, Omega * Omega.T),
         wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
+        quantities=(r"P = \Omega\Omega^T/|\Omega|^2",),
         correction=chain(projector, Omega * Omega.T / Omega.dot(Omega)),
         evidence=(
             "For a column Omega^T Omega is the number |Omega|^2; for a row, as the program stores it, the outer "
@@ -212,6 +214,7 @@ statements = [
         "3.17",
         chain(Omega_of_L, R.T * stored * R * L),
         wrong="R and its transpose have changed places, as in 3.12.",
+        quantities=(r"\Omega = R I_0^{-1} R^T L",),
         correction=chain(Omega_of_L, R * stored * R.T * L),
         depends_on=("3.12",),
         evidence=("It follows from 3.12 as printed and falls with it; with equal inertias the two agree.",),
@@ -220,6 +223,7 @@ statements = [
         "3.18",
         chain(Omega_of_L.T, (R.T * stored * R * L).T, L.T * R.T * stored * R, row * R.T * stored * R),
         wrong="R and its transpose have changed places, as in 3.12.",
+        quantities=(r"O = L' R I_0^{-1} R'",),
         correction=chain(Omega_of_L.T, row * R * stored * R.T),
         depends_on=("3.17",),
         evidence=(
@@ -231,6 +235,7 @@ statements = [
         "3.19",
         chain(on_1.dot(e_hat), printed_size),
         wrong="A number stands for a vector: the direction of the link is missing.",
+        quantities=(r"\vec F_{12}",),
         correction=chain(on_1, corrected_F12),
         evidence=(
             "The right side is a number, the left a vector. The number is the tension of the link, S s + D s', if e_21 "

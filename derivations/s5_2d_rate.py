@@ -80,6 +80,10 @@ statements = [
         "5.16",
         (Relation(printed_B, value_B), Relation(printed_A, value_A, half, 1)),
         wrong="B lacks the factor I.",
+        quantities=(
+            r"B",
+            r"A",
+        ),
         correction=(Relation(2 * I * omega, value_B), Relation(printed_A, value_A, half, 1)),
         depends_on=("5.12", "5.13"),
         evidence=(

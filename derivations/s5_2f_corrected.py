@@ -130,6 +130,10 @@ statements = [
         "5.20",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_sines, sines, strict=True)),
         wrong="The correction keeps the bar at the wrong length, longer than it is by 2 r_0².",
+        quantities=(
+            r"\sin\theta_1",
+            r"\sin\theta_2",
+        ),
         correction=tuple(Relation(p, q, r0, 2) for p, q in zip(corrected_sines, sines, strict=True)),
         depends_on=("5.19",),
         evidence=(
@@ -146,6 +150,10 @@ statements = [
             Relation(sp.Integer(1), massless_frequency, r0, 2),
         ),
         wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
+        quantities=(
+            r"\dot\phi(A, B, \theta_0)",
+            r"\Omega/\Omega_0",
+        ),
         correction=(
             *chain(derived, printed_last),
             Relation(1 - r0**2 / 4, massless_frequency, r0, 2),
@@ -162,6 +170,12 @@ statements = [
         "5.22",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_x, (x1 - half, x2 + half), strict=True)),
         wrong="A constant of second order in the amplitude is missing.",
+        quantities=(
+            r"x_1",
+            r"x_2",
+            r"y_1",
+            r"y_2",
+        ),
         correction=(
             *(Relation(p, q, r0, 2) for p, q in zip(corrected_x, (x1 - half, x2 + half), strict=True)),
             *in_y,

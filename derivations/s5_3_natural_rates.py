@@ -220,6 +220,10 @@ statements = [
         "5.26",
         chain(opposite_rate(1, 1), printed_product, sp.Rational(57, 100)),
         wrong="The product is 5.7, not 0.57, and no bar that the paper lists has that rate.",
+        quantities=(
+            r"\Omega_0\,(m = K = 1)",
+            r"\Omega_0^2\text{ (opposite spins)}",
+        ),
         correction=(
             *chain(opposite_rate(1, 1), 40 / sp.sqrt(91)),
             Relation(omega**2 * I3**2 / (whole * twisting), opposite_squared),
@@ -242,6 +246,11 @@ statements = [
             Relation(1 / sp.cos(theta), upright, theta, 2),
         ),
         wrong="The constant belongs to one bar and to equal spins, and opposite spins slow down with amplitude.",
+        quantities=(
+            r"\dot\phi\text{ (equal spins)}",
+            r"\Omega/\Omega_0\text{ (opposite spins)}",
+            r"\Omega/\Omega_0\text{ (massless bar, }\ell = R)",
+        ),
         correction=(
             Relation(omega * I3 / (sp.cos(theta) * whole), equal),
             Relation(1 - r0**2 * sigma * (k**2 * sigma - 3 * k**2 + 3) / (4 * k**2), ratio, r0, 3),
@@ -262,6 +271,11 @@ statements = [
         "5.28",
         (Relation(printed_28, equal_natural), Relation(printed_28**2, opposite_squared)),
         wrong="The constant belongs to one bar and to equal spins.",
+        quantities=(
+            r"\Omega_0\text{ (equal spins)}",
+            r"\Omega_0^2\text{ (opposite spins)}",
+            r"\Omega_0^2\text{ (any spins)}",
+        ),
         correction=(
             Relation(omega * I3 / whole, equal_natural),
             Relation(omega**2 * I3**2 / (whole * twisting), opposite_squared),

@@ -110,6 +110,12 @@ statements = [
             Relation(sp.Integer(2), sp.Integer(modes)),
         ),
         wrong="A third freedom, the place of the precession centre, is left out; only one of the three oscillates.",
+        quantities=(
+            r"\text{freedoms with the spins}",
+            r"\text{without}",
+            r"\text{independent motions}",
+            r"\det(s^2 M + s C)",
+        ),
         correction=(
             Relation(sp.Integer(5), sp.Integer(with_spins)),
             Relation(sp.Integer(3), sp.Integer(without_spins)),
@@ -134,6 +140,11 @@ statements = [
             Relation(printed_rate**2, opposite_squared * ratio.subs(r0, sp.sin(theta)) ** 2),
         ),
         wrong="The constant belongs to one bar and to equal spins, and opposite spins slow down with amplitude.",
+        quantities=(
+            r"\dot\phi\text{ (equal spins)}",
+            r"\Omega_0^2\text{ (opposite spins)}",
+            r"\Omega/\Omega_0\text{ (opposite spins)}",
+        ),
         correction=(
             Relation(omega * I3 / (sp.cos(theta) * whole), equal),
             Relation(omega**2 * I3**2 / (whole * twisting), opposite_squared),

@@ -42,7 +42,8 @@ class Statement:
     """What one equation of the paper is held to.
 
     relations: printed against derived. given: substitutions that state a condition, tried when the bare relations fail.
-    correction: what should stand there, as relations of its own; wrong: what was wrong, in a line.
+    correction: what should stand there, as relations of its own; quantities: what each of them gives, in LaTeX.
+    wrong: what was wrong, in a line.
     definition: the line only names something.
     measured: the line is a number read off a run; the relations hold what it should have been.
     depends_on: ids of the equations that this one uses. evidence: sentences with the numbers that were computed.
@@ -54,6 +55,7 @@ class Statement:
     condition: str = ""
     correction: tuple[Relation, ...] = ()
     wrong: str = ""
+    quantities: tuple[str, ...] = ()
     definition: bool = False
     measured: bool = False
     depends_on: tuple[str, ...] = ()

@@ -6,7 +6,7 @@ claim is not about, and must then come out otherwise.
 
 import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -58,20 +58,22 @@ def hear(trial: Trial) -> Result:
     return Result(trial, measured, trial.decide(measured), time.perf_counter() - began)
 
 
-def trials(stem: str) -> list[Trial]:
-    """The trials that one script holds."""
-    return list(scripts.run("derivations", stem).get("trials", []))
+def listed() -> dict[str, Trial]:
+    """Every trial that a script holds, by claim, in the paper's order."""
+    found = {}
+    for stem in scripts.names("derivations", "c"):
+        found |= {trial.id: trial for trial in scripts.run("derivations", stem)["trials"]}
+    return {identifier: found[identifier] for identifier in claims() if identifier in found}
 
 
-def hear_all(progress: Callable[[str], None] | None = None, wanted: frozenset[str] | None = None) -> list[Result]:
-    """Every claim (or the wanted ones) in the paper's order; `progress` is called with each claim's id before its run."""
-    found = {trial.id: trial for stem in scripts.names("derivations", "c") for trial in trials(stem)}
+def hear_all(progress: Callable[[str], None] | None = None, wanted: Collection[str] | None = None) -> list[Result]:
+    """Every claim (or the wanted ones) in the paper's order; `progress` is told each claim's id before its run."""
     results = []
-    for identifier in claims():
-        if identifier in found and (wanted is None or identifier in wanted):
+    for identifier, trial in listed().items():
+        if wanted is None or identifier in wanted:
             if progress:
-                progress(identifier)
-            results.append(hear(found[identifier]))
+                progress(f"claim {identifier}")
+            results.append(hear(trial))
     return results
 
 

@@ -99,8 +99,8 @@ def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float
 
 
 def _palette() -> Pixels:
-    """Every ink in steps from white to itself, (144, 3): what anti-aliasing makes of it on white."""
-    inks = np.array([to_rgb(ink) for ink in (INK, ROTORS[0], ROTORS[1], BAR, MARK, GROUND)])
+    """Every ink in steps from white to itself, (96, 3): what anti-aliasing makes of it on white."""
+    inks = np.array([to_rgb(ink) for ink in (INK, *ROTORS, MARK)])
     share = np.linspace(0, 1, 24)[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
 

@@ -4,10 +4,8 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-import sympy as sp
-
 from ..paper.catalogue import equation
-from ..paper.ledger import Verdict
+from ..paper.ledger import Relation, Verdict
 from ..symbols import latex
 
 
@@ -36,12 +34,11 @@ def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
     for verdict in listed:
         if verdict.verdict == "refuted":
             statement, entry = verdict.statement, equation(verdict.id)
-            pairs = dict.fromkeys((relation.printed, relation.small) for relation in statement.correction)
             yield Erratum(
                 id=entry.id,
                 title=entry.title,
                 printed=entry.latex,
-                corrected=tuple(latex(side) + (_order(small) if small else "") for side, small in pairs),
+                corrected=tuple(map(_line, statement.quantities, statement.correction)),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "undecided").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
@@ -49,8 +46,10 @@ def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
             )
 
 
-def _order(small: sp.Symbol) -> str:
-    return rf" + \ldots \quad (\text{{in }} {latex(small)})"
+def _line(quantity: str, relation: Relation) -> str:
+    """quantity = expression, up to a power of what is small where the correction is a series."""
+    rest = rf" + O({latex(relation.small ** (relation.claimed + 1))})" if relation.small else ""
+    return f"{quantity} = {latex(relation.printed)}{rest}"
 
 
 _HEAD = r"""\documentclass[11pt]{article}

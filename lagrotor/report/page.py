@@ -127,13 +127,17 @@ def _fact(fact: Fact) -> str:
 
 
 def _errata(sheet: list[Erratum], report: Report) -> str:
-    corrections = {v.id: sides(v.statement.correction, "printed") for v in report.verdicts}
+    stated = {v.id: v.statement for v in report.verdicts}
     rows = [
         (
             _link(e.id),
             f"{escape(e.wrong)} <small>Used by: {' '.join(map(_link, e.used_by)) or 'none'}; {escape(e.reach)}.</small>",
             f"<pre><code>{escape(e.printed)}</code></pre>",
-            _formulas(corrections[e.id]) + f"<small>{escape(e.verdict_of_correction)}</small>",
+            "".join(
+                f"<code>{escape(name)} =</code>{_formulas([relation.printed])}"
+                for name, relation in zip(stated[e.id].quantities, stated[e.id].correction, strict=False)
+            )
+            + f"<small>{escape(e.verdict_of_correction)}</small>",
         )
         for e in sheet
     ]

@@ -20,7 +20,7 @@ from .markdown import errata_blocks, markdown
 from .page import page
 
 RECORDED = Path(catalogue.__file__).with_name("recorded.json")
-_HOLDS = {
+CONTENTS = {
     "index.html",
     "report.md",
     "verdicts.json",
@@ -65,7 +65,7 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
 
 def steps() -> int:
     """How many times `reproduce` calls its `step`."""
-    return len(scripts.names("derivations", "s")) + len(catalogue.claims()) + len(figures.stems()) + 1
+    return len(scripts.names("derivations", "s")) + len(trials.listed()) + len(figures.stems()) + 1
 
 
 def recorded() -> dict[str, str] | None:
@@ -105,7 +105,7 @@ def check_target(target: Path) -> Path:
         raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
-    if folder.is_dir() and {entry.name for entry in folder.iterdir()} not in (set(), _HOLDS):
+    if folder.is_dir() and {entry.name for entry in folder.iterdir()} not in (set(), CONTENTS):
         raise InputError(f"{target} holds other files than a report: choose a new or an empty folder")
     return folder
 

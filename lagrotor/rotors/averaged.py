@@ -26,15 +26,25 @@ _EPS = sp.Symbol("epsilon", positive=True)
 def quartic_lagrangian() -> tuple[sp.Expr, sp.Expr]:
     """(L_2, L_4) of opposite spins in U, Delta ~ eps, alpha' ~ eps²: no odd term."""
     (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
-    L = twisted_lagrangian().subs({G_1: G, G_2: -G})
-    L = L.subs({s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v}, simultaneous=True)
-    parts = []
-    for n in range(5):
-        parts.append(sp.expand(L.subs(_EPS, 0) / sp.factorial(n)))
-        L = L.diff(_EPS)
+    L = twisted_lagrangian().subs({G_1: G, G_2: -G}).replace(_is_secant, lambda e: _taylor(sp.sech, e.base) ** -e.exp)
+    for function in (sp.tanh, sp.cos, sp.sin):
+        L = L.replace(function, lambda e, f=function: _taylor(f, f(e)))
+    scaled = {s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v}
+    polynomial = sp.Poly(L.subs(scaled, simultaneous=True), _EPS)
+    parts = [polynomial.coeff_monomial(_EPS**n) for n in range(5)]
     if any(part != 0 for part in (parts[1], parts[3])):
         raise ArithmeticError("quartic_lagrangian: an odd order is left")
-    return parts[2], parts[4]
+    return sp.expand(parts[2]), sp.expand(parts[4])
+
+
+def _is_secant(e: sp.Basic) -> bool:
+    return bool(e.is_Pow and e.base.func is sp.cosh and e.exp.is_Integer and e.exp < 0)
+
+
+def _taylor(function: type[sp.Function], of: sp.Expr) -> sp.Expr:
+    """`function` of the argument of `of`, through the fourth power."""
+    x = sp.Symbol("x")
+    return sp.series(function(x), x, 0, 5).removeO().subs(x, of.args[0])
 
 
 @cache
@@ -51,9 +61,9 @@ def averaged_routhian() -> sp.Expr:
     """<R_4> over the swing of amplitude d in Delta: a polynomial in X, Delta_s, d, P."""
     (U, Delta, _), (U_v, Delta_v, _) = TWISTED.q, TWISTED.v
     A, D = a + b, a - b
-    rate = G / sp.sqrt(A * D)
-    # 2 A U'' = −G Delta': the swing's share in U.
-    share = SWING * sp.sqrt(D / A) / 2
+    root = sp.sqrt(A * D)
+    rate = G / root
+    share = SWING * root / (2 * A)  # 2 A U'' = −G Delta': the swing's share in U
     c, s = sp.symbols("c s")
     moving = {U: X + share * c, U_v: -share * rate * s, Delta: TWIST + SWING * s, Delta_v: SWING * rate * c}
     polynomial = sp.Poly(quartic_routhian().subs(moving), c, s)
@@ -79,7 +89,7 @@ def slow_rates() -> tuple[sp.Expr, sp.Expr]:
 def slow_stiffness() -> tuple[sp.Expr, sp.Expr]:
     """Second derivatives of <R_4> by X and by Delta_s on the paired precession of amplitude d in Delta (no drift).
 
-    The first vanishes: to this order nothing holds the mean x; the second is b Omega_0² d²/4: zero for a massless bar.
+    The first vanishes: to this order nothing holds the mean x; the second is b Omega_0² d²/8: zero for a massless bar.
     """
     mean = averaged_routhian()
     momentum = G * SWING**2 / (4 * k)  # <alpha'> = 0

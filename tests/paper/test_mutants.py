@@ -114,5 +114,6 @@ def test_a_refuted_equation_has_a_correction_that_holds(statement: Statement) ->
     if verdict.verdict == "refuted":
         assert verdict.correction_verdict in ("holds", "holds-to-order"), statement.id
         assert statement.wrong, f"{statement.id}: say in a line what was wrong"
+        assert len(statement.quantities) == len(statement.correction), f"{statement.id}: name what is corrected"
     elif statement.correction:  # what holds where the printed condition does not
         assert verdict.correction_verdict in ("holds", "holds-to-order"), statement.id

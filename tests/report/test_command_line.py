@@ -41,7 +41,10 @@ def small_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     real = scripts.folder
     monkeypatch.setattr(scripts, "folder", lambda name: drawn if name == "figures" else real(name))
     names = scripts.names
-    monkeypatch.setattr(scripts, "names", lambda kind: ["s5_2a_single_rotor"] if kind == "derivations" else names(kind))
+    only = {"s": ["s5_2a_single_rotor"]}
+    monkeypatch.setattr(
+        scripts, "names", lambda kind, prefix="": only.get(prefix, []) if kind == "derivations" else names(kind, prefix)
+    )
     monkeypatch.setattr(reproduce, "RECORDED", tmp_path / "recorded.json")
     monkeypatch.chdir(work)
     return work
@@ -287,7 +290,7 @@ def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str
     assert main(["reproduce"]) == 0
     report = small_paper / "report"
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
-    assert kept == {"index.html", "report.md", "verdicts.json", "measured.json"} | {
+    assert kept == reproduce.CONTENTS - {"figures"} | {
         f"figures/fig17_stub.{kind}" for kind in ("svg", "png")
     }
     assert {entry["id"] for entry in json.loads((report / "verdicts.json").read_text())} == set(found())
@@ -323,7 +326,7 @@ def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatc
     target = small_paper / "report"
     with reproduce.replaced(target) as folder:
         (folder / "index.html").write_text("good")
-    for name in ("report.md", "verdicts.json", "measured.json", "figures"):
+    for name in reproduce.CONTENTS - {"index.html"}:
         (target / name).touch()
     rename = Path.rename
 

@@ -1,0 +1,60 @@
+"""The errata sheet: a row for each refuted equation, LaTeX in ASCII that compiles where there is a compiler."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from lagrotor.paper.audit import audit
+from lagrotor.paper.ledger import Verdict
+from lagrotor.report.errata import errata, latex_document, prose
+from lagrotor.report.markdown import errata_blocks
+
+
+@pytest.fixture(scope="module")
+def verdicts() -> list[Verdict]:
+    return audit()
+
+
+def test_every_refuted_equation_has_its_row_and_no_other(verdicts: list[Verdict]) -> None:
+    refuted = [v.id for v in verdicts if v.verdict == "refuted"]
+    rows = list(errata(verdicts))
+    assert [e.id for e in rows] == refuted
+    assert len(refuted) > 10
+    for e in rows:
+        assert e.wrong
+        assert e.corrected
+        assert all(" = " in line for line in e.corrected)
+        assert e.printed
+
+
+def test_an_error_that_stops_short_is_told_from_one_that_does_not(verdicts: list[Verdict]) -> None:
+    reach = {e.id: e.survives for e in errata(verdicts)}
+    assert reach["2.08"], "the sign is made good before (7)"
+    assert not reach["5.20"], "the trajectories 5.22 fall with it"
+
+
+def test_the_document_is_ascii_and_whole(verdicts: list[Verdict]) -> None:
+    text = latex_document(verdicts)
+    assert text.isascii()
+    assert text.rstrip().endswith(r"\end{document}")
+    assert text.count(r"\subsection*") == len(list(errata(verdicts)))
+    assert prose("50 % of r_0² & more") == r"50 \% of r\_0$^2$ \& more"
+
+
+def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
+    compiler = shutil.which("pdflatex")
+    if compiler is None:
+        pytest.skip("no pdflatex on this machine: install a LaTeX distribution to check that the sheet compiles")
+    (tmp_path / "errata.tex").write_text(latex_document(verdicts), encoding="ascii")
+    command = [compiler, "-interaction=nonstopmode", "-halt-on-error", "errata.tex"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout[-1500:]
+    assert (tmp_path / "errata.pdf").stat().st_size > 10_000
+
+
+def test_markdown_has_the_same_rows(verdicts: list[Verdict]) -> None:
+    text = "\n\n".join(errata_blocks(verdicts))
+    assert all(f"### Erratum {e.id} " in text for e in errata(verdicts))
+    assert errata_blocks([v for v in verdicts if v.verdict == "holds"]) == []
