@@ -19,10 +19,10 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Corrected trajectories of the pair"
 ALT = (
-    "Top view: round each ground joint the exact closed orbit with the series of order 3 on top of it, and the paper's "
-    "corrected curve, displaced outwards by about 0.04 m. Below, on a logarithmic scale, the "
-    "distance from the exact tip over one turn: about 0.04 m for the paper, up to several millimetres for order 2, about "
-    "two millimetres for order 3."
+    "Top view: round each ground joint the exact closed orbit with the series of order 3 on top of it, and the "
+    "paper's corrected curve, displaced outwards by about 0.04 m. Below, on a logarithmic scale, the distance from "
+    "the exact tip over one turn: about 0.04 m for the paper, up to several millimetres for order 2, about two "
+    "millimetres for order 3."
 )
 
 
@@ -55,8 +55,8 @@ def measure() -> dict[str, float]:
 _paper, _second, _third = measure().values()
 CAPTION = (
     f"r_0 = {R0}, massless bar, ell = R = 1 m. Exact: periodic orbit of the minimal model, spins ±10 rad/s, tolerance "
-    f"{TOL:g}. Largest distance from the exact tip at the same phase: paper's correction (5.20) {_paper:.3f} m, corrected "
-    f"series of order 2 {_second:.4f} m, of order 3 {_third:.4f} m."
+    f"{TOL:g}. Largest distance from the exact tip at the same phase: paper's correction (5.20) {_paper:.3f} m, "
+    f"corrected series of order 2 {_second:.4f} m, of order 3 {_third:.4f} m."
 )
 
 

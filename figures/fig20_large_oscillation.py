@@ -20,10 +20,10 @@ R0, TOL = 0.5, 1e-11
 
 TITLE = "Corrected trajectories at a large oscillation"
 ALT = (
-    "Top view: the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin; the paper's "
-    "curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 leaves the exact "
-    "orbit visibly, that of order 9 covers it. Below, on a logarithmic scale: distances near 0.3 m for the paper, some "
-    "centimetres for order 3, millimetres for order 9."
+    "Top view: the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin; the "
+    "paper's curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 leaves "
+    "the exact orbit visibly, that of order 9 covers it. Below, on a logarithmic scale: distances near 0.3 m for the "
+    "paper, some centimetres for order 3, millimetres for order 9."
 )
 
 
@@ -40,9 +40,7 @@ def data() -> dict[str, np.ndarray]:
     for order in (3, 9):
         series = paired_series(order, sp.Integer(1), sp.Integer(1))
         curve = sp.lambdify([r0, Phi], [series.expression(part) for part in (series.x, series.Y, series.z)])
-        first, later = (
-            np.array([part + 0 * phase for part in curve(R0, angle)]).T for angle in (phase, phase + np.pi)
-        )
+        first, later = (np.array([part + 0 * phase for part in curve(R0, angle)]).T for angle in (phase, phase + np.pi))
         tips[f"order_{order}"] = joints + np.array([first, later * [-1, 1, 1]])
     orbit = exact_orbit(Scene(spins=(10, -10)), R0)
     exact = simulate(orbit.scene, phase / orbit.frequency, "minimal", TOL).tips
@@ -71,10 +69,10 @@ def measure() -> dict[str, float]:
 
 _paper, _third, _ninth, _longest, _ratio = measure().values()
 CAPTION = (
-    f"r_0 = {R0} (the paper's value is not printed), massless bar, ell = R = 1 m. Exact: periodic orbit of the minimal model, "
-    f"spins ±10 rad/s, tolerance {TOL:g}; its rate is {_ratio:.4f} of the natural one. Largest distance from the exact tip at "
-    f"the same phase: paper {_paper:.2f} m, with a bar of up to {_longest:.2f} m; series of order 3 {_third:.3f} m, of order "
-    f"9 {_ninth:.4f} m."
+    f"r_0 = {R0} (the paper's value is not printed), massless bar, ell = R = 1 m. Exact: periodic orbit of the minimal "
+    f"model, spins ±10 rad/s, tolerance {TOL:g}; its rate is {_ratio:.4f} of the natural one. Largest distance from "
+    f"the exact tip at the same phase: paper {_paper:.2f} m, with a bar of up to {_longest:.2f} m; series of order 3 "
+    f"{_third:.3f} m, of order 9 {_ninth:.4f} m."
 )
 
 

@@ -43,3 +43,7 @@ SCENES: dict[str, Ready] = {
         "opposite spins, light bar, a slanting shock: the paired precession",
     ),
 }
+
+# The paper's simulator (4.01, listings of 4.1 and 4.2): S = 2000 (M/n) omega_s² in N/m, D = 500 (M/n) omega_s in kg/s,
+# with omega_s = 10 rad/s and n = 20, which the paper does not say: see figure 10. Its step is 1 ms.
+STIFFNESS, DAMPING, STEP = 1e4, 250.0, 1e-3
