@@ -53,8 +53,9 @@ def decide_c03(m):
     how = (
         f"One step is off orthogonal by {m['first_order_off_orthogonal']:.1e} to first order and by "
         f"{m['rodrigues_off_orthogonal']:.0e} by Rodrigues; in 10 s the first stretches a body by "
-        f"{m['first_order_stretch_in_10_s']:.0%}, the second by {m['rodrigues_stretch_in_10_s']:.0e}. (With P = Omega "
-        f"Omega^T to the letter of (3.16), undivided, it is off by {m['rodrigues_with_P_as_printed_off_orthogonal']:.1e}.)"
+        f"{m['first_order_stretch_in_10_s']:.0%}, the second by {m['rodrigues_stretch_in_10_s']:.0e}. With P = Omega "
+        "Omega^T to the letter of (3.16), undivided, it would be off by "
+        f"{m['rodrigues_with_P_as_printed_off_orthogonal']:.1e}."
     )
     kept = m["rodrigues_off_orthogonal"] < ROUNDING
     return Finding("confirmed" if m["first_order_off_orthogonal"] > ROUNDING and kept else "refuted", how)
@@ -104,8 +105,8 @@ def decide_c04(m):
         "confirmed",
         f"{m['inversions_in_200_steps']:.0f} inversions in 200 steps, while the inertia changed by "
         f"{m['inertia_changed_by_kg_m2']:.2f} kg m²; Omega agrees with the solved one to "
-        f"{m['off_the_solved_omega_relative']:.0e}. The transform must be R I^-1 R^T: the printed R^T I^-1 R gives a body of "
-        f"unequal inertia an Omega off by {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",
+        f"{m['off_the_solved_omega_relative']:.0e}. The transform must be R I^-1 R^T: the printed R^T I^-1 R gives a "
+        f"body of unequal inertia an Omega off by {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",
     )
 
 

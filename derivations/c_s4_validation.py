@@ -67,10 +67,10 @@ def decide_c06(m):
     return Finding(
         "confirmed" if spikes and right else "refuted",
         f"Placed half a metre too high the energy rises from {m['start_J']:.0f} to {m['peak_J']:.1f} J at "
-        f"{1e3 * m['peak_at_s']:.0f} ms, is within a tenth of that from {1e3 * m['below_a_tenth_of_the_peak_from_s']:.0f} ms on, "
-        f"within a thousandth from {1e3 * m['below_a_thousandth_of_the_peak_from_s']:.0f} ms on, and ends at "
-        f"{m['after_0.6_s_J']:.2f} J; placed right it is {m['placed_right_J']:.2f} J with a swing of "
-        f"{m['placed_right_swing_J']:.0e} J.",
+        f"{1e3 * m['peak_at_s']:.0f} ms, is within a tenth of that from "
+        f"{1e3 * m['below_a_tenth_of_the_peak_from_s']:.0f} ms on, within a thousandth from "
+        f"{1e3 * m['below_a_thousandth_of_the_peak_from_s']:.0f} ms on, and ends at {m['after_0.6_s_J']:.2f} J; "
+        f"placed right it is {m['placed_right_J']:.2f} J with a swing of {m['placed_right_swing_J']:.0e} J.",
     )
 
 
@@ -108,11 +108,11 @@ def measure_c07(spins):
             (float(end) for end in every(0.02, 0.02, until) if run_fails(scene, printed_rotation, end)), 0.0
         ),
         "shock_at_s": scene.shock.at,
-        "nan_with_cured_rotation": run_fails(scene, finite_rotation, 1.0),
+        "nan_with_cured_rotation": int(run_fails(scene, finite_rotation, 1.0)),
         "omega_rad_per_s": small,
-        "nan_at_that_omega": fails(printed_rotation, small),
-        "nan_at_omega_zero": fails(printed_rotation, 0.0),
-        "nan_at_that_omega_cured": fails(finite_rotation, small),
+        "nan_at_that_omega": int(fails(printed_rotation, small)),
+        "nan_at_omega_zero": int(fails(printed_rotation, 0.0)),
+        "nan_at_that_omega_cured": int(fails(finite_rotation, small)),
         "largest_omega_that_fails_rad_per_s": 10**low,
     }
 
@@ -123,9 +123,10 @@ def decide_c07(m):
     return Finding(
         "confirmed" if seen else "refuted",
         f"At |Omega| = {m['omega_rad_per_s']:.0e} rad/s the printed rotation "
-        f"{'is' if m['nan_at_that_omega'] else 'is not'} NaN; it fails up to {m['largest_omega_that_fails_rad_per_s']:.1e}, not "
-        f"at zero. The run is lost {m['shock_at_s'] - m['nan_at_s_printed_rotation']:.2f} s before the shock's peak, in its "
-        "tail, which sets the resting bar turning by less than that. With n = Omega/|Omega| by hypot it is not.",
+        f"{'is' if m['nan_at_that_omega'] else 'is not'} NaN; it fails up to "
+        f"{m['largest_omega_that_fails_rad_per_s']:.1e}, not at zero. The run is lost "
+        f"{m['shock_at_s'] - m['nan_at_s_printed_rotation']:.2f} s before the shock's peak, in its tail, which sets "
+        "the resting bar turning by less than that. With n = Omega/|Omega| by hypot it is not.",
     )
 
 
@@ -195,10 +196,11 @@ def decide_c08(m):
     if not jump:
         return Finding("refuted", how)
     how += (
-        f"S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, omega_s = {OMEGA_S:.0f}) are "
-        f"stable up to {m['step_limit_ms']:.2f} ms; with that omega_s n from {m['smallest_n_that_fits']:.0f} to "
-        f"{m['largest_n_that_fits']:.0f} of those tried gives the printed number. The light bar of 5.2.1 would give "
-        f"{m['after_closed_form_light_bar_J']:.2f} and needs a step below {m['step_limit_light_bar_ms']:.2f} ms."
+        f"S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, omega_s = "
+        f"{OMEGA_S:.0f}) are stable up to {m['step_limit_ms']:.2f} ms; with that omega_s n from "
+        f"{m['smallest_n_that_fits']:.0f} to {m['largest_n_that_fits']:.0f} of those tried gives the printed number. "
+        f"The light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} and needs a step below "
+        f"{m['step_limit_light_bar_ms']:.2f} ms."
     )
     if m["lost_in_8_s_springs_J"] < 0.01:
         return Finding("confirmed", how)
@@ -251,8 +253,8 @@ def decide_c09(m):
         f"After the shock, over its impulse, the momentum swings by {m['momentum_swing']:.2f}, the angular momentum by "
         f"{m['angular_momentum_swing_about_ground_1']:.2f} about ground 1, by "
         f"{m['angular_momentum_swing_about_the_middle']:.0e} about the middle between the grounds, by "
-        f"{m['angular_momentum_swing_about_the_joint_line']:.0e} about the line through them, about which the grounds have no "
-        "moment. "
+        f"{m['angular_momentum_swing_about_the_joint_line']:.0e} about the line through them, about which the grounds "
+        "have no moment. "
     )
     if m["momentum_swing"] < 1e-6 or m["angular_momentum_swing_about_ground_1"] < 1e-6:
         return Finding("refuted", how)

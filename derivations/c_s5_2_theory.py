@@ -74,9 +74,9 @@ def decide_c14(m):
     same = m["rank_of_constraints_least"] == m["rank_of_constraints_most"]
     return Finding(
         "confirmed" if five and same else "refuted",
-        f"{m['velocities_of_axes_and_spins']:.0f} velocities, constraints of rank {m['rank_of_constraints_most']:.0f} all along "
-        f"the run (least singular value {m['least_singular_value']:.2f}): {m['degrees_of_freedom']:.0f} degrees of freedom, "
-        f"{m['degrees_of_freedom_without_spins']:.0f} without the spins.",
+        f"{m['velocities_of_axes_and_spins']:.0f} velocities, constraints of rank {m['rank_of_constraints_most']:.0f} "
+        f"all along the run (least singular value {m['least_singular_value']:.2f}): {m['degrees_of_freedom']:.0f} "
+        f"degrees of freedom, {m['degrees_of_freedom_without_spins']:.0f} without the spins.",
     )
 
 
@@ -135,11 +135,11 @@ def decide_c15(m):
         f"At r_0 = 0.204 phi_1' + phi_2' reaches {m['azimuth_rates_sum_relative_r0_0.204_massless']:.0%} of phi' "
         f"({m['azimuth_rates_sum_relative_r0_0.204_light_bar']:.0%} with the light bar) and psi_1' + psi_2' "
         f"{m['spin_rates_sum_relative_r0_0.204_massless']:.0%} of the spin; the first goes as "
-        f"r_0^{m['order_of_azimuth_sum_massless']:.2f}. B drifts by {m['drift_of_B_relative']:.0e} of itself. A swings by "
-        f"{m['swing_of_A_over_its_varying_part_r0_0.204_massless']:.1%} of the part that the motion makes, as "
+        f"r_0^{m['order_of_azimuth_sum_massless']:.2f}. B drifts by {m['drift_of_B_relative']:.0e} of itself. A swings "
+        f"by {m['swing_of_A_over_its_varying_part_r0_0.204_massless']:.1%} of the part that the motion makes, as "
         f"r_0^{m['order_of_swing_of_A_massless']:.2f}, with the light bar by "
-        f"{m['swing_of_A_over_its_varying_part_r0_0.204_light_bar']:.0%}, as r_0^{m['order_of_swing_of_A_light_bar']:.2f}: of the "
-        "order of that part itself."
+        f"{m['swing_of_A_over_its_varying_part_r0_0.204_light_bar']:.0%}, as "
+        f"r_0^{m['order_of_swing_of_A_light_bar']:.2f}: of the order of that part itself."
     )
     if m["order_of_azimuth_sum_massless"] < 0.9 or m["drift_of_B_relative"] > 1e-9:
         return Finding("refuted", how)
@@ -182,11 +182,14 @@ def decide_c16(m):
     too_long = m["corrected_shortest"] - m["exact_orbit_longest"]
     how = (
         f"With theta constant and phi_1 = −phi_2 the link goes from {m['constant_theta_shortest']:.4f} to "
-        f"{m['constant_theta_longest']:.4f} (printed {m['printed_longest']:.4f}); corrected from {m['corrected_shortest']:.4f} to "
-        f"{m['corrected_longest']:.4f}: the swing is gone but for {left:.4f}, at a length {too_long:.1%} beyond the bar's, which "
-        f"on the exact orbit is {m['exact_orbit_longest']:.4f} throughout."
+        f"{m['constant_theta_longest']:.4f} (printed {m['printed_longest']:.4f}); corrected from "
+        f"{m['corrected_shortest']:.4f} to {m['corrected_longest']:.4f}: the swing is gone but for {left:.4f}, at a "
+        f"length {too_long:.1%} beyond the bar's, which on the exact orbit is {m['exact_orbit_longest']:.4f} "
+        "throughout."
     )
-    swings = abs(m["constant_theta_shortest"] - 1) < 1e-3 and abs(m["constant_theta_longest"] - m["printed_longest"]) < 1e-3
+    swings = (
+        abs(m["constant_theta_shortest"] - 1) < 1e-3 and abs(m["constant_theta_longest"] - m["printed_longest"]) < 1e-3
+    )
     if not swings or left > 4 * PAPER_R0**4:
         return Finding("refuted", how)
     return Finding("confirmed-if" if too_long > left else "confirmed", how, f"the link may be {too_long:.1%} too long")
@@ -225,8 +228,8 @@ def decide_c17(m):
     return Finding(
         "refuted" if abs(m["change_over_r0_squared"]) > 0.1 else "confirmed",
         f"The exact rate is that of constant inclination times 1 {m['change_over_r0_squared']:+.3f} r_0² (order "
-        f"{m['order_of_change']:.2f}); at r_0 = 0.204 it is {m['rate_over_constant_inclination_r0_0.204']:.4f} of it, and "
-        f"{m['rate_over_natural_r0_0.204']:.4f} of the natural rate.",
+        f"{m['order_of_change']:.2f}); at r_0 = 0.204 it is {m['rate_over_constant_inclination_r0_0.204']:.4f} of it, "
+        f"and {m['rate_over_natural_r0_0.204']:.4f} of the natural rate.",
     )
 
 
@@ -271,7 +274,8 @@ def measure_c18(spins):
     rate, _, first, second = harmonics(run)
     in_phase = (second / (first / abs(first)) ** 2).real / abs(first)
     toppled = [
-        abs(np.unwrap(np.arctan2(-r.axes[..., 1], r.axes[..., 2])).mean(0)[-1]) for r in (run, paper_run(spins, (40, 0, 0)))
+        abs(np.unwrap(np.arctan2(-r.axes[..., 1], r.axes[..., 2])).mean(0)[-1])
+        for r in (run, paper_run(spins, (40, 0, 0)))
     ]
     r0 = abs(first[:, 0]).mean()
     return {
@@ -290,10 +294,11 @@ def decide_c18(m):
     ratios = (-m["second_over_first_x_1"] / formula, m["second_over_first_x_2"] / formula)
     return Finding(
         "confirmed" if all(0.5 < ratio < 2 for ratio in ratios) else "refuted",
-        f"Second over first harmonic, in phase: {m['second_over_first_x_1']:+.4f} in x_1, {m['second_over_first_x_2']:+.4f} in x_2; "
-        f"the formula has ∓{formula:.4f} at r_0 = {m['amplitude_r0']:.3f}: the signs agree, the size is {ratios[0]:.2f} and "
-        f"{ratios[1]:.2f} of it. The −11 along y is what keeps the pair up: it turns by {m['turned_about_joint_line_rad']:.2f} rad "
-        f"in 8 s, without it by {m['turned_about_joint_line_without_y_shock_rad']:.2f}.",
+        f"Second over first harmonic, in phase: {m['second_over_first_x_1']:+.4f} in x_1, "
+        f"{m['second_over_first_x_2']:+.4f} in x_2; the formula has ∓{formula:.4f} at r_0 = {m['amplitude_r0']:.3f}: "
+        f"the signs agree, the size is {ratios[0]:.2f} and {ratios[1]:.2f} of it. The −11 along y is what keeps the "
+        f"pair up: it turns by {m['turned_about_joint_line_rad']:.2f} rad in 8 s, without it by "
+        f"{m['turned_about_joint_line_without_y_shock_rad']:.2f}.",
     )
 
 
@@ -319,7 +324,9 @@ def residual(along, t, rate, r0, offset):
             return (off - off.mean(1, keepdims=True)).ravel()
         return (off - shift - np.array([[-0.5 + offset * size**2], [0.5 - offset * size**2]])).ravel()
 
-    found = min((least_squares(left, (r0, 1.0, phase, 0.0)) for phase in (0, pi / 2, pi, -pi / 2)), key=lambda f: f.cost)
+    found = min(
+        (least_squares(left, (r0, 1.0, phase, 0.0)) for phase in (0, pi / 2, pi, -pi / 2)), key=lambda f: f.cost
+    )
     size = abs(float(found.x[0]))
     return float(np.sqrt((found.fun**2).mean())) / size, size
 
@@ -346,11 +353,11 @@ def measure_c19(spins):
 
 def decide_c19(m):
     how = (
-        f"The centres lie at {m['skew_deg']:+.1f}° to x. The printed formula leaves {m['left_unprojected_printed']:.1%} of the "
-        f"amplitude before and {m['left_projected_printed']:.1%} after projection on that axis, with the missing ± r_0² "
-        f"{m['left_projected_corrected']:.1%}; with the centres free, hence for the shape, {m['left_unprojected_shape']:.1%} before, "
-        f"{m['left_projected_shape']:.1%} after. The amplitude along that axis is {m['amplitude_along_the_skew_axis']:.3f}; figure "
-        f"21 has {PAPER_R0}."
+        f"The centres lie at {m['skew_deg']:+.1f}° to x. The printed formula leaves "
+        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {m['left_projected_printed']:.1%} after "
+        f"projection on that axis, with the missing ± r_0² {m['left_projected_corrected']:.1%}; with the centres free, "
+        f"hence for the shape, {m['left_unprojected_shape']:.1%} before, {m['left_projected_shape']:.1%} after. The "
+        f"amplitude along that axis is {m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}."
     )
     if m["left_projected_shape"] > 0.05 or m["left_projected_shape"] > m["left_unprojected_shape"]:
         return Finding("refuted", how)

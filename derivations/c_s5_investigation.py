@@ -41,8 +41,8 @@ def angle(run):
 # ## C10: no spin
 #
 # The paper's program for its 8 s after a shock along x, as in figure 10; and the exact pair with the same shock along y.
-# The paper does not say which shock figure 11 has. Toppled: an axis is more than 90° from upright. Turning about the line through the two grounds (the x axis) is an angle
-# in the y-z plane.
+# The paper does not say which shock figure 11 has. Toppled: an axis is more than 90° from upright. Turning about the line
+# through the two grounds (the x axis) is an angle in the y-z plane.
 
 
 # %%
@@ -65,16 +65,19 @@ def measure_c10(spins):
 
 def decide_c10(m):
     how = (
-        f"After a shock along x the pair topples in the X-Z plane, {m['shock_along_x_turned_in_XZ_rad']:.2f} rad within 8 s at "
-        f"{m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f}), each "
-        f"rotor about its own ground: |y| is {m['shock_along_x_largest_y']:.0e} at most, so nothing turns about the line through the "
-        f"grounds. After a shock along y it does: {m['shock_along_y_turned_about_joint_line_rad']:.2f} rad within 6 s."
+        f"After a shock along x the pair topples in the X-Z plane, {m['shock_along_x_turned_in_XZ_rad']:.2f} rad "
+        f"within 8 s at {m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = "
+        f"{m['rate_by_closed_form_rad_per_s']:.3f}), each rotor about its own ground: |y| is "
+        f"{m['shock_along_x_largest_y']:.0e} at most, so nothing turns about the line through the grounds. After a "
+        f"shock along y it does: {m['shock_along_y_turned_about_joint_line_rad']:.2f} rad within 6 s."
     )
     topples = m["shock_along_x_tilt_deg"] > 90 and m["shock_along_y_tilt_deg"] > 90
     if not topples:
         return Finding("refuted", f"It tilts by no more than {m['shock_along_x_tilt_deg']:.0f}° after a shock along x.")
     if m["shock_along_x_largest_y"] < 0.01:
-        return Finding("confirmed-if", how, "the shock has a part across the bar; along it each rotor turns about its ground")
+        return Finding(
+            "confirmed-if", how, "the shock has a part across the bar; along it each rotor turns about its ground"
+        )
     return Finding("confirmed", how)
 
 
@@ -82,7 +85,8 @@ def decide_c10(m):
 # ## C11: stability in x
 #
 # For each sign and direction of the paper's shock: how far x goes within the paper's 8 s, when it has fallen, and how far
-# the pair has turned about the joint line (less than 0.1 rad, 6°, would not be seen as toppling). Then the same for other shocks: the powers with which those times go.
+# the pair has turned about the joint line (less than 0.1 rad, 6°, would not be seen as toppling). Then the same for other
+# shocks: the powers with which those times go.
 
 # %%
 PAPER_SHOCKS = {"+x": (50, 0, 0), "-x": (-50, 0, 0), "+y": (0, 50, 0), "-y": (0, -50, 0)}
@@ -135,15 +139,17 @@ def decide_c11(m):
         for key in ("largest_x", "turned_about_joint_line_rad", "fallen_in_x_after_s")
     )
     how = (
-        f"In the 8 s of the paper's runs |x| stays below {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along +x, −x, "
-        f"+y, −y, while the pair turns about the joint line by {turning[0]:.2f}, {turning[1]:.2f}, {turning[2]:.2f}, "
-        f"{turning[3]:.2f} rad: after ±x to the same side, at a rate as F^{m['power_of_shock_in_toppling_rate_x']:.2f}. But x "
-        f"creeps: it passes {FALLEN} after {fallen[0]:.1f} s (+x), {fallen[1]:.1f} s (−x), {fallen[3]:.1f} s (−y), times that go "
-        f"as F^{m['power_of_shock_in_time_x']:.1f} along x and F^{m['power_of_shock_in_time_minus_y']:.1f} along −y; "
-        f"after +y it stays ({fallen[2]:.0f} s run)."
+        f"In the 8 s of the paper's runs |x| stays below {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along "
+        f"+x, −x, +y, −y, while the pair turns about the joint line by {turning[0]:.2f}, {turning[1]:.2f}, "
+        f"{turning[2]:.2f}, {turning[3]:.2f} rad: after ±x to the same side, at a rate as "
+        f"F^{m['power_of_shock_in_toppling_rate_x']:.2f}. But x creeps: it passes {FALLEN} after {fallen[0]:.1f} s "
+        f"(+x), {fallen[1]:.1f} s (−x), {fallen[3]:.1f} s (−y), times that go as F^{m['power_of_shock_in_time_x']:.1f} "
+        f"along x and F^{m['power_of_shock_in_time_minus_y']:.1f} along −y; after +y it stays ({fallen[2]:.0f} s run)."
     )
     if first < 40:
-        return Finding("confirmed-if", how, f"for a while: {fallen[0]:.0f} s for 50 N along x, {fallen[3]:.0f} s along −y")
+        return Finding(
+            "confirmed-if", how, f"for a while: {fallen[0]:.0f} s for 50 N along x, {fallen[3]:.0f} s along −y"
+        )
     return Finding("confirmed", how)
 
 
@@ -175,10 +181,11 @@ def decide_c12(m):
     return Finding(
         "confirmed" if fails and parts and cured else "refuted",
         f"With the paper's bar the axes part by {m['largest_angle_of_axes_rad_K_1']:.2f} rad within 2.4 s "
-        f"({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s) and x reaches {m['largest_x_over_unspun_K_1']:.2f} of what (7) "
-        f"lets expect, no effect of the spins; with K = 10, 100, 1000 kg m² against the twist it is "
-        f"{m['largest_x_over_unspun_K_10']:.2f}, {m['largest_x_over_unspun_K_100']:.2f}, {m['largest_x_over_unspun_K_1000']:.2f} "
-        f"of it, and the angle goes down to {m['largest_angle_of_axes_rad_K_1000']:.3f} rad.",
+        f"({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s) and x reaches {m['largest_x_over_unspun_K_1']:.2f} of "
+        "what (7) lets expect, no effect of the spins; with K = 10, 100, 1000 kg m² against the twist it is "
+        f"{m['largest_x_over_unspun_K_10']:.2f}, {m['largest_x_over_unspun_K_100']:.2f}, "
+        f"{m['largest_x_over_unspun_K_1000']:.2f} of it, and the angle goes down to "
+        f"{m['largest_angle_of_axes_rad_K_1000']:.3f} rad.",
     )
 
 
@@ -223,8 +230,9 @@ def measure_c13(spins):
 
 def decide_c13(m):
     how = (
-        f"After 20 N along x the means are {m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}; "
-        f"their common part goes as F^{m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference as "
+        f"After 20 N along x the means are {m['shock_along_x_20_N_mean_x_1']:+.4f} and "
+        f"{m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as "
+        f"F^{m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference as "
         f"F^{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
         f"{m['shock_along_y_5_N_mean_x']:+.5f}, predicted −P_y R/(2G) = {m['shock_along_y_5_N_predicted']:+.5f}, as "
         f"F^{m['power_of_shock_along_y']:.2f}; after the paper's 50 N {m['shock_along_y_50_N_mean_x']:+.3f}."

@@ -33,17 +33,17 @@ def measure_c24(spins):
     state = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -np.linalg.solve(M, C)]])
     roots = np.linalg.eigvals(state)
     # Close roots of a double zero are known to the root of the rounding only.
-    moving = abs(roots) > 1e-6 * max(abs(roots).max(), 1.0)
+    rank, moving = int(np.linalg.matrix_rank(state)), abs(roots) > 1e-6 * max(abs(roots).max(), 1.0)
     run = simulate(scene, np.linspace(0.4, 8, 200), "spheres", 1e-11)
     rate = natural_rate(scene) if any(spins) else 1.0
     waves = np.column_stack([np.ones_like(run.t), run.t, np.cos(rate * run.t), np.sin(rate * run.t)])
     tips = np.concatenate(list(run.axes[..., :2]), axis=1)
     parts = np.linalg.lstsq(waves, tips, rcond=None)[0]
     return {
-        "oscillations": moving.sum() / 2,
-        "zero_roots": 6 - moving.sum(),
-        "displacements_at_rest": 6 - np.linalg.matrix_rank(state),
-        "steady_turnings": np.linalg.matrix_rank(state) - moving.sum(),
+        "oscillations": int(moving.sum()) / 2,
+        "zero_roots": 6 - int(moving.sum()),
+        "displacements_at_rest": 6 - rank,
+        "steady_turnings": rank - int(moving.sum()),
         "rate_rad_per_s": abs(roots).max(),
         "left_by_one_line_and_a_slope_relative": abs(waves @ parts - tips).max() / abs(tips).max(),
         "slope_y_1_per_s": parts[1, 1],
@@ -59,14 +59,16 @@ def decide_c24(m):
     in_yz = abs(m["slope_ratio_y_2_to_y_1"] - 1) < 0.01 and m["slope_x_over_slope_y"] < 0.01
     how = (
         f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s and {m['zero_roots']:.0f} zero roots: "
-        f"{m['displacements_at_rest']:.0f} displacements at rest and {m['steady_turnings']:.0f} steady turning, along y_2 : y_1 = "
-        f"{m['slope_ratio_y_2_to_y_1']:+.4f}. A run is these to {m['left_by_one_line_and_a_slope_relative']:.0e}. "
+        f"{m['displacements_at_rest']:.0f} displacements at rest and {m['steady_turnings']:.0f} steady turning, along "
+        f"y_2 : y_1 = {m['slope_ratio_y_2_to_y_1']:+.4f}. A run is these to "
+        f"{m['left_by_one_line_and_a_slope_relative']:.0e}. "
     )
     if not (one_each and in_yz and m["left_by_one_line_and_a_slope_relative"] < 1e-3):
         return Finding("refuted", how)
     return Finding(
         "confirmed-if",
-        how + "Two modes of three freedoms: the third is the place of the precession's centre (x and the twist), which rests "
+        how
+        + "Two modes of three freedoms: the third is the place of the precession's centre (x and the twist), which rests "
         f"where a shock leaves it, here at x = {m['centre_x_1']:+.5f}.",
         "to first order, and but for the third freedom, which has no rate: where the precession is centred",
     )

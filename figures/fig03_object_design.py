@@ -79,7 +79,7 @@ def figure() -> Figure:
     side = {}
     for name, lines in data().items():
         left, top, width, says, colour = PLACES[name]
-        lines = [part for line in lines for part in wrapped(line, width)]
+        lines = [(part, line.split("(")[0] in PAPER) for line in lines for part in wrapped(line, width)]
         height = LINE * (len(lines) + 2.4)
         axes.add_patch(
             FancyBboxPatch((left, top - height), width, height, boxstyle="round,pad=0,rounding_size=0.15",
@@ -87,8 +87,7 @@ def figure() -> Figure:
         )  # fmt: skip
         axes.text(left + 0.2, top - 0.42, name, fontsize=10.5, fontweight="bold", color=colour, va="center")
         axes.text(left + 0.2, top - 0.92, says, fontsize=8.5, fontstyle="italic", va="center")
-        for i, line in enumerate(lines):
-            bold = line.strip().split("(")[0] in PAPER
+        for i, (line, bold) in enumerate(lines):
             axes.text(left + 0.2, top - LINE * (i + 2.75), line, fontsize=8, family="DejaVu Sans Mono", va="center",
                       fontweight="bold" if bold else "normal")  # fmt: skip
         side[name] = (left, left + width, top - height / 2)

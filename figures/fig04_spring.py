@@ -16,11 +16,11 @@ from lagrotor.models.spring_link import RigidBodySystem, link_force
 from lagrotor.report.diagram import arrow, canvas, label
 from lagrotor.report.wheel import BAR, INK, MARK, ROTORS
 
-S, D = 1.0, 0.2  # N/m, kg/s: drawn with 1 m for 1 N
+S, D, SCALE = 1.0, 0.2, 0.33  # N/m, kg/s; m drawn for 1 N
 TITLE = "Spring between vertex 1 and vertex 2"
 CAPTION = (
     "A link glues two vertices by a spring of rest length 0, stiffness S, and a damper D beside it. Here they are a gap "
-    "apart at rest, so that the force on vertex 1 is −S (X_1 − X_2) and that on vertex 2 its opposite (1 m drawn for 1 N)."
+    "apart at rest, so that the force on vertex 1 is −S (X_1 − X_2) and that on vertex 2 its opposite."
 )
 ALT = (
     "Two bodies drawn as a blue and an orange bar with their centres of mass marked. From the end of each, vertex 1 and "
@@ -40,8 +40,8 @@ def data() -> dict[str, np.ndarray]:
     """Centres and vertices (2, 2, 3) of the two bodies, m; the force on each linked vertex, N."""
     ends, one = [[-0.5, 0, 0], [0.5, 0, 0]], np.eye(3)
     bodies = [
-        RigidBody([-0.95, 0, 0.1], ends, one, turned(-0.25), 1.0, np.zeros(3), np.zeros(3)),
-        RigidBody([0.95, 0, 0.25], ends, one, turned(-0.2), 1.0, np.zeros(3), np.zeros(3)),
+        RigidBody([-1.05, 0, 0.1], ends, one, turned(-0.25), 1.0, np.zeros(3), np.zeros(3)),
+        RigidBody([1.05, 0, 0.25], ends, one, turned(-0.2), 1.0, np.zeros(3), np.zeros(3)),
     ]
     system = RigidBodySystem(bodies, S, D)
     system.link(1, 2, 2, 1)
@@ -74,33 +74,33 @@ def figure() -> Figure:
     """The two bodies in the x, z plane, spring above damper."""
     d = data()
     centres, vertices, force = d["centres"][:, ::2], d["vertices"][..., ::2], d["force"][:, ::2]
-    drawn = Figure(figsize=(7.4, 3.9))
-    axes = canvas(drawn, np.vstack([vertices.reshape(-1, 2), [[0, 0.62], [0, -0.2]]]), 0.1)
+    drawn = Figure(figsize=(7.4, 3.2))
+    axes = canvas(drawn, np.vstack([vertices.reshape(-1, 2), [[0, 0.6], [0, -0.2]]]), 0.1)
     first, second = vertices[0, 1], vertices[1, 0]
     e = (second - first) / np.linalg.norm(second - first)
     n = np.array([-e[1], e[0]])
-    for side in (0.12, -0.12):  # the yokes that hold spring and damper
+    for side in (0.2, -0.2):  # the yokes that hold spring and damper
         for point in (first, second):
             axes.plot(*np.array([point, point + side * n]).T, color=INK, linewidth=1.4)
-    axes.plot(*zigzag(first + 0.12 * n, second + 0.12 * n, 0.05).T, color=INK, linewidth=1.4)
-    a, b = first - 0.12 * n, second - 0.12 * n
+    axes.plot(*zigzag(first + 0.2 * n, second + 0.2 * n, 0.05).T, color=INK, linewidth=1.4)
+    a, b = first - 0.2 * n, second - 0.2 * n
     cup, rod = a + 0.42 * (b - a), a + 0.5 * (b - a)
     axes.plot(*np.array([a, cup]).T, color=INK, linewidth=1.4)
     wall = np.array([cup + 0.2 * e + 0.05 * n, cup + 0.05 * n, cup - 0.05 * n, cup + 0.2 * e - 0.05 * n])
     axes.plot(*wall.T, color=INK, linewidth=1.4)
     axes.plot(*np.array([rod + 0.035 * n, rod - 0.035 * n]).T, color=INK, linewidth=2.4)
     axes.plot(*np.array([rod, b]).T, color=INK, linewidth=1.4)
-    label(axes, (first + second) / 2 + 0.12 * n, "spring $S$", INK, (0, 20))
-    label(axes, (first + second) / 2 - 0.12 * n, "damper $D$", INK, (0, -20))
+    label(axes, (first + second) / 2 + 0.2 * n, "spring $S$", INK, (0, 20))
+    label(axes, (first + second) / 2 - 0.2 * n, "damper $D$", INK, (0, -20))
     for i, ink in enumerate(ROTORS):
         axes.plot(*vertices[i].T, color=ink, linewidth=7, alpha=0.5, solid_capstyle="round", zorder=1)
         axes.plot(*centres[i], "o", color=ink, markersize=7)
         label(axes, centres[i], rf"body {i + 1}, $\vec X_{{cm}}$", ink, (0, -18))
         point = vertices[i, 1 - i]
         axes.add_patch(Circle(point, 0.03, color=INK, zorder=5))
-        arrow(axes, point, point + 0.5 * force[i], MARK, 2.6)
-        label(axes, point, rf"vertex {i + 1}, $\vec X_{i + 1}$", INK, (-14 if i == 0 else 14, 34 if i else 30))
-        label(axes, point + 0.5 * force[i], rf"$\vec F$ on {i + 1}", MARK, (-2 if i else 2, 14), fontsize=10)
+        arrow(axes, point, point + SCALE * force[i], MARK, 2.6)
+        label(axes, point, rf"vertex {i + 1}, $\vec X_{i + 1}$", INK, (-52 if i == 0 else 52, 30 if i == 0 else -26))
+        label(axes, point + SCALE * force[i] / 2, rf"$\vec F$ on {i + 1}", MARK, (0, -12), fontsize=10)
     axes.plot(*np.array([first, second]).T, color=BAR, linewidth=0.8, linestyle=":")
     drawn.suptitle(TITLE)
     return drawn

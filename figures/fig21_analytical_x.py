@@ -60,7 +60,7 @@ CAPTION = (
     f"rad/s, tolerance {TOL:g}), its time multiplied by its frequency so that its phase is t. Largest residual: paper "
     f"(5.22) {_paper:.3f} m, with mean {_mean:.3f} m in x_1, as −r_0² = {-(R0**2):.3f} m is missing from its centre; "
     f"corrected formula of order 2 {_corrected:.4f} m."
-)
+).replace(" -", " −")
 
 
 # %%

@@ -60,7 +60,7 @@ CAPTION = (
     f"minimal model, tolerance {TOL:g}. After the shock x_1 runs from {_m['x_1, least (m)']:.3f} to "
     f"{_m['x_1, most (m)']:.3f} m and x_2 from {_m['x_2, least (m)']:.3f} to {_m['x_2, most (m)']:.3f} m at "
     f"{_m['rate (rad/s)']:.3f} rad/s."
-)
+).replace(" -", " −")
 
 
 # %%

@@ -86,7 +86,7 @@ CAPTION = (
     f"Centres: mean of each tip over {_m['whole turns']:.0f} whole turns; the line through them is at "
     f"{_m['skew angle (deg)']:.2f}° to x, within {_m['spread over the turns (deg)']:.2f}° turn by turn. The linear "
     f"response to the shock has {_m['skew angle by the linear response (deg)']:.2f}°. The paper prints no angle."
-)
+).replace(" -", " −")
 
 
 # %%
@@ -110,7 +110,7 @@ def figure() -> Figure:
     top.plot([-0.5, 0.5], [0, 0], "s", color="#888888", ms=6, label="ground joints")
     top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
     top.set_aspect("equal")
-    top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x", fontsize=10)
+    top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x".replace("-", "−"), fontsize=10)
     turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT, ms=5)
     turns.axhline(d["predicted_angle"][0], color=CORRECTED, ls="--")
     turns.set(

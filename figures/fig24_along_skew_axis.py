@@ -142,7 +142,7 @@ CAPTION = (
     f"{_m['corrected, half distance of the tips, largest residual (m)']:.4f} m; centres "
     f"{_m['distance of the centres (m)']:.4f} m apart, corrected {_m['distance of the centres, 1 − r_0² (m)']:.4f}, "
     f"paper {_m['distance of the centres, paper, 1 + r_0² (m)']:.4f}."
-)
+).replace(" -", " −")
 
 
 # %%

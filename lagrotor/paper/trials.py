@@ -54,7 +54,7 @@ class Result:
 def hear(trial: Trial) -> Result:
     """Run one trial and decide it."""
     began = time.perf_counter()
-    measured = dict(trial.measure(trial.spins))
+    measured = {name: float(value) for name, value in trial.measure(trial.spins).items()}
     return Result(trial, measured, trial.decide(measured), time.perf_counter() - began)
 
 

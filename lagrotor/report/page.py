@@ -9,7 +9,7 @@ from pathlib import Path
 import sympy as sp
 
 from ..paper.catalogue import claims, equation
-from ..paper.ledger import Verdict
+from ..paper.ledger import Statement, Verdict
 from ..paper.trials import Result
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
 from .errata import Erratum, errata
@@ -44,7 +44,8 @@ def page(report: Report) -> str:
         body.append(f'<h2 id="{anchor}">{escape(heading)}</h2>')
         body += [_equation(verdict, report) for verdict in verdicts]
     if sheet:
-        body += ['<h2 id="errata">Errata</h2>', _errata(sheet, report)]
+        stated = {v.id: v.statement for v in report.verdicts}
+        body += ['<h2 id="errata">Errata</h2>', *(_erratum(e, stated[e.id]) for e in sheet)]
     if report.claims:
         body.append('<h2 id="claims">Claims</h2>')
         body += [_claim(result) for result in report.claims]
@@ -126,22 +127,18 @@ def _fact(fact: Fact) -> str:
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
 
 
-def _errata(sheet: list[Erratum], report: Report) -> str:
-    stated = {v.id: v.statement for v in report.verdicts}
-    rows = [
-        (
-            _link(e.id),
-            f"{escape(e.wrong)} <small>Used by: {' '.join(map(_link, e.used_by)) or 'none'}; {escape(e.reach)}.</small>",
-            f"<pre><code>{escape(e.printed)}</code></pre>",
-            "".join(
-                f"<code>{escape(name)} =</code>{_formulas([relation.printed])}"
-                for name, relation in zip(stated[e.id].quantities, stated[e.id].correction, strict=False)
-            )
-            + f"<small>{escape(e.verdict_of_correction)}</small>",
-        )
-        for e in sheet
-    ]
-    return _rows(("Equation", "What was wrong", "Printed", "Correct"), rows, "errata")
+def _erratum(e: Erratum, statement: Statement) -> str:
+    correct = "".join(
+        f"<p><code>{escape(name)} =</code></p>{_formulas([relation.printed])}"
+        for name, relation in zip(statement.quantities, statement.correction, strict=False)
+    )
+    used = " ".join(map(_link, e.used_by)) or "none"
+    return (
+        f'<article id="erratum-{e.id}"><h3>{_link(e.id)} {escape(e.title)}</h3><p>{escape(e.wrong)}</p>'
+        f'<div class="stack"><div><h4>Printed</h4><pre><code>{escape(e.printed)}</code></pre></div>'
+        f"<div><h4>Correct ({escape(e.verdict_of_correction)})</h4>{correct}</div></div>"
+        f"<p><small>Used by: {used}; {escape(e.reach)}.</small></p></article>"
+    )
 
 
 def _claim(result: Result) -> str:

@@ -12,20 +12,16 @@ stable sense, and a force along y against it cancels the drift.
 """
 
 from functools import cache
+from math import pi, sqrt
 
-import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
-from ..errors import DomainError, InputError
-from ..numerics.trajectory import Trajectory
+from ..errors import InputError
 from ..symbols import AXES, G_1, G_2, G, a, b, k
 from .closed_forms import ClosedForm
 from .lagrangians import joint_line_momentum, link_constraint
 from .parameters import Scene
 from .response import P_1, P_2, P_X, impulse_matrices, shock_response
-
-Array = NDArray[np.float64]
 
 p_y = sp.Symbol("p_y", real=True)  # R × impulse along y on rotor 1 (N m s)
 att = sp.Symbol("A_w", positive=True)  # exp(−(Omega_0 w)²/4)
@@ -75,7 +71,7 @@ def shock_toppling() -> ClosedForm:
     mean_rate = sp.Symbol("alpha_mean")
     averaged = momentum.subs({turning: -mean_rate, twisting: -mean_rate})
     averaged = sp.expand(averaged).subs({y1: y2 + sp.Symbol("d")}).expand()
-    averaged = averaged.subs(sp.Symbol("d"), sp.sqrt(mean_square_twist()))
+    averaged = averaged.subs(sp.Symbol("d") ** 2, mean_square_twist())
     rate = sp.solve(sp.expand(averaged) + p_y, mean_rate)[0]
     return _form("shock_toppling", "alpha'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 2)
 
@@ -96,20 +92,20 @@ def cancelling_impulse() -> ClosedForm:
 
 @cache
 def shock_wander() -> ClosedForm:
-    """X' of the mean x after a shock p_x on rotor 1 of opposite spins, massless bar or sigma = 1, third order (1/s).
+    """X' of the mean x after a shock (p_x, p_y) on rotor 1 of opposite spins, to third order (1/s).
 
-    Turning at alpha' carries the twist p_x/G into x: X' = −alpha' Delta/k, by the linear motions about uniform turning
-    with their swing left out. Arguments: p_x, A, G, a, b, k.
+    From the averaged motion: the mean twist Delta = p_x/G stays, and turning about the joint line carries it into x,
+
+        X' = Delta ( (2 G Delta² + G d² + 4 k p_y) / k² − G b d² / (a − b) ) / (8 (a + b)),
+
+    with d² = A² (p_x² + sigma p_y²)/G² the swing's part. Without p_y it goes as the cube of the shock, so that x keeps
+    within a given bound for a time that falls as the cube. Arguments: p_x, p_y, A, G, a, b, k.
     """
-    from .toppling import linear_toppling, nu
+    from .averaged import SWING, TWIST, P, slow_rates
 
-    linear = linear_toppling()
-    _, Delta = sp.symbols("U Delta")
-    slow = linear.stiffness[1, 1].subs({G_1: G, G_2: -G, b: 0})
-    coupling = linear.gyroscopic[1, 0].subs({G_1: G, G_2: -G})
-    rate = -slow * Delta / coupling
-    drift = shock_toppling().expressions[0].subs(p_y, 0)
-    return _form("shock_wander", "X'", sp.factor(rate.subs(nu, drift).subs(Delta, P_X / G)), (P_X, att, G, a, b, k), (), 3)
+    twist, square = P_X / G, att**2 * (P_X**2 + (a + b) / (a - b) * p_y**2) / G**2
+    rate = sp.expand(slow_rates()[0]).subs(SWING, sp.sqrt(square)).subs({TWIST: twist, P: -p_y})
+    return _form("shock_wander", "X'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 3)
 
 
 def _form(
@@ -138,10 +134,15 @@ def toppling_after_shock(scene: Scene) -> float:
 
     Raises InputError as `shock_response` does, and unless the spins are opposite.
     """
-    first, attenuation, sign, ratio = _opposite(scene, "toppling_after_shock")
-    p_x, along_y = first
-    G_value, inertia_a, inertia_b = sign * scene.momenta[0], *scene.inertias
-    return float(shock_toppling()(sign * p_x, along_y, attenuation, G_value, inertia_a, inertia_b, ratio))  # type: ignore[arg-type]
+    return float(shock_toppling()(*_arguments(scene, "toppling_after_shock")))  # type: ignore[arg-type]
+
+
+def wander_after_shock(scene: Scene) -> float:
+    """Third-order mean rate of x (1/s, in units of R) after the scene's shock; opposite spins. Raises as above."""
+    sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
+    first, *others = _arguments(scene, "wander_after_shock")
+    # A shock on rotor 2 is the mirror image, x → −x, of one on rotor 1.
+    return sign * float(shock_wander()(sign * first, *others))  # type: ignore[arg-type]
 
 
 def cancelling_force(scene: Scene) -> float:
@@ -149,40 +150,17 @@ def cancelling_force(scene: Scene) -> float:
 
     Raises InputError as `toppling_after_shock`, DomainError where no force does.
     """
-    (p_x, _), attenuation, sign, ratio = _opposite(scene, "cancelling_force")
-    G_value, inertia_a, inertia_b = sign * scene.momenta[0], *scene.inertias
-    wanted = float(cancelling_impulse()(sign * p_x, attenuation, G_value, inertia_a, inertia_b, ratio))  # type: ignore[arg-type]
+    p_x, _, *others = _arguments(scene, "cancelling_force")
     assert scene.shock is not None
-    return wanted / (scene.rotor.length * scene.shock.width * float(np.sqrt(np.pi)))
+    wanted = float(cancelling_impulse()(p_x, *others))  # type: ignore[arg-type]
+    return wanted / (scene.rotor.length * scene.shock.width * sqrt(pi))
 
 
-def _opposite(scene: Scene, where: str) -> tuple[tuple[float, float], float, float, float]:
-    """(p_x, p_y), attenuation, the sign that exchanges the rotors, ell / R."""
+def _arguments(scene: Scene, where: str) -> tuple[float, ...]:
+    """(p_x, p_y, A, G, a, b, k) of a scene, for the forms above."""
     response = shock_response(scene)
-    assert scene.shock is not None
-    assert scene.link is not None
-    if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
+    if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0 or scene.link is None:
         raise InputError(f"{where}: needs opposite spins, not {scene.spins}")
-    along_y = float(response.impulse[1] + response.impulse[2])
-    # A shock on rotor 2 is the mirror image, x → −x, G → −G_2's part, of one on rotor 1.
-    sign = 1.0 if scene.shock.body == 1 else -1.0
-    return (float(response.impulse[0]), along_y), response.attenuation, sign, scene.link.length / scene.rotor.length
-
-
-def mean_over(t: Array, values: Array) -> float:
-    """Mean of values (n,) at evenly spaced t (n,) under the bump exp(−1/(u (1 − u))), which wipes out oscillations.
-
-    What oscillates n times within t contributes less than exp(−2 sqrt(pi n)) or so. Raises DomainError for n < 8.
-    """
-    if len(t) < 8:
-        raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
-    u = (t[1:-1] - t[0]) / (t[-1] - t[0])
-    weight = np.exp(-1 / (u * (1 - u)))
-    return float((weight * values[1:-1]).sum() / weight.sum())
-
-
-def turning_rate(run: Trajectory) -> float:
-    """Mean alpha' (rad/s) of both axes over a run of evenly spaced times."""
-    r, v = run.axes, run.rates
-    rate = (r[..., 1] * v[..., 2] - r[..., 2] * v[..., 1]) / (r[..., 1] ** 2 + r[..., 2] ** 2)
-    return mean_over(run.t, rate.mean(0))
+    p_x, first, second = (float(p) for p in response.impulse)
+    ratio = scene.link.length / scene.rotor.length
+    return (p_x, first + second, response.attenuation, scene.momenta[0], *scene.inertias, ratio)

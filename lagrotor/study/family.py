@@ -6,7 +6,7 @@ that a turn of the family is passed and not mistaken for its end.
 """
 
 from dataclasses import dataclass, replace
-from math import atanh, cosh, pi
+from math import atanh, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,10 +94,12 @@ def _first(scene: Scene) -> Array:
     return np.array([1.0, 2 * np.sqrt((inertia_a + inertia_b) / (inertia_a - inertia_b)) / fold, 0.0, 0.0])
 
 
-def trace_family(scene: Scene, start: float = 0.05, step: float = 0.05, most: int = 200, largest: float = 0.999) -> OrbitFamily:
+def trace_family(
+    scene: Scene, start: float = 0.05, step: float = 0.1, most: int = 200, largest: float = 0.99
+) -> OrbitFamily:
     """Follow the family from r0 = `start` until it ends, r0 reaches `largest`, or `most` orbits are found.
 
-    step: length of the first step along the curve; it is halved where Newton fails and grows back. The family is said
+    step: length of the first step along the curve; it grows to five times that, and is halved where Newton fails. The family is said
     to end where steps below 1e-5 fail: the orbit's period or speed grows without bound, or it meets a singular position.
     Raises InputError unless the spins are opposite.
     """
@@ -121,7 +123,7 @@ def trace_family(scene: Scene, start: float = 0.05, step: float = 0.05, most: in
             continue
         if turned[0] * along[0] < 0:
             turns.append(float(np.tanh(max(z[0], ahead[0]))))
-        z, along, length = ahead, turned, min(step, 1.5 * length)
+        z, along, length = ahead, turned, min(5 * step, 1.3 * length)
         points.append(z)
         if abs(np.tanh(z[0])) > largest:
             reason = f"r0 reached {largest:g}"
@@ -163,7 +165,3 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
 def _family(scene: Scene, points: Array, turns: tuple[float, ...], reason: str) -> OrbitFamily:
     return OrbitFamily(scene, np.tanh(points[:, 0]), pi / 2 * _natural(scene) / points[:, 3], points, turns, reason)
 
-
-def inclination(u: float) -> float:
-    """cos(theta) = sech u of an orbit's parallel position."""
-    return 1 / cosh(u)

@@ -1,0 +1,79 @@
+# %% [markdown]
+# # Figure 7: the moving bodies of a pair of equal spins
+#
+# The paper's own method: three bodies, spring links, its step. Four pictures of one turn, the wheels carried by the
+# rotation and the centre that the run has for each body (section 3.4).
+
+# %%
+from functools import cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor.report.diagram import bare, draw_wheel, ground
+from lagrotor.report.wheel import BAR, INK, RADIUS, ROTORS, Camera
+from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+
+SCENE = SCENES["same-spin"].scene
+T_END, SHOWN = 0.628, (0, 157, 314, 471)  # s; steps of the pictures, a quarter of a turn apart
+TITLE = "Equal spins: the moving bodies"
+CAPTION = (
+    f"Spring-link model (S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s, n = 20 and omega_s = 10 rad/s in 4.01), the paper's step of "
+    f"{STEP:g} s, spins 10 and 10 rad/s, bar of 1 kg and 1 kg m². A quarter of a turn lies between the pictures: the marked spoke "
+    "turns, the axes stay upright. Wheels are not drawn to the rotors' inertia."
+)
+ALT = (
+    "Four pictures of the pair at t = 0, 0.157, 0.314 and 0.471 s. The axes stand upright and the bar lies level in all; "
+    "a red spoke on each wheel moves round by a quarter of a turn from one to the next, the same way on both."
+)
+
+
+# %%
+@cache
+def data() -> dict[str, np.ndarray]:
+    """Times (n,) in s, angle of body 1's marked spoke (n,) in rad, and the bodies in the four pictures."""
+    system = paper_system(SCENE, STIFFNESS, DAMPING)
+    t = np.arange(round(T_END / STEP) + 1) * STEP
+    run = run_steps(system, None, t, STEP)
+    chosen = list(SHOWN)
+    spoke = run.rotations[0, :, :, 0]
+    return {
+        "t": t,
+        "angle": np.unwrap(np.arctan2(spoke[:, 1], spoke[:, 0])),
+        "shown": t[chosen],
+        "centres": run.centres[:, chosen],
+        "rotations": run.rotations[:, chosen],
+        "tips": run.tips[:, chosen],
+        "moved": np.abs(run.tips - run.tips[:, :1]).max(axis=(0, 2)),
+    }
+
+
+def measure() -> dict[str, float]:
+    """Rate of the marked spoke (rad/s), and how far the tips have moved at most (m)."""
+    d = data()
+    return {
+        "rate of the wheel (rad/s)": float((d["angle"][-1] - d["angle"][0]) / d["t"][-1]),
+        "tips, largest movement (m)": float(d["moved"].max()),
+    }
+
+
+# %%
+def figure() -> Figure:
+    """Four pictures of one turn."""
+    d, camera = data(), Camera()
+    R, ell = SCENE.rotor.length, SCENE.link.length
+    joints = camera(np.array([[-ell / 2, 0, 0], [ell / 2, 0, 0]]))
+    drawn = Figure(figsize=(9.6, 3.4))
+    for k, axes in enumerate(drawn.subplots(1, len(SHOWN))):
+        wide = camera(d["centres"][:2, k] + RADIUS * R * np.array([[-1, 0, 0], [1, 0, 0]]))
+        tips = camera(d["tips"][:, k])
+        bare(axes, np.vstack([joints, tips, wide]), 0.07)
+        for i, ink in enumerate(ROTORS):
+            draw_wheel(axes, camera, d["rotations"][i, k], d["centres"][i, k], (RADIUS * R, R), ink)
+        axes.plot(*tips.T, color=BAR, linewidth=5, solid_capstyle="round", zorder=2)
+        axes.plot(*tips.T, "o", color=INK, markersize=4, zorder=5)
+        ground(axes, joints, 6)
+        axes.set_title(f"t = {d['shown'][k]:.3f} s")
+    drawn.suptitle(f"{TITLE}, spins {SCENE.spins[0]:g} and {SCENE.spins[1]:g} rad/s")
+    return drawn
