@@ -79,7 +79,7 @@ def figure() -> Figure:
         arrow(axes, tips[i], pulled, MARK, 2.4)
         label(axes, pulled, rf"$\vec F_{letter}$", MARK, (6, -14))
         arrow(axes, tips[i], tips[i] + rate, INK, 1.4)
-        label(axes, tips[i] + rate, rf"$\vec r \times \vec F$", INK, (-4, 12))
+        label(axes, tips[i] + rate, r"$\vec r \times \vec F$", INK, (-4, 12))
     arrow(axes, middle, middle + force, MARK, 3.2)
     label(axes, middle + force / 2, r"$\vec F = \vec F_A + \vec F_B$", MARK, (12, 16))
     axes.plot(*np.array([middle, tips.mean(0)]).T, color=BAR, linewidth=0.9, linestyle=":")

@@ -14,13 +14,13 @@ from matplotlib.patches import Circle, Rectangle
 from lagrotor import Scene
 from lagrotor.models.spring_run import paper_system
 from lagrotor.report.diagram import arrow, canvas, label
-from lagrotor.report.wheel import BAR, GROUND, INK, MARK, ROTORS
+from lagrotor.report.wheel import GROUND, INK, MARK, ROTORS
 
-S, D, MOVED = 1.0, 0.2, np.array([0.16, 0.0, 0.12])  # N/m, kg/s; m
+S, D, MOVED = 1.0, 0.2, np.array([0.24, 0.0, 0.18])  # N/m, kg/s; m
 TITLE = "Link between a ground vertex and a body vertex"
 CAPTION = (
     "The ground G is a body that no force moves. Grounding vertex 1 of a rotor makes the vertex G_r(1) where X_r(1) then "
-    "is, and a link between the two; drawn after the rotor has been moved off by 0.2 m, with the force on it."
+    "is, and a link between the two; drawn after the rotor has been moved off by 0.3 m, with the force on it."
 )
 ALT = (
     "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright blue rotor, vertex X r 1, joined "
@@ -56,7 +56,7 @@ def figure() -> Figure:
     d = data()
     vertices, centre, foot, force = (d[name][..., ::2] for name in ("vertices", "centre", "ground", "force"))
     drawn = Figure(figsize=(6.4, 4.4))
-    axes = canvas(drawn, np.vstack([centre, foot + [-0.5, -0.16], foot + [0.75, -0.16]]), 0.06)
+    axes = canvas(drawn, np.vstack([centre, foot + [-0.5, -0.15], foot + [0.75, -0.16]]), 0.06)
     axes.add_patch(Rectangle(foot - [0.5, 0.14], 1.25, 0.14, facecolor="#f2f2f2", edgecolor=GROUND, hatch="///", lw=0))
     axes.plot([foot[0] - 0.5, foot[0] + 0.75], [foot[1]] * 2, color=INK, linewidth=1.6)
     label(axes, foot + [0.6, -0.07], "ground $G$", INK)
@@ -68,14 +68,14 @@ def figure() -> Figure:
     axes.plot(*np.array([point, centre]).T, color=ROTORS[0], linewidth=8, alpha=0.5, solid_capstyle="round", zorder=1)
     axes.plot(*centre, "o", color=ROTORS[0], markersize=8)
     label(axes, centre, r"$\vec X_{cm}$ of body 1", ROTORS[0], (58, -4))
-    for place, text, shift in ((point, r"vertex 1, $\vec X_r(1)$", (64, -2)), (foot, r"$\vec G_r(1)$", (-26, 12))):
+    for place, text, shift in ((point, r"vertex 1, $\vec X_r(1)$", (64, -2)), (foot, r"$\vec G_r(1)$", (-28, 11))):
         axes.add_patch(Circle(place, 0.014, color=INK, zorder=5))
         label(axes, place, text, INK, shift)
     for place, sign in ((point, 1), (foot, -1)):
-        start = place + 0.06 * n
-        arrow(axes, start, start + 0.45 * sign * force, MARK, 2.4)
-    label(axes, point + 0.06 * n, r"$\vec F$ on the body", MARK, (-42, 10), fontsize=10)
-    label(axes, foot + 0.06 * n - 0.45 * force, r"$-\vec F$ on the ground", MARK, (-62, -2), fontsize=10)
-    label(axes, (point + foot) / 2 - 0.05 * n, "$S$, $D$", BAR, (14, -6))
+        start = place + 0.07 * n
+        arrow(axes, start, start + 0.36 * sign * force, MARK, 2.4)
+    label(axes, point + 0.07 * n, r"$\vec F$ on the body", MARK, (-44, 8), fontsize=10)
+    label(axes, foot + 0.07 * n - 0.36 * force, r"$-\vec F$ on the ground", MARK, (-60, 2), fontsize=10)
+    label(axes, (point + foot) / 2, "$S$, $D$", INK, (24, -4))
     drawn.suptitle(TITLE)
     return drawn

@@ -59,19 +59,19 @@ def figure() -> Figure:
     joints = camera(d["joints"] + APART[:2] - [0, 0, 0.16])
     drawn = Figure(figsize=(6.8, 6.2))
     wide = np.vstack([centres[:2] + [-0.42, 0], centres[:2] + [0.42, 0]])
-    axes = canvas(drawn, np.vstack([vertices.reshape(-1, 2), joints, wide]), 0.14)
+    axes = canvas(drawn, np.vstack([vertices.reshape(-1, 2), joints - [0, 0.1], wide]), 0.14)
     for i, ink in enumerate(ROTORS):
         draw_wheel(axes, camera, d["rotations"][i], d["centres"][i] + APART[i], (RADIUS * R, R), ink)
         for start, end in ((vertices[i, 0], joints[i]), (vertices[i, 1], vertices[2, i])):
             axes.plot(*np.array([start, end]).T, color=MARK, linewidth=1.8, linestyle=":", zorder=3)
         x, y, z = d["centres"][i]
         axes.plot(*centres[i], "o", color=INK, markersize=6, zorder=5)
-        label(axes, centres[i], f"R{i + 1}: ({x:g}, {y:g}, {z:g}) m".replace("-", "−"), ink, (0, -44), fontsize=10)
-        label(axes, joints[i], "ground", INK, (0, -16), fontsize=10)
+        label(axes, joints[i], "ground", INK, (0, -15), fontsize=10)
+        label(axes, joints[i], f"R{i + 1}: ({x:g}, {y:g}, {z:g}) m".replace("-", "−"), ink, (0, -32), fontsize=11)
     axes.plot(*vertices[2].T, color=BAR, linewidth=7, solid_capstyle="round", zorder=2)
     axes.plot(*centres[2], "o", color=INK, markersize=6, zorder=5)
     x, y, z = d["centres"][2]
-    label(axes, centres[2], f"R3: ({x:g}, {y:g}, {z:g}) m", INK, (0, 16), fontsize=10)
+    label(axes, centres[2], f"R3: ({x:g}, {y:g}, {z:g}) m", BAR, (0, 16), fontsize=11)
     for i in range(3):
         for j in (0, 1):
             axes.plot(*vertices[i, j], "o", color="white", markeredgecolor=INK, markersize=13, zorder=6)

@@ -32,7 +32,7 @@ ALT = (
 
 # %%
 def turn_means(t: np.ndarray, tips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Crossing times (n + 1,) of y_1 − y_2 through its mean, upwards, and the tips' time means over each turn (2, n, 3)."""
+    """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
     apart = tips[0, :, 1] - tips[1, :, 1]
     apart = apart - (apart.max() + apart.min()) / 2
     up = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
@@ -45,7 +45,7 @@ def turn_means(t: np.ndarray, tips: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 @cache
 def data() -> dict[str, np.ndarray]:
-    """Tips after the shock (2, n, 3) in m, centres of each turn (2, turns, 3), angles (deg), predicted centres (2, 2)."""
+    """Tips after the shock (2, n, 3) in m, centres of each turn (2, turns, 3), angles (deg), predicted centres."""
     t = np.linspace(2.4, 10, 1901)
     tips = simulate(SCENE, t, "minimal", TOL).tips
     _, means = turn_means(t, tips)

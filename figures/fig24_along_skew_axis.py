@@ -33,7 +33,7 @@ ALT = (
 
 # %%
 def turn_means(t: np.ndarray, tips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Crossing times (n + 1,) of y_1 − y_2 through its mean, upwards, and the tips' time means over each turn (2, n, 3)."""
+    """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
     apart = tips[0, :, 1] - tips[1, :, 1]
     apart = apart - (apart.max() + apart.min()) / 2
     up = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))

@@ -86,7 +86,15 @@ def measure() -> dict[str, float]:
 
 
 _m = measure()
-CAPTION = f"Spin 20 rad/s, no bar, shock 40 exp(−(20 (t − 2))²) N on the tip along x. Exact: spheres model, tolerance {TOL:g}; paper's method: springs S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s (n = 20, omega_s = 10 in the paper's formulas: not printed; found by trying, as they give its 100.45 J after a shock), step {STEP:g} s. Sines scaled to the amplitude {_m['amplitude (m)']:.4f} m. Rate read off the spectrum (Hann window, 2.3 s to 10 s): exact {_m['rate, exact model (rad/s)']:.3f}, paper's method {_m['rate, spring model (rad/s)']:.3f}, closed form 16/cos theta = {_m['rate, closed form (rad/s)']:.3f}, printed {PRINTED:g} rad/s. Largest residual: printed rate {_m['printed rate, largest residual (m)']:.3f} m, closed form {_m['closed form, largest residual (m)']:.4f} m."
+CAPTION = (
+    "Spin 20 rad/s, no bar, shock 40 exp(−(20 (t − 2))²) N on the tip along x. Exact: spheres model, tolerance "
+    f"{TOL:g}; paper's method: springs S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s (n = 20, omega_s = 10 in the "
+    f"paper's formulas: not printed; found by trying, as they give its 100.45 J after a shock), step {STEP:g} s. Sines "
+    f"scaled to the amplitude {_m['amplitude (m)']:.4f} m. Rate read off the spectrum (Hann window, 2.3 s to 10 s): "
+    f"exact {_m['rate, exact model (rad/s)']:.3f}, paper's method {_m['rate, spring model (rad/s)']:.3f}, closed form "
+    f"16/cos theta = {_m['rate, closed form (rad/s)']:.3f}, printed {PRINTED:g} rad/s. Largest residual: printed rate "
+    f"{_m['printed rate, largest residual (m)']:.3f} m, closed form {_m['closed form, largest residual (m)']:.4f} m."
+)
 
 
 # %%

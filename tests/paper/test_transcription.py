@@ -1,0 +1,85 @@
+"""What the derivations hold as printed is what the catalogue's LaTeX says, read by sympy's own parser."""
+
+import re
+
+import pytest
+import sympy as sp
+
+from lagrotor.algebra import decide_equal
+from lagrotor.paper import scripts
+from lagrotor.paper.audit import statements
+from lagrotor.paper.catalogue import equation
+from lagrotor.paper.ledger import Statement
+from lagrotor.symbols import ANSATZ, I1, I3, PAIR, ROTOR, A, B, I, M, M_3, M_z, Phi, R, a_const, omega, r0, theta_0
+
+latex = pytest.importorskip("sympy.parsing.latex", reason="sympy's LaTeX parser is missing")
+pytest.importorskip("antlr4", reason="sympy's LaTeX parser needs antlr4-python3-runtime: install the extra `test`")
+
+READ = (
+    *("5.01", "5.02", "5.03", "5.04", "5.05", "5.07", "5.08", "5.10", "5.11", "5.12", "5.13", "5.15"),
+    *("5.20", "5.22", "5.27", "5.28", "6.02"),
+)
+# Rates are given one Greek letter with a number, which the parser keeps whole.
+LETTERS = {"theta": 1, "phi": 2, "psi": 3}
+PLAIN = (ROTOR, PAIR, ANSATZ)
+
+
+def rate_name(angle: str, index: str) -> str:
+    return f"xi_{LETTERS[angle]}{index or 0}"
+
+
+NAMES: dict[str, sp.Expr] = {
+    **{s.name: s for s in (*ROTOR.q, *PAIR.q)},
+    **{rate_name(*q.name.partition("_")[::2]): v for c in PLAIN for q, v in zip(c.q, c.v, strict=True)},
+    **{s.name: s for s in (I1, I3, I, M, R, A, B, M_z, M_3, omega, r0, theta_0, Phi)},
+    "a": a_const,
+}
+
+
+# What the lines before an equation say of its letters.
+MEANT = {
+    "5.05": {a_const: M_z / I},
+    "5.20": {sp.sin(theta_0): r0, ROTOR.q[1]: Phi},
+}
+
+
+def reading(source: str) -> list[sp.Expr]:
+    """The members of a printed chain of equations as sympy has them."""
+    text = re.sub(r"\\(left|right|mathcal)\b", "", source).replace(r"\varphi", r"\phi").replace("{L}", "L")
+    text = re.sub(r"\\frac\{\\partial L\}\{\\partial \\dot\{\\\w+\}\}", "", text)
+    text = re.sub(r"\\dot\{\\phi\}\s*t", r"\\Phi", text)
+    text = re.sub(
+        r"\\dot\{\\(\w+)\}(?:_(\d))?", lambda m: rf"\xi_{{{rate_name(m[1], m[2] or '').removeprefix('xi_')}}} ", text
+    )
+    # A letter before a bracket is a factor, not a function; a dot written out keeps the parser from guessing.
+    text = re.sub(r"(?<![\\\w])([IAB]|I_\d|r_0|\\xi_\{\d+\})\s*(?=\()", r"\1 \\cdot ", text)
+    text = re.sub(r"\\cos\s*\\theta\s*(?=\()", r"\\cos(\\theta) \\cdot ", text)
+    members = []
+    for line in re.split(r"\\quad", text):
+        parts = [part.strip(" .,;\n") for part in re.split(r"=|\\sim", line)]
+        members += [part for part in (parts[1:] if len(parts) > 1 else parts) if part]
+    return [named(latex.parse_latex(part)) for part in members]
+
+
+def named(expression: sp.Expr) -> sp.Expr:
+    """Parsed symbols by the glossary's, decimals as the rationals they are written as."""
+    table = {s: NAMES[plain(s.name)] for s in expression.free_symbols if plain(s.name) in NAMES}
+    return sp.nsimplify(expression.xreplace(table), rational=True)
+
+
+def plain(name: str) -> str:
+    return re.sub(r"[\\{}]", "", name)
+
+
+def stated() -> dict[str, Statement]:
+    return {s.id: s for stem in scripts.names("derivations", "s") for s in statements(stem) if s.id in READ}
+
+
+@pytest.mark.parametrize("identifier", READ)
+def test_every_printed_member_is_what_was_judged(identifier: str) -> None:
+    statement = stated()[identifier]
+    for member in reading(equation(identifier).latex):
+        member = member.subs(MEANT.get(identifier, {}))
+        answers = [decide_equal(member, relation.printed).answer for relation in statement.relations]
+        assert "zero" in answers, (identifier, member, [r.printed for r in statement.relations])
+        assert all(decide_equal(2 * member, r.printed).answer != "zero" for r in statement.relations)
