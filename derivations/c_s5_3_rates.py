@@ -141,7 +141,7 @@ def decide_c21(m):
         f"{m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With springs of "
         f"n = 10, 20, 40, 80 (C08) the rate is {m['rate_springs_n_10_rad_per_s']:.2f}, "
         f"{m['rate_springs_n_20_rad_per_s']:.2f}, {m['rate_springs_n_40_rad_per_s']:.2f}, "
-        f"{m['rate_springs_n_80_rad_per_s']:.2f}: 11.4 together with 100.45 and 16 asks for n of "
+        f"{m['rate_springs_n_80_rad_per_s']:.2f}: of these, 11.4 together with 100.45 and 16 asks for n of "
         f"{m['largest_n_that_gives_11.4']:.0f} at most."
     )
     rates = (m["rate_springs_rad_per_s"], m["rate_after_small_shock_rad_per_s"])

@@ -68,8 +68,9 @@ def decide_c10(m):
         f"After a shock along x the pair topples in the X-Z plane, {m['shock_along_x_turned_in_XZ_rad']:.2f} rad "
         f"within 8 s at {m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = "
         f"{m['rate_by_closed_form_rad_per_s']:.3f}), each rotor about its own ground: |y| is "
-        f"{m['shock_along_x_largest_y']:.0e} at most, so nothing turns about the line through the grounds. After a "
-        f"shock along y it does: {m['shock_along_y_turned_about_joint_line_rad']:.2f} rad within 6 s."
+        f"{m['shock_along_x_largest_y']:.0e} at most, so it turns around the two grounds, as the paper words it, but "
+        "not about the line through them. After a shock along y it does: "
+        f"{m['shock_along_y_turned_about_joint_line_rad']:.2f} rad within 6 s."
     )
     topples = m["shock_along_x_tilt_deg"] > 90 and m["shock_along_y_tilt_deg"] > 90
     if not topples:
@@ -103,6 +104,15 @@ def fall(spins, force, seconds):
     return float(seconds)
 
 
+def fall_of_springs(spins, force, seconds):
+    """The same by the paper's program."""
+    scene = Scene(spins, link=BAR, shock=Shock(force, AT, WIDTH))
+    t = np.round(np.arange(15, 5 + 50 * seconds) * 0.02, 3)
+    run = run_steps(paper_system(scene, 1e4, 250.0), scene.shock, t, 1e-3)
+    over = abs(run.axes[..., 0]).max(0) > FALLEN
+    return float(t[over.argmax()] - AT) if over.any() else float(seconds)
+
+
 def measure_c11(spins):
     found = {}
     for name, force in PAPER_SHOCKS.items():
@@ -115,6 +125,7 @@ def measure_c11(spins):
         }
     if min(found[f"fallen_in_x_after_s_{name}"] for name in PAPER_SHOCKS) < 2.4:
         return found
+    found["fallen_in_x_after_s_-y_springs"] = fall_of_springs(spins, PAPER_SHOCKS["-y"], 10.0)
     times = [fall(spins, (f, 0, 0), 40.0) for f in ALONG]
     found["power_of_shock_in_time_x"] = measured_order(ALONG, times)
     times = [fall(spins, (0, -f, 0), 40.0) for f in ACROSS]
@@ -143,8 +154,9 @@ def decide_c11(m):
         f"+x, −x, +y, −y, while the pair turns about the joint line by {turning[0]:.2f}, {turning[1]:.2f}, "
         f"{turning[2]:.2f}, {turning[3]:.2f} rad: after ±x to the same side, at a rate as "
         f"F^{m['power_of_shock_in_toppling_rate_x']:.2f}. But x creeps: it passes {FALLEN} after {fallen[0]:.1f} s "
-        f"(+x), {fallen[1]:.1f} s (−x), {fallen[3]:.1f} s (−y), times that go as F^{m['power_of_shock_in_time_x']:.1f} "
-        f"along x and F^{m['power_of_shock_in_time_minus_y']:.1f} along −y; after +y it stays ({fallen[2]:.0f} s run)."
+        f"(+x), {fallen[1]:.1f} s (−x), {fallen[3]:.1f} s (−y; by springs {m['fallen_in_x_after_s_-y_springs']:.1f}), "
+        f"times that go as F^{m['power_of_shock_in_time_x']:.1f} along x and "
+        f"F^{m['power_of_shock_in_time_minus_y']:.1f} along −y; after +y it stays ({fallen[2]:.0f} s run)."
     )
     if first < 40:
         return Finding(
@@ -182,7 +194,7 @@ def decide_c12(m):
         "confirmed" if fails and parts and cured else "refuted",
         f"With the paper's bar the axes part by {m['largest_angle_of_axes_rad_K_1']:.2f} rad within 2.4 s "
         f"({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s) and x reaches {m['largest_x_over_unspun_K_1']:.2f} of "
-        "what (7) lets expect, no effect of the spins; with K = 10, 100, 1000 kg m² against the twist it is "
+        "what it would without spins, which is what (7) has; with K = 10, 100, 1000 kg m² against the twist it is "
         f"{m['largest_x_over_unspun_K_10']:.2f}, {m['largest_x_over_unspun_K_100']:.2f}, "
         f"{m['largest_x_over_unspun_K_1000']:.2f} of it, and the angle goes down to "
         f"{m['largest_angle_of_axes_rad_K_1000']:.3f} rad.",

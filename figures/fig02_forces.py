@@ -68,7 +68,9 @@ def figure() -> Figure:
     middle = tips.mean(0) + [0, 0.2]
     force, rate = camera(d["force"]), camera(d["rate"])
     drawn = Figure(figsize=(7.0, 5.2))
-    axes = canvas(drawn, np.vstack([joints, tips, tips + rate, middle + force, tips[1:] + camera(d["forces"][1])]), 0.16)
+    axes = canvas(
+        drawn, np.vstack([joints, tips, tips + rate, middle + force, tips[1:] + camera(d["forces"][1])]), 0.16
+    )
     axes.plot(*tips.T, color=BAR, alpha=0.6, linewidth=6, solid_capstyle="round", zorder=2)
     for i, (ink, letter) in enumerate(zip(ROTORS, "AB", strict=True)):
         arrow(axes, joints[i], tips[i], ink, 2.6)

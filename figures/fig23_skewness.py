@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.response import shock_response
+from lagrotor.study.rates import turn_means
 
 TOL = 1e-10
 SCENE = Scene(
@@ -31,18 +32,6 @@ ALT = (
 
 
 # %%
-def turn_means(t: np.ndarray, tips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
-    apart = tips[0, :, 1] - tips[1, :, 1]
-    apart = apart - (apart.max() + apart.min()) / 2
-    up = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
-    crossings = t[up] - apart[up] * (t[up + 1] - t[up]) / (apart[up + 1] - apart[up])
-    steps = np.diff(t)[:, None] * (tips[:, 1:] + tips[:, :-1]) / 2
-    sums = np.concatenate([np.zeros((2, 1, 3)), steps.cumsum(1)], axis=1)
-    at = np.array([[np.interp(crossings, t, sums[i, :, j]) for j in range(3)] for i in (0, 1)]).swapaxes(1, 2)
-    return crossings, np.diff(at, axis=1) / np.diff(crossings)[:, None]
-
-
 @cache
 def data() -> dict[str, np.ndarray]:
     """Tips after the shock (2, n, 3) in m, centres of each turn (2, turns, 3), angles (deg), predicted centres."""

@@ -14,6 +14,7 @@ from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.report.style import CORRECTED, EXACT, PAPER
 from lagrotor.rotors.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.rotors.response import shock_response
+from lagrotor.study.rates import turn_means
 
 TOL = 1e-10
 SCENE = Scene(
@@ -32,18 +33,6 @@ ALT = (
 
 
 # %%
-def turn_means(t: np.ndarray, tips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
-    apart = tips[0, :, 1] - tips[1, :, 1]
-    apart = apart - (apart.max() + apart.min()) / 2
-    up = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
-    crossings = t[up] - apart[up] * (t[up + 1] - t[up]) / (apart[up + 1] - apart[up])
-    steps = np.diff(t)[:, None] * (tips[:, 1:] + tips[:, :-1]) / 2
-    sums = np.concatenate([np.zeros((2, 1, 3)), steps.cumsum(1)], axis=1)
-    at = np.array([[np.interp(crossings, t, sums[i, :, j]) for j in range(3)] for i in (0, 1)]).swapaxes(1, 2)
-    return crossings, np.diff(at, axis=1) / np.diff(crossings)[:, None]
-
-
 def fitted_phase(t: np.ndarray, wave, seen: np.ndarray) -> float:
     """The phase at t = 0 for which wave(phase) (2, n) is nearest to `seen` in the mean square."""
     from scipy.optimize import minimize_scalar

@@ -14,6 +14,7 @@ from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.models.spring_run import paper_system, run_steps
 from lagrotor.report.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.rotors.closed_forms import free_precession_rate
+from lagrotor.study.rates import peak, spectrum
 
 TOL, PRINTED, HALF, SHOWN = 1e-10, 11.4, 0.5, (1.5, 10)
 STIFFNESS, DAMPING, STEP = 1e4, 250.0, 1e-3
@@ -29,22 +30,6 @@ ALT = (
 
 
 # %%
-def spectrum(t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rates (rad/s) below 30 and amplitudes (m) of x less its mean: Hann window, padded eightfold."""
-    window = np.hanning(len(t))
-    weight = (x - (x * window).sum() / window.sum()) * window
-    amplitude = 2 * np.abs(np.fft.rfft(weight, 8 * len(t))) / window.sum()
-    rate = 2 * np.pi * np.fft.rfftfreq(8 * len(t), t[1] - t[0])
-    return rate[rate < 30], amplitude[rate < 30]
-
-
-def peak(rate: np.ndarray, amplitude: np.ndarray) -> float:
-    """Rate (rad/s) of the highest peak: the top of the parabola through the logarithms of its three highest points."""
-    n = int(np.argmax(amplitude))
-    before, top, after = np.log(amplitude[n - 1 : n + 2])
-    return float(rate[n] + (before - after) / (before - 2 * top + after) / 2 * (rate[1] - rate[0]))
-
-
 @cache
 def data() -> dict[str, np.ndarray]:
     """Time (s), force (N), x of tip 1 from its start (m) by both models and both sines, spectra after the shock."""

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.spring_run import paper_system, run_steps
 from lagrotor.report.style import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.study.rates import peak, spectrum
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 STIFFNESS, DAMPING, STEP = 1e4, 250.0, 1e-3
@@ -31,22 +32,6 @@ ALT = (
 
 
 # %%
-def spectrum(t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rates (rad/s) below 30 and amplitudes (m) of x less its mean: Hann window, padded eightfold."""
-    window = np.hanning(len(t))
-    weight = (x - (x * window).sum() / window.sum()) * window
-    amplitude = 2 * np.abs(np.fft.rfft(weight, 8 * len(t))) / window.sum()
-    rate = 2 * np.pi * np.fft.rfftfreq(8 * len(t), t[1] - t[0])
-    return rate[rate < 30], amplitude[rate < 30]
-
-
-def peak(rate: np.ndarray, amplitude: np.ndarray) -> float:
-    """Rate (rad/s) of the highest peak: the top of the parabola through the logarithms of its three highest points."""
-    n = int(np.argmax(amplitude))
-    before, top, after = np.log(amplitude[n - 1 : n + 2])
-    return float(rate[n] + (before - after) / (before - 2 * top + after) / 2 * (rate[1] - rate[0]))
-
-
 def phase(t: np.ndarray, x: np.ndarray, rate: float) -> np.ndarray:
     """Phase of x at each of t (rad), turning with `rate`: unwrapped angle of its mean over one period around it."""
     wide = round(2 * np.pi / rate / (t[1] - t[0]))

@@ -1,6 +1,4 @@
-"""Judging one motion against another: largest differences, orders in an amplitude, drift, the ansatz integrals."""
-
-from collections.abc import Callable, Sequence
+"""Judging one motion against another: orders in an amplitude, swings, the ansatz integral along a run."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,11 +12,6 @@ def measured_order(amplitudes: ArrayLike, errors: ArrayLike) -> float:
     """The power p of errors ~ amplitudes**p: the slope of a straight line through the logarithms."""
     slope, _ = np.polyfit(np.log(np.asarray(amplitudes, float)), np.log(np.asarray(errors, float)), 1)
     return float(slope)
-
-
-def errors_over(amplitudes: Sequence[float], error: Callable[[float], float]) -> list[float]:
-    """The error at each amplitude."""
-    return [error(amplitude) for amplitude in amplitudes]
 
 
 def swing(values: Array) -> float:

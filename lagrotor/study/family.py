@@ -151,7 +151,9 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
         while z[0] < goal - 1e-15:
             tangent = curve.tangent(z, row)
             if tangent[0] < 0.02 or step < 1e-5:
-                raise DomainError(f"orbit_family: r0 = {r0:g} is past {np.tanh(z[0]):.6g}, where the family turns or ends")
+                raise DomainError(
+                    f"orbit_family: r0 = {r0:g} is past {np.tanh(z[0]):.6g}, where the family turns or ends"
+                )
             u = min(goal, z[0] + step)
             try:
                 z = curve.correct(z + (u - z[0]) / tangent[0] * tangent, row, u)
@@ -164,4 +166,3 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
 
 def _family(scene: Scene, points: Array, turns: tuple[float, ...], reason: str) -> OrbitFamily:
     return OrbitFamily(scene, np.tanh(points[:, 0]), pi / 2 * _natural(scene) / points[:, 3], points, turns, reason)
-

@@ -6,6 +6,7 @@ from math import exp, pi, sqrt
 import numpy as np
 import pytest
 
+from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.trials import hear, listed, record
 
@@ -146,6 +147,12 @@ def test_stability_in_x_is_for_a_while(heard):
     assert m["fallen_in_x_after_s_+x"] == pytest.approx(m["fallen_in_x_after_s_-x"], abs=0.1)
     assert m["turned_about_joint_line_rad_+x"] == pytest.approx(m["turned_about_joint_line_rad_-x"], rel=1e-2)
     assert m["fallen_in_x_after_s_-y"] < m["fallen_in_x_after_s_+x"] < m["fallen_in_x_after_s_+y"]
+    # Another model, in other coordinates: read at the same times, 1/40 s apart.
+    scene = Scene((10, -10), link=Link(mass=1, inertia=1), shock=Shock((0, -50, 0), 0.2, 1 / 50))
+    t = np.linspace(0.3, 10, 971)
+    x = abs(simulate(scene, t, "minimal", 1e-10).axes[..., 0]).max(0)
+    assert m["fallen_in_x_after_s_-y"] == pytest.approx(t[np.argmax(x > 0.5)] - 0.2, abs=0.04)
+    assert m["fallen_in_x_after_s_-y_springs"] == pytest.approx(m["fallen_in_x_after_s_-y"], rel=0.03)
     assert m["power_of_shock_in_toppling_rate_x"] == pytest.approx(2, abs=0.1)
     assert m["power_of_shock_in_time_x"] == pytest.approx(-3, abs=0.3)
     assert m["power_of_shock_in_time_minus_y"] == pytest.approx(-2, abs=0.3)
