@@ -65,7 +65,7 @@ def figure() -> Figure:
     """The pair with the forces on it."""
     d, camera = data(), Camera(azimuth=-66, elevation=20)
     joints, tips = camera(d["joints"]), camera(d["tips"])
-    middle = tips.mean(0) + [0, 0.2]
+    middle = tips.mean(0) + np.array([0, 0.2])
     force, rate = camera(d["force"]), camera(d["rate"])
     drawn = Figure(figsize=(7.0, 5.2))
     axes = canvas(

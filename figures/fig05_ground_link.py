@@ -56,10 +56,10 @@ def figure() -> Figure:
     d = data()
     vertices, centre, foot, force = (d[name][..., ::2] for name in ("vertices", "centre", "ground", "force"))
     drawn = Figure(figsize=(6.4, 4.4))
-    axes = canvas(drawn, np.vstack([centre, foot + [-0.5, -0.15], foot + [0.75, -0.16]]), 0.06)
+    axes = canvas(drawn, np.vstack([centre, foot - [0.5, 0.15], foot - [-0.75, 0.15]]), 0.06)
     axes.add_patch(Rectangle(foot - [0.5, 0.14], 1.25, 0.14, facecolor="#f2f2f2", edgecolor=GROUND, hatch="///", lw=0))
     axes.plot([foot[0] - 0.5, foot[0] + 0.75], [foot[1]] * 2, color=INK, linewidth=1.6)
-    label(axes, foot + [0.6, -0.07], "ground $G$", INK)
+    label(axes, foot - [-0.6, 0.07], "ground $G$", INK)
     point, e = vertices[0], (vertices[0] - foot) / np.linalg.norm(vertices[0] - foot)
     n = np.array([-e[1], e[0]])
     along = np.r_[0, 0.12, np.linspace(0.17, 0.83, 12), 0.88, 1][:, None]

@@ -58,7 +58,7 @@ def figure() -> Figure:
     centres, vertices = camera(d["centres"] + APART), camera(d["vertices"] + APART[:, None])
     joints = camera(d["joints"] + APART[:2] - [0, 0, 0.16])
     drawn = Figure(figsize=(6.8, 6.2))
-    wide = np.vstack([centres[:2] + [-0.42, 0], centres[:2] + [0.42, 0]])
+    wide = np.vstack([centres[:2] - [0.42, 0], centres[:2] - [-0.42, 0]])
     axes = canvas(drawn, np.vstack([vertices.reshape(-1, 2), joints - [0, 0.1], wide]), 0.14)
     for i, ink in enumerate(ROTORS):
         draw_wheel(axes, camera, d["rotations"][i], d["centres"][i] + APART[i], (RADIUS * R, R), ink)

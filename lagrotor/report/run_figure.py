@@ -53,14 +53,14 @@ def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
     """
     figure = Figure(figsize=(7.0, 7.0))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
-    upper.plot(data["t"], data["energy"], color=MODEL)
+    upper.plot(data["t"], data["energy"], color=MODEL, linewidth=3)
     upper.plot(data["t"], data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
     upper.set(ylabel="energy [J]", title="Energy")
     upper.margins(y=0.12)
     middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
     middle.set(ylabel=f"force in {letter} [N]", title="Force on the tip of rotor 1", ylim=(-3, 55))
     for j, (name, colour) in enumerate(COMPONENTS.items()):
-        lower.plot(data["t"], data["centre"][:, j], color=colour, label=f"{name}, paper's method")
+        lower.plot(data["t"], data["centre"][:, j], color=colour, linewidth=3, label=f"{name}, paper's method")
         exact = "exact model" if j == 2 else None
         lower.plot(data["t"], data["exact_centre"][:, j], color=EXACT, linestyle="--", linewidth=1.0, label=exact)
     lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
