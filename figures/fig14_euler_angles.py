@@ -71,7 +71,10 @@ def figure() -> Figure:
     axes.plot(*tilted.T, color=ROTORS[0], linewidth=1.0, alpha=0.7)
     axes.plot(*np.array([-node * 0.84, node]).T, color=CORRECTED, linewidth=1.8, linestyle="--")
     label(axes, node, "node line", CORRECTED, (4, -12), fontsize=10)
-    for frame, ink, names, width in ((fixed, INK, ("e_x", "e_y", "e_z"), 1.6), (body, ROTORS[0], ("e_1", "e_2", "e_3"), 2.2)):
+    for frame, ink, names, width in (
+        (fixed, INK, ("e_x", "e_y", "e_z"), 1.6),
+        (body, ROTORS[0], ("e_1", "e_2", "e_3"), 2.2),
+    ):
         for end, name in zip(frame, names, strict=True):
             arrow(axes, (0, 0), end, ink, width)
             label(axes, 1.09 * end, f"${name}$", ink)

@@ -68,7 +68,7 @@ def figure() -> Figure:
     east, up = np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
     axes = canvas(drawn, np.vstack([joints, tips, joints + camera(0.62 * east), joints + camera(1.02 * up)]), 0.16)
     axes.plot(*tips.T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)
-    label(axes, tips.mean(0), r"bar, length $\ell$", INK, (0, 16))
+    label(axes, tips.mean(0), r"bar, length $\ell$", INK, (38, 16))
     for i, ink in enumerate(ROTORS):
         foot, r = d["joints"][i], d["axes"][i]
         shadow = np.array([r[0], r[1], 0.0])
@@ -76,19 +76,19 @@ def figure() -> Figure:
         for end, line in ((foot + up, "--"), (foot + 0.55 * east, "-"), (shadow_end, ":")):
             axes.plot(*camera(np.array([foot, end])).T, color=GROUND, linewidth=1.3, linestyle=line, zorder=1)
         axes.plot(*camera(np.array([shadow_end, d["tips"][i]])).T, color=GROUND, linewidth=1.3, linestyle=":", zorder=1)
-        label(axes, camera(foot + 0.6 * east), "$x$", BAR, fontsize=10)
         label(axes, camera(foot + 1.04 * up), "$z$", BAR, fontsize=10)
         arrow(axes, joints[i], tips[i], ink, 2.6)
         label(axes, tips[i], rf"$\vec r_{i + 1}$", ink, (-18 if i == 0 else 20, 2))
-        theta, phi = between(up, r, 0.6, foot), between(east, flat, 0.32, foot)
+        theta, phi = between(up, r, 0.5, foot), between(east, flat, 0.32, foot)
         across = np.cross(up, r) / np.linalg.norm(np.cross(up, r))
-        psi = arc(foot + 0.8 * r, across, np.cross(r, across), 0.1, -0.7 * np.pi, np.pi)
+        psi = arc(foot + 0.82 * r, across, np.cross(r, across), 0.09, -0.7 * np.pi, np.pi)
         for curve, name, out in ((theta, "theta", 1.14), (phi, "phi", 1.3)):
             path_arrow(axes, camera(curve), MARK)
             middle = camera(foot + out * (curve[len(curve) // 2] - foot))
             label(axes, middle, rf"$\{name}_{i + 1}$", MARK)
         path_arrow(axes, camera(psi), ink)
-        label(axes, camera(foot + 0.8 * r), rf"$\psi_{i + 1}$", ink, (34, -6))
+        label(axes, camera(foot + 0.82 * r), rf"$\psi_{i + 1}$", ink, (34, -6))
+    label(axes, camera(d["joints"][1] + 0.6 * east), "$x$", BAR, fontsize=10)
     axes.plot(*joints.T, color=GROUND, linewidth=1.3, zorder=1)
     ground(axes, joints)
     drawn.suptitle(TITLE)

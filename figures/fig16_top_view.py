@@ -65,7 +65,9 @@ def figure() -> Figure:
     turn = np.linspace(0, 2 * np.pi, 121)
     for i, ink in enumerate(ROTORS):
         foot, tip = d["joints"][i], d["tips"][i]
-        axes.plot(foot[0] + d["sines"][i] * np.cos(turn), foot[1] + d["sines"][i] * np.sin(turn), ":", color=ink, linewidth=1)
+        axes.plot(
+            foot[0] + d["sines"][i] * np.cos(turn), foot[1] + d["sines"][i] * np.sin(turn), ":", color=ink, linewidth=1
+        )
         axes.plot([foot[0], foot[0] + 0.42], [0, 0], color=GROUND, linewidth=1.4, zorder=1)
         arrow(axes, foot, tip, ink, 2.6)
         label(axes, (foot + tip) / 2, rf"$R\,\sin\theta_{i + 1}$", ink, (-34, 8 if i == 0 else -8))
@@ -75,7 +77,7 @@ def figure() -> Figure:
         path_arrow(axes, curve, MARK)
         label(axes, foot + 1.35 * (curve[len(curve) // 2] - foot), rf"$\phi_{i + 1}$", MARK)
     axes.plot(*d["tips"].T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)
-    label(axes, d["tips"].mean(0), r"bar", INK, (22, 10))
+    label(axes, d["tips"].T @ [0.75, 0.25], "bar", INK, (18, 8))
     ground(axes, d["joints"])
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     axes.margins(x=0.06, y=0.06)

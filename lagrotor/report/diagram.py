@@ -31,7 +31,9 @@ def bare(axes: Axes, seen: Array, room: float = 0.12) -> None:
     axes.axis("off")
 
 
-def arrow(axes: Axes, start: ArrayLike, end: ArrayLike, colour: str = INK, width: float = 2.0, style: str = "-|>") -> None:
+def arrow(
+    axes: Axes, start: ArrayLike, end: ArrayLike, colour: str = INK, width: float = 2.0, style: str = "-|>"
+) -> None:
     """An arrow from `start` (2,) to `end` (2,)."""
     (x, y), (u, v) = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     axes.add_patch(
@@ -46,7 +48,9 @@ def path_arrow(axes: Axes, points: Array, colour: str = INK, width: float = 1.6)
     arrow(axes, points[-2], points[-1], colour, width)
 
 
-def label(axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **more: Any) -> None:
+def label(
+    axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **more: Any
+) -> None:
     """Text near `at` (2,), moved by `shift` points, with a white rim so that no line runs through it."""
     x, y = np.asarray(at, dtype=float)
     style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | more
