@@ -58,7 +58,7 @@ assert decide_zero(dumbbell).answer == "zero"
 
 # %%
 system, forces = axes_pair()
-rest = {v: 0 for v in AXES.v}
+rest = dict.fromkeys(AXES.v, 0)
 assert system.L.subs(rest) == 0
 assert all(e == 0 for e in forces.subs(rest))
 numeric = natural_frequency()

@@ -16,8 +16,12 @@ from lagrotor.study.family import OrbitFamily, orbit_family, trace_family
 statements: list = []
 findings: list[tuple[str, str]] = []
 
-BARS = {"massless, k = 1": Link(1, 0, 0), "massless, k = 0.6": Link(0.6, 0, 0), "m = 1, K = 0.05, k = 1": Link(1, 1, 0.05)}
-amplitudes = np.array([0.2, 0.5, 0.75, 0.9])
+BARS = {
+    "massless, k = 1": Link(1, 0, 0),
+    "massless, k = 0.6": Link(0.6, 0, 0),
+    "m = 1, K = 0.05, k = 1": Link(1, 1, 0.05),
+}
+amplitudes = np.array([0.2, 0.6, 0.8, 0.9])
 
 
 def scene_of(link: Link) -> Scene:
@@ -35,7 +39,7 @@ def ends() -> dict[str, OrbitFamily]:
 
 # %%
 curves = {}
-for name, link in BARS.items():
+for name, link in list(BARS.items())[:2]:
     family = orbit_family(scene_of(link), amplitudes)
     curves[name] = family.frequencies / natural_rate(scene_of(link))
 rows = "; ".join(f"{name}: " + ", ".join(f"{v:.5f}" for v in values) for name, values in curves.items())
@@ -45,8 +49,8 @@ assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 findings.append(
     (
         "The family of orbits",
-        f"Omega/Omega_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}. For ell <= R the frequency falls, passes a "
-        "least value and rises again: no monotonic law. The families are followed to r_0 = 0.99 without a turn "
-        "(`ends`, slow): they end where the axes come to lie along the joint line, r_0 = 1.",
+        f"Omega/Omega_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}. For k = 1 the frequency "
+        "falls, passes a least value and rises again; a long bar's only rises. The families are followed to "
+        "r_0 = 0.99 without a turn (`ends`, slow): they end where the axes come to lie along the joint line, r_0 = 1.",
     )
 )

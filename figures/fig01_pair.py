@@ -19,10 +19,10 @@ SCENE = Scene(spins=(10.0, -10.0))
 TITLE = "Axially coupled rotor pair"
 CAPTION = (
     "Two equal rotors stand on ground joints a bar's length ell = 1 m apart; the bar joins their tips. Each turns about "
-    "its axis of length R = 1 m at its own omega_i, here opposite; wheels drawn with a radius of their own choosing."
+    "its axis of length R = 1 m at its own omega_i, here opposite; wheels not drawn to the inertia, one spoke of each marked."
 )
 ALT = (
-    "Two wheels, blue on the left and orange on the right, on upright axes above two ground joints on the x axis. A grey "
+    "Two wheels, blue on the left and red on the right, on upright axes above two ground joints on the x axis. A grey "
     "bar joins the upper ends of the axes. Arrows about the axes show spins of opposite sense."
 )
 
@@ -57,19 +57,19 @@ def figure() -> Figure:
     R = SCENE.rotor.length
     drawn = Figure(figsize=(6.4, 5.6))
     wide = d["centres"] + RADIUS * R * np.array([[-1, 0, 0], [1, 0, 0]])
-    axes = canvas(drawn, camera(np.vstack([d["joints"], wide, d["spins"].reshape(-1, 3)])), 0.18)
     joints, tips = camera(d["joints"]), camera(d["tips"])
+    right = joints[1] + [0.58, 0]
+    axes = canvas(drawn, np.vstack([camera(np.vstack([wide, d["spins"].reshape(-1, 3)])), joints, right]), 0.18)
     for i, ink in enumerate(ROTORS):
         draw_wheel(axes, camera, d["rotations"][i], d["centres"][i], (RADIUS * R, R), ink)
         path_arrow(axes, camera(d["spins"][i]), ink)
         label(axes, camera(d["spins"][i]).mean(0), rf"$\omega_{i + 1}$", ink, (0, 26))
-        label(axes, camera(wide[i]), f"rotor {i + 1}", ink, (0, -34))
+        label(axes, camera(wide[i]), f"rotor {i + 1}", ink, (-12 if i == 0 else 12, -44))
         label(axes, joints[i], "ground joint", INK, (0, -16), fontsize=9)
     axes.plot(*tips.T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)
     axes.plot(*tips.T, "o", color=INK, markersize=6, zorder=5)
     ground(axes, joints)
     label(axes, tips.mean(0), r"bar, length $\ell$", INK, (0, 16))
-    right = joints[1] + [0.46, 0]
     arrow(axes, right, right + tips[1] - joints[1], INK, 1.0, "<|-|>")
     label(axes, right + (tips[1] - joints[1]) / 2, r"$R$", INK, (12, 0))
     origin, e = camera(np.zeros(3)), camera(0.3 * np.eye(3))

@@ -24,7 +24,7 @@ CAPTION = (
 )
 ALT = (
     "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright blue rotor, vertex X r 1, joined "
-    "to the ground vertex by a zigzag spring. A red arrow at the rotor's vertex points back at the ground vertex; an "
+    "to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points back at the ground vertex; an "
     "equal one at the ground vertex is taken up by the ground."
 )
 

@@ -25,7 +25,7 @@ CAPTION = (
 )
 ALT = (
     "Four pictures of the pair at t = 0, 0.157, 0.314 and 0.471 s. The axes stand upright and the bar lies level in all; "
-    "a red spoke on each wheel moves round by a quarter of a turn from one to the next, the same way on both."
+    "a green spoke on each wheel moves round by a quarter of a turn from one to the next, the same way on both."
 )
 
 

@@ -19,8 +19,8 @@ SCENE = SCENES["no-spin"].scene
 TITLE = "No spin, shock along the bar"
 ALT = (
     "Three panels over 10 s. Energy: zero, then 0.45 J from t = 2 s. Force: a pulse of 50 N at 2 s. Centre of rotor 1: x "
-    "and z follow arcs of a circle of 0.5 m about the ground joint, y stays zero; the dashed exact curves"
-    " lie on them."
+    "and z follow arcs of a circle of 0.5 m about the ground joint, y stays zero; the dashed exact "
+    "curves lie on them."
 )
 
 

@@ -18,8 +18,8 @@ SCENE = SCENES["anti-spin-shock-y"].scene
 TITLE = "Opposite spins, shock across the bar"
 ALT = (
     "Three panels over 10 s. Energy: 100 J, then 100.68 J from t = 2 s. Force: a pulse of 50 N in y at 2 s. Centre of "
-    "rotor 1: x swings a little about −0.5 m while y and z go round the ground joint; the dashed exact curves run"
-    " a little ahead in the end."
+    "rotor 1: x swings a little about −0.5 m while y and z go round the ground joint; the dashed exact "
+    "curves run a little ahead in the end."
 )
 
 

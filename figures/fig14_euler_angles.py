@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from lagrotor.report.diagram import arrow, between, canvas, label, path_arrow
-from lagrotor.report.style import CORRECTED
 from lagrotor.report.wheel import GROUND, INK, MARK, ROTORS, Camera
 from lagrotor.rotors.lagrangians import axis
 
@@ -25,8 +24,8 @@ CAPTION = (
     "axis lies at the azimuth varphi − 90°."
 )
 ALT = (
-    "A fixed black frame and a tilted blue frame with a common origin. A dashed green node line lies in the level plane "
-    "and in the tilted plane. Arcs with arrows mark varphi in the level plane, theta between e z and e 3, and psi in the "
+    "A fixed black frame and a tilted blue frame with a common origin. A dashed node line lies in the level plane "
+    "and in the tilted plane. Green arcs with arrows mark varphi in the level plane, theta between e z and e 3, and psi in the "
     "tilted plane."
 )
 
@@ -69,8 +68,8 @@ def figure() -> Figure:
     axes.plot(*level.T, color=GROUND, linewidth=1.0)
     axes.fill(*tilted.T, color=ROTORS[0], alpha=0.10, linewidth=0)
     axes.plot(*tilted.T, color=ROTORS[0], linewidth=1.0, alpha=0.7)
-    axes.plot(*np.array([-node * 0.84, node]).T, color=CORRECTED, linewidth=1.8, linestyle="--")
-    label(axes, node, "node line", CORRECTED, (4, -12), fontsize=10)
+    axes.plot(*np.array([-node * 0.84, node]).T, color=INK, linewidth=1.8, linestyle="--")
+    label(axes, node, "node line", INK, (4, -12), fontsize=10)
     for frame, ink, names, width in (
         (fixed, INK, ("e_x", "e_y", "e_z"), 1.6),
         (body, ROTORS[0], ("e_1", "e_2", "e_3"), 2.2),

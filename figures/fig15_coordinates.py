@@ -18,8 +18,8 @@ from lagrotor.rotors.lagrangians import axis
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # theta, phi of the two axes before they are brought onto the bar, rad
 TITLE = "Generalized coordinates of the pair"
 ALT = (
-    "Two inclined axes r 1 (blue) and r 2 (orange) on ground joints, their tips joined by a grey bar. At each joint a dashed "
-    "upright line and a faint x direction; arcs mark theta from the upright to the axis, phi from x to the axis's shadow "
+    "Two inclined axes r 1 (blue) and r 2 (red) on ground joints, their tips joined by a grey bar. At each joint a dashed "
+    "upright line and a faint x direction; green arcs mark theta from the upright to the axis, phi from x to the axis's shadow "
     "on the ground, and psi around the axis."
 )
 
@@ -53,9 +53,9 @@ def measure() -> dict[str, float]:
 
 _degrees = np.degrees(np.array([data()["theta"], data()["phi"]]))
 CAPTION = (
-    "Inclination theta_i, azimuth phi_i (the paper's varphi_i shifted by 90°) and spin angle psi_i of both rotors; the bar has its "
-    f"length ell = 1 m in the drawing: theta = {_degrees[0, 0]:.0f}° and {_degrees[0, 1]:.0f}°, phi = {_degrees[1, 0]:.0f}° and "
-    f"{_degrees[1, 1]:.0f}°. Six angles, one constraint: five degrees of freedom."
+    "Inclination theta_i, azimuth phi_i (the paper's varphi_i shifted by 90°) and spin angle psi_i of both rotors; the bar "
+    f"has its length ell = 1 m in the drawing: theta = {_degrees[0, 0]:.0f}° and {_degrees[0, 1]:.0f}°, "
+    f"phi = {_degrees[1, 0]:.0f}° and −{-_degrees[1, 1]:.0f}°. Six angles, one constraint: five degrees of freedom."
 )
 
 
@@ -68,7 +68,7 @@ def figure() -> Figure:
     east, up = np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
     axes = canvas(drawn, np.vstack([joints, tips, joints + camera(0.62 * east), joints + camera(1.02 * up)]), 0.16)
     axes.plot(*tips.T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)
-    label(axes, tips.mean(0), r"bar, length $\ell$", INK, (38, 16))
+    label(axes, tips.T @ [0.75, 0.25], r"bar $\ell$", INK, (20, 12))
     for i, ink in enumerate(ROTORS):
         foot, r = d["joints"][i], d["axes"][i]
         shadow = np.array([r[0], r[1], 0.0])

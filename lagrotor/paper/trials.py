@@ -60,7 +60,7 @@ def hear(trial: Trial) -> Result:
 
 def listed() -> dict[str, Trial]:
     """Every trial that a script holds, by claim, in the paper's order."""
-    found = {}
+    found: dict[str, Trial] = {}
     for stem in scripts.names("derivations", "c"):
         found |= {trial.id: trial for trial in scripts.run("derivations", stem)["trials"]}
     return {identifier: found[identifier] for identifier in claims() if identifier in found}

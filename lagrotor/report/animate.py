@@ -69,18 +69,18 @@ def animate(
     target = Path(path)
     check_film(target, float(run.t[-1] - run.t[0]), fps)
     times = frame_times(run.t[0], run.t[-1], fps)
-    drawn = _told(_frames(run, times), fps, step)
+    drawn = _told(_frames(run, times), len(times), fps, step)
     if target.suffix == ".gif":
         return write_beside(target, lambda file: _write_gif(file, drawn, len(times), fps))
     return write_beside(target, lambda file: _write_mp4(file, drawn, fps))
 
 
-def _told(frames: Iterator[Pixels], fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
-    second = -1
+def _told(frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
+    second = 0
     for i, frame in enumerate(frames):
-        if int(i / fps) > second:
-            second = int(i / fps)
-            step(f"second {second + 1}")
+        if i / fps >= second and (i < count - 1 or second == 0):
+            second += 1
+            step(f"second {second}")
         yield frame
 
 
@@ -217,7 +217,7 @@ class _Stage:
         middle, half = (flat.max(0) + flat.min(0)) / 2, 0.55 * max(np.ptp(flat, axis=0).max(), 1.2 * radius)
         above.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal")
         above.set(xlabel="x [m]", ylabel="y [m]", title="tips from above")
-        above.locator_params(nbins=6)
+        above.locator_params(nbins=5)
 
     def __call__(self, i: int) -> list[Artist]:
         moving = self.moving

@@ -1,8 +1,6 @@
 """The command `lagrotor`. Exit status: 0 as recorded, 1 a verdict changed, 2 bad usage or input, 130 interrupted."""
 
 import argparse
-import json
-import math
 import os
 import sys
 from collections import Counter
@@ -12,9 +10,9 @@ from typing import Any
 
 from .. import __version__
 from ..errors import InputError, LagrotorError
-from .options import Parser, add_scene, add_shock, check_file, check_folder, scene_of, shock_of
+from .options import Parser, add_scene, add_shock, check_folder
+from .scene_commands import animate_command, rate_command, simulate_command
 
-_MOST_SAMPLES = 10_000_000
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
 
@@ -94,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
 
     added = command(
         "simulate",
-        _simulate,
+        simulate_command,
         "run a rotor pair and keep or show its motion",
         "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
     )
@@ -111,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
 
     added = command(
         "animate",
-        _animate,
+        animate_command,
         "write a ready scene's motion as GIF or MP4",
         "lagrotor animate free-precession --out pair.gif",
     )
@@ -125,7 +123,7 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
 
     added = command(
-        "rate", _rate, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
+        "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
     )
     add_scene(added)
     added.add_argument("--json", action="store_true", help="print a JSON object")
@@ -213,96 +211,4 @@ def _figure(given: argparse.Namespace) -> int:
             step(f"figure {number}")
             picture = draw(number, given.out)
             print(picture.svg, picture.png, sep="\n")
-    return 0
-
-
-def _animate(given: argparse.Namespace) -> int:
-    from ..rotors.scenes import SCENES
-    from .animate import animate, check_film
-    from .terminal import progress
-
-    ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
-    t_end = ready.duration if given.t_end is None else given.t_end
-    check_film(target, t_end, given.fps)
-    check_folder(target.parent)
-
-    import numpy as np
-
-    from ..models.simulate import simulate
-
-    with progress(1 + math.ceil(t_end)) as step:
-        step("motion")
-        run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
-        animate(run, target, given.fps, step)
-    print(target)
-    return 0
-
-
-def _simulate(given: argparse.Namespace) -> int:
-    if not (math.isfinite(given.t_end) and given.t_end > 0):
-        raise InputError(f"--t-end {given.t_end:g} must be greater than zero and finite, in s")
-    if not 2 <= given.samples <= _MOST_SAMPLES:
-        raise InputError(f"--samples {given.samples} must lie between 2 and {_MOST_SAMPLES}")
-    if given.out:
-        check_file(given.out)
-    scene = scene_of(given, shock_of(given))
-
-    import numpy as np
-
-    from ..models.simulate import simulate
-
-    run = simulate(scene, np.linspace(0.0, given.t_end, given.samples), model=given.model, tol=given.tol)
-    if given.out:
-        run.save(given.out)
-    summary = {
-        "model": run.model,
-        "why": run.why,
-        "samples": given.samples,
-        "t_end": given.t_end,
-        "evaluations": run.evaluations,
-        "energy_first": float(run.energy[0]),
-        "energy_last": float(run.energy[-1]),
-        "link_length_spread": float(np.ptp(run.link_length)),
-        "tip_1": run.tips[0, -1].tolist(),
-        "tip_2": run.tips[1, -1].tolist(),
-    }
-    if given.json:
-        print(json.dumps(summary, indent=1, ensure_ascii=False))
-    elif given.out:
-        print(f"{given.out}: {given.samples} times by the model {run.model} ({run.why})")
-    else:
-        print(_run_table(summary))
-    return 0
-
-
-def _run_table(run: dict[str, Any]) -> str:
-    from .terminal import table
-
-    def point(tip: list[float]) -> str:
-        return "  ".join(f"{x:.9f}" for x in tip)
-
-    rows = [
-        ("model", f"{run['model']} ({run['why']})"),
-        ("evaluations", str(run["evaluations"])),
-        ("energy at first [J]", f"{run['energy_first']:.12g}"),
-        ("energy at last [J]", f"{run['energy_last']:.12g}"),
-        ("link length, spread [m]", f"{run['link_length_spread']:.3g}"),
-        ("tip 1 at the end [m]", point(run["tip_1"])),
-        ("tip 2 at the end [m]", point(run["tip_2"])),
-    ]
-    return table((f"{run['t_end']:g} s", f"{run['samples']} times"), rows)
-
-
-def _rate(given: argparse.Namespace) -> int:
-    scene = scene_of(given)
-
-    from ..rotors.closed_forms import natural_rate
-
-    rate = float(natural_rate(scene))
-    period = 2 * math.pi / abs(rate) if rate else None
-    if given.json:
-        print(json.dumps({"rate": rate, "period": period}))
-    else:
-        print(f"natural rate  {rate:.12g} rad/s")
-        print(f"period        {f'{period:.12g} s' if period else 'none: no oscillation'}")
     return 0

@@ -12,8 +12,8 @@ from .style import OKABE_ITO
 
 RADIUS = 0.36  # of a wheel, in lengths of its axis; two wheels on a bar of that length do not meet. Not to the inertia
 
-INK, BAR, GROUND, MARK = "#222222", "#777777", "#aaaaaa", OKABE_ITO["vermillion"]
-ROTORS = (OKABE_ITO["blue"], OKABE_ITO["orange"])
+INK, BAR, GROUND, MARK = "#222222", "#777777", "#aaaaaa", OKABE_ITO["bluish green"]
+ROTORS = (OKABE_ITO["blue"], OKABE_ITO["vermillion"])  # dark enough for letters on white
 
 
 def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDArray[np.intp]]:

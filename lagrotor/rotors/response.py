@@ -70,7 +70,8 @@ def _ordered(linear: LinearSystem) -> LinearSystem:
     rows = [linear.basis.row(i) for i in (0, 1, 4)]
     change = sp.Matrix.vstack(*rows).inv()
     parts = (change.T * m * change for m in (linear.mass, linear.gyroscopic, linear.stiffness))
-    return LinearSystem(*parts, linear.basis * change)
+    mass, gyroscopic, stiffness = parts
+    return LinearSystem(mass, gyroscopic, stiffness, linear.basis * change)
 
 
 @cache

@@ -5,8 +5,8 @@ As alpha is cyclic, the motions near it have constant coefficients; in (U, Delta
 
     L_2 = A U'² + D Delta'²/4 − A nu² U² + (G nu/k − b nu²) Delta²/2 − G U Delta' + A alpha'²,   A = a + b, D = a − b,
 
-so that turning is stable exactly where  e = b nu² − G nu / k >= 0  (G = G_1 = −G_2). A massless bar leaves only the
-sense: nu against G is stable, nu with G is not.
+so that turning is stable where  e = b nu² − G nu / k > 0  and unstable where e < 0  (G = G_1 = −G_2). A massless
+bar leaves only the sense: nu against G is stable, nu with G is not.
 """
 
 from functools import cache

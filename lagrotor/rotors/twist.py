@@ -6,8 +6,8 @@ Delta obeys, on any parallel motion r(t), x = r . e_x,
 
     d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
 
-free of G and of ell / R. It is kept small for b >= 0 and grows for b < 0: K > m ell²/4, a bar of more inertia than two
-point masses at its ends have.
+free of G and of ell / R. It is kept small on small cones for b > 0, drifts for b = 0 and grows for b < 0: K > m ell²/4,
+a bar of more inertia than two point masses at its ends have.
 """
 
 from functools import cache
@@ -57,7 +57,8 @@ def twist_coefficients() -> tuple[sp.Expr, sp.Expr]:
 def twist_growth() -> ClosedForm:
     """Growth rate (1/s) of a small twist on the steady precession of equal spins, to first order in its half-angle:
 
-    rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0; rho the sine of the half-angle of the cone.
+    rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0 (b = 0: a drift in time);
+    rho the sine of the half-angle of the cone.
     The mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2.
     """
     rate = G / (a + b)
@@ -88,9 +89,7 @@ def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene
     rate = G_value / ((inertia_a + inertia_b) * cos(angle))
     axis = (sin(angle), 0.0, cos(angle))
     # At x = sin(angle) turning about the joint line moves y alone: alpha' = −y'/z.
-    first, second = (
-        (0.0, rate * sin(angle) + sign * twist_rate / 2 * cos(angle), 0.0) for sign in (1.0, -1.0)
-    )
+    first, second = ((0.0, rate * sin(angle) + sign * twist_rate / 2 * cos(angle), 0.0) for sign in (1.0, -1.0))
     return consistent_scene(scene.spins, (axis, axis), (first, second), scene.rotor, scene.link)
 
 
@@ -117,10 +116,13 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
 
 
 def twist_safe(scene: Scene) -> bool:
-    """Whether a small parallel precession of equal spins keeps its axes parallel: b >= 0, that is K <= m ell²/4."""
+    """Whether a small parallel precession of equal spins keeps its axes parallel: b > 0, that is K < m ell²/4.
+
+    Raises InputError without a bar.
+    """
     if scene.link is None:
         raise InputError("twist_safe: the scene has no bar: nothing couples the twist")
-    return scene.link.inertia <= scene.link.mass * scene.link.length**2 / 4
+    return scene.link.inertia < scene.link.mass * scene.link.length**2 / 4
 
 
 def _equal(scene: Scene, angle: float, where: str) -> tuple[float, float, float]:

@@ -99,8 +99,9 @@ def trace_family(
 ) -> OrbitFamily:
     """Follow the family from r0 = `start` until it ends, r0 reaches `largest`, or `most` orbits are found.
 
-    step: length of the first step along the curve; it grows to five times that, and is halved where Newton fails. The family is said
-    to end where steps below 1e-5 fail: the orbit's period or speed grows without bound, or it meets a singular position.
+    step: length of the first step along the curve; it grows to five times that, and is halved where Newton fails.
+    The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
+    meets a singular position.
     Raises InputError unless the spins are opposite.
     """
     shape_of(scene)
@@ -143,9 +144,9 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
         raise DomainError("orbit_family: amplitudes must increase within (0, 1)")
     still = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
     curve, row = _Curve(still), np.array([1.0, 0, 0, 0])
-    u = min(atanh(wanted[0]), 0.05)
+    u = min(atanh(wanted[0]), 0.2)
     z = curve.correct(u * _first(scene) + [0, 0, 0, pi / 2], row, u)
-    points, step = [], 0.1
+    points, step = [], 0.3
     for r0 in wanted:
         goal = atanh(r0)
         while z[0] < goal - 1e-15:
@@ -157,7 +158,7 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
             u = min(goal, z[0] + step)
             try:
                 z = curve.correct(z + (u - z[0]) / tangent[0] * tangent, row, u)
-                step = min(0.2, 1.5 * step)
+                step = min(0.4, 1.5 * step)
             except (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError):
                 step /= 2
         points.append(curve.correct(z, row, goal))

@@ -1,0 +1,333 @@
+"""Motion: bodies turned along a run against exact rotations, wheels that stay rigid, films of the right size."""
+
+import os
+import sys
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy.spatial.transform import Rotation
+
+from lagrotor import Scene, Shock, consistent_scene, simulate
+from lagrotor.errors import InputError, LagrotorError
+from lagrotor.numerics.attitude import between_samples, body_rotations, turn_between
+from lagrotor.report.animate import SIZE, Motion, animate, frame_times
+from lagrotor.report.command_line import main
+from lagrotor.report.wheel import Camera, carried, wheel
+from lagrotor.rotors.closed_forms import natural_frequency, paired_frequency
+from lagrotor.rotors.scenes import SCENES
+
+START = np.array([[0.3, 0.2, np.sqrt(0.87)], [0.0, 0.0, 1.0]])
+RATES = np.array([[0.6, -0.9, 0.0], [1.0, 0.5, 0.0]])
+RATES[0] -= (RATES[0] @ START[0]) * START[0]
+SPINS = (10.0, -7.0)
+
+
+def free_run(n):
+    """Two uncoupled rotors, the second through the upright position again and again, read at n times up to 5 s."""
+    scene = Scene(SPINS, link=None, axes=START, rates=RATES)
+    return simulate(scene, np.linspace(0, 5, n), model="spheres", tol=1e-12)
+
+
+def exact_rotation(i, t, first):
+    """Q(t) = exp([L] t/J) exp([r] (1/I3 − 1/J)(L . r) t) Q(0) of a symmetric body turning about a fixed point."""
+    J, I3 = Scene(SPINS).rotor.J, Scene(SPINS).rotor.I3
+    L = J * np.cross(START[i], RATES[i]) + I3 * SPINS[i] * START[i]
+    spin = np.outer(t, START[i] * (1 / I3 - 1 / J) * (L @ START[i]))
+    return (Rotation.from_rotvec(np.outer(t, L / J)) * Rotation.from_rotvec(spin)).as_matrix() @ first
+
+
+def turned(run):
+    return body_rotations(run.t, run.axes, run.rates, run.momenta[:, 0] / run.scene.rotor.I3)
+
+
+def error(n):
+    run = free_run(n)
+    Q = turned(run)
+    return max(np.abs(Q[i] - exact_rotation(i, run.t, Q[i, 0])).max() for i in (0, 1))
+
+
+# --- rotations along a run
+
+
+def test_bodies_turn_as_the_exact_free_rotor_to_fourth_order():
+    errors = [error(n) for n in (101, 201, 401)]
+    assert errors[-1] < 3e-7
+    assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx([4, 4], abs=0.2)
+
+
+def test_without_the_area_the_rotation_is_wrong():
+    """The twin: the spin alone, carried along great circles, loses the area that the path encloses."""
+    run = free_run(401)
+    still = body_rotations(run.t, run.axes, 0 * run.rates, np.array(SPINS))
+    assert np.abs(still[0] - exact_rotation(0, run.t, still[0, 0])).max() > 1e-5
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_bodies_stay_bodies_and_keep_their_axes(name):
+    ready = SCENES[name]
+    run = simulate(ready.scene, np.linspace(0, ready.duration, 301))
+    Q = turned(run)
+    assert np.abs(Q.swapaxes(-1, -2) @ Q - np.eye(3)).max() < 1e-12
+    assert np.linalg.det(Q) == pytest.approx(np.ones(Q.shape[:2]))
+    assert np.abs(Q[..., 2] - run.axes).max() < 1e-12
+
+
+def test_spinning_upright_is_a_turn_about_e_z():
+    run = simulate(SCENES["same-spin"].scene, np.linspace(0, 1, 11))
+    expected = Rotation.from_rotvec(np.outer(10 * run.t, [0, 0, 1])).as_matrix()
+    assert np.abs(turned(run)[0] - expected).max() < 1e-12
+
+
+def test_a_start_that_hangs_and_a_turn_right_round():
+    down, up = np.array([[[0.0, 0.0, -1.0]]]), np.array([[[0.0, 0.0, 1.0]]])
+    hanging = body_rotations(np.zeros(1), down, 0 * down, np.zeros(1))
+    assert hanging[0, 0, :, 2] == pytest.approx([0, 0, -1])
+    assert np.linalg.det(hanging[0, 0]) == pytest.approx(1)
+    with pytest.raises(InputError, match="more samples"):
+        turn_between(up, down)
+
+
+def test_between_samples_is_of_fourth_order_and_refuses_times_outside():
+    fine = free_run(801)
+    errors = []
+    for step in (20, 10):
+        r, v = between_samples(fine.t[::step], fine.axes[:, ::step], fine.rates[:, ::step], fine.t)
+        errors.append(np.abs(r - fine.axes).max())
+        assert np.abs((r * v).sum(-1)).max() < 1e-12
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(4, abs=0.4)
+    with pytest.raises(InputError, match="outside"):
+        between_samples(fine.t, fine.axes, fine.rates, np.array([5.1]))
+
+
+# --- wheels and camera
+
+
+def test_wheel_is_that_of_the_paper():
+    points, segments = wheel(0.4, 1.0, 6)
+    assert points.shape == (8, 3)
+    assert segments.shape == (3 * 6 + 1, 2)
+    lengths = np.linalg.norm(points[segments[:, 0]] - points[segments[:, 1]], axis=1)
+    assert lengths[:6] == pytest.approx(0.4)  # a hexagon's side is its radius
+    assert lengths[6:-1] == pytest.approx(np.hypot(0.4, 0.5))
+    assert lengths[-1] == pytest.approx(1.0)
+    assert (np.bincount(segments.ravel()) == [4] * 6 + [7] * 2).all()
+    rounder, more = wheel(0.4, 1.0, 6, arcs=4)
+    assert rounder.shape == (26, 3)
+    assert more.shape == (24 + 12 + 1, 2)
+    with pytest.raises(InputError):
+        wheel(0.4, 1.0, 2)
+
+
+def test_wheel_stays_rigid_along_a_run():
+    ready = SCENES["anti-spin-shock-y"]
+    run = simulate(ready.scene, np.linspace(0, 10, 501))
+    moving = Motion.of(run, run.t[::10])
+    points, segments = wheel(0.4, run.scene.rotor.length, 7)
+    placed = carried(points, moving.rotations, moving.centres)
+    lengths = np.linalg.norm(placed[..., segments[:, 0], :] - placed[..., segments[:, 1], :], axis=-1)
+    still = np.linalg.norm(points[segments[:, 0]] - points[segments[:, 1]], axis=-1)
+    assert np.abs(lengths - still).max() < 1e-12
+    assert np.abs(placed[..., -1, :] - moving.tips).max() < 1e-12  # the axle runs from the ground joint to the tip
+    assert np.abs(placed[..., -2, :] - moving.joints[:, None]).max() < 1e-12
+
+
+def test_camera_is_orthonormal_and_right_handed():
+    frame = Camera(33.0, 21.0).frame
+    assert np.abs(frame @ frame.T - np.eye(3)).max() < 1e-14
+    assert np.linalg.det(frame) == pytest.approx(1)
+    assert Camera(-90.0, 0.0)(np.eye(3)) == pytest.approx(np.array([[1, 0], [0, 0], [0, 1.0]]))
+
+
+# --- films
+
+
+@pytest.fixture(scope="module")
+def short():
+    ready = SCENES["free-precession"]
+    return simulate(ready.scene, np.linspace(0, 2.4, 121))
+
+
+def test_frame_times():
+    assert frame_times(0.0, 1.0, 4.0) == pytest.approx([0, 0.25, 0.5, 0.75, 1])
+    assert frame_times(0.0, 0.9, 4.0) == pytest.approx([0, 0.25, 0.5, 0.75])
+    assert frame_times(0.3, 0.9, 10.0) == pytest.approx(np.arange(3, 10) / 10)
+
+
+def test_gif_has_its_frames_size_and_duration(short, tmp_path):
+    seconds = []
+    path = animate(short, tmp_path / "pair.gif", fps=15, step=seconds.append)
+    assert seconds == ["second 1", "second 2", "second 3"]
+    with Image.open(path) as film:
+        assert (film.n_frames, film.size) == (37, SIZE)
+        duration, colours = 0, set()
+        for i in range(film.n_frames):
+            film.seek(i)
+            duration += film.info["duration"]
+            colours |= {colour for _, colour in film.convert("RGB").getcolors(1 << 16)}
+        assert film.info["loop"] == 0
+    assert duration == pytest.approx(37 / 15 * 1000, abs=10)
+    assert (255, 255, 255) in colours
+    assert len(colours) <= 128
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_frames_move(short, tmp_path):
+    with Image.open(animate(short, tmp_path / "pair.gif", fps=5)) as film:
+        frames = []
+        for i in range(film.n_frames):
+            film.seek(i)
+            frames.append(np.asarray(film.convert("L"), dtype=int))
+    changed = [np.mean(a != b) for a, b in pairwise(frames)]
+    assert min(changed) > 0.005
+    assert max(changed) < 0.2
+
+
+@pytest.mark.parametrize(
+    ("name", "fps", "says"),
+    [
+        ("pair.png", 25, "gif or .mp4"),
+        ("pair.gif", 0.5, "fps"),
+        ("pair.gif", np.nan, "fps"),
+        ("no/pair.gif", 25, "existing"),
+    ],
+)
+def test_what_cannot_be_written_is_refused(short, tmp_path, name, fps, says):
+    with pytest.raises(InputError, match=says):
+        animate(short, tmp_path / name, fps=fps)
+    assert not list(tmp_path.iterdir())
+
+
+def test_one_time_is_no_film(tmp_path):
+    run = simulate(SCENES["same-spin"].scene, [1.0])
+    with pytest.raises(InputError, match="one frame"):
+        run.animate(tmp_path / "pair.gif")
+
+
+def test_interrupted_leaves_nothing(short, tmp_path):
+    def stop(name):
+        if name == "second 2":
+            raise KeyboardInterrupt
+
+    old = tmp_path / "pair.gif"
+    old.write_bytes(b"old")
+    with pytest.raises(KeyboardInterrupt):
+        animate(short, old, step=stop)
+    assert old.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+# --- MP4, with a stand-in for ffmpeg
+
+
+def stand_in(folder, monkeypatch, body):
+    script = folder / "ffmpeg"
+    script.write_text(f"#!{sys.executable}\nimport sys\n{body}\n")
+    script.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+
+
+def test_mp4_hands_ffmpeg_every_frame(short, tmp_path, monkeypatch):
+    (tmp_path / "bin").mkdir()
+    body = "taken = len(sys.stdin.buffer.read())\nprint(taken, sys.argv[sys.argv.index('-s') + 1])"
+    stand_in(tmp_path / "bin", monkeypatch, body)
+    path = animate(short, tmp_path / "pair.mp4", fps=5)
+    assert path.read_text().split() == [str(13 * SIZE[0] * SIZE[1] * 3), f"{SIZE[0]}x{SIZE[1]}"]
+
+
+def test_mp4_says_what_ffmpeg_said(short, tmp_path, monkeypatch):
+    (tmp_path / "bin").mkdir()
+    stand_in(tmp_path / "bin", monkeypatch, "sys.exit('no such codec')")
+    with pytest.raises(LagrotorError, match=r"no such codec.*gif"):
+        animate(short, tmp_path / "pair.mp4", fps=5)
+    assert not (tmp_path / "pair.mp4").exists()
+
+
+def test_mp4_without_ffmpeg_names_the_way_out(short, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(InputError, match=r"install it, or write a \.gif"):
+        animate(short, tmp_path / "pair.mp4")
+
+
+# --- command line, prompt and notebook
+
+
+@pytest.mark.parametrize(
+    ("argv", "says"),
+    [
+        (["spin"], "invalid choice: 'spin'"),
+        ([], "SCENE"),
+        (["same-spin", "--out", "pair.txt"], ".gif or .mp4"),
+        (["same-spin", "--out", "missing/pair.gif"], "no folder missing"),
+        (["same-spin", "--out", "."], ".gif or .mp4"),
+        (["same-spin", "--t-end", "0"], "0 s"),
+        (["same-spin", "--t-end", "nan"], "nan s"),
+        (["same-spin", "--t-end", "1e9"], "600 s at most"),
+        (["same-spin", "--fps", "0"], "fps = 0"),
+        (["same-spin", "--fps", "inf"], "fps = inf"),
+    ],
+)
+def test_bad_input_is_one_line_and_leaves_nothing(argv, says, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["animate", *argv]) == 2
+    out, err = capsys.readouterr()
+    assert err.startswith("lagrotor: ")
+    assert err.count("\n") == 1
+    assert says in err
+    assert not out
+    assert not list(tmp_path.iterdir())
+
+
+def test_command_writes_the_scene(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["animate", "no-spin", "--t-end", "0.5", "--fps", "10"]) == 0
+    assert capsys.readouterr().out == "no-spin.gif\n"
+    with Image.open(tmp_path / "no-spin.gif") as film:
+        assert film.n_frames == 6
+
+
+def test_help_names_every_scene(capsys):
+    assert main(["animate", "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert all(name in shown and ready.says in shown for name, ready in SCENES.items())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_ten_seconds_in_under_twenty(name, tmp_path):
+    began = time.perf_counter()
+    assert main(["animate", name, "--out", str(tmp_path / "pair.gif")]) == 0
+    assert time.perf_counter() - began < 20
+    with Image.open(tmp_path / "pair.gif") as film:
+        assert film.n_frames == 251
+
+
+def test_plot_has_a_panel_a_component_with_units(short):
+    drawn = short.plot()
+    assert len(drawn.axes) == 5
+    assert {panel.get_ylabel().rpartition("[")[2] for panel in drawn.axes} == {"m]", "J]"}
+
+
+def test_methods_are_those_of_the_report(short, tmp_path):
+    path = short.animate(str(tmp_path / "pair.gif"), fps=2)
+    assert isinstance(path, Path)
+    assert path.exists()
+
+
+def test_trajectory_as_html(short):
+    shown = short._repr_html_()
+    assert shown.startswith("<table>")
+    assert "minimal: least exact model" in shown
+    assert "10, -10" in shown
+    scene = consistent_scene((1.0, 2.0), ((0, 0, 1), (0, 0, 1)), shock=Shock((1.0, 0.0, 0.0), 5.0, 0.1))
+    assert "&lt;" not in simulate(scene, [0.0, 1.0])._repr_html_()
+    alone = simulate(Scene((1.0, 2.0), link=None), [0.0, 1.0])._repr_html_()
+    assert "<th>bar</th><td>none</td>" in alone
+
+
+def test_closed_form_as_latex():
+    assert natural_frequency()._repr_latex_().startswith(r"$\displaystyle \begin{aligned} \Omega_0 &= \frac{")
+    assert r"\Omega/\Omega_0 &=" in paired_frequency(3)._repr_latex_()

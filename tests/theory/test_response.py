@@ -1,0 +1,118 @@
+"""The linear response to a shock: random scenes against the exact model, and what is refused."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
+from lagrotor.errors import InputError
+from lagrotor.rotors.response import shock_response
+from lagrotor.study.compare import measured_order
+
+sizes = st.floats(0.3, 2.0)
+spins = st.floats(3.0, 15.0)
+
+
+@st.composite
+def scenes(draw, force=1.0):
+    """A random rotor, bar, pair of spins and shock of moderate size times `force`."""
+    transverse = draw(sizes)
+    rotor = Rotor(draw(sizes), draw(sizes), transverse, draw(st.floats(0.5, 1.9)) * transverse)
+    link = Link(draw(sizes), draw(st.floats(0.0, 1.0)) + 0.01, draw(st.floats(0.0, 0.5)))
+    signs = draw(st.tuples(st.sampled_from((-1, 1)), st.sampled_from((-1, 1))))
+    pair = (signs[0] * draw(spins), signs[1] * draw(spins))
+    push = (draw(st.floats(1, 3)) * force, draw(st.floats(-3, 3)) * force, 0.0)
+    return Scene(
+        spins=pair,
+        rotor=rotor,
+        link=link,
+        shock=Shock(push, 0.6, draw(st.floats(0.03, 0.1)), draw(st.sampled_from((1, 2)))),
+    )
+
+
+def resized(scene, factor):
+    shock = scene.shock
+    force = tuple(factor * f for f in shock.force)
+    return Scene(scene.spins, scene.rotor, scene.link, Shock(force, shock.at, shock.width, shock.body))
+
+
+def coordinates(run):
+    return np.stack([run.axes[0, :, 0], run.axes[0, :, 1], run.axes[1, :, 1]], -1)
+
+
+@settings(max_examples=12, deadline=None)
+@given(scenes(0.3))
+def test_error_falls_as_square(scene):
+    times = np.linspace(0.1, 1.8, 41)
+    factors = (0.01, 0.02, 0.04)
+    errors = []
+    for factor in factors:
+        small = resized(scene, factor)
+        errors.append(
+            np.abs(shock_response(small).through(times) - coordinates(simulate(small, times, "minimal", 1e-13))).max()
+        )
+    assert errors[0] < 1e-10 or measured_order(factors, errors) > 1.9
+
+
+@settings(max_examples=10, deadline=None)
+@given(scenes(3e-3))
+def test_spectrum_of_the_exact_model_at_small_amplitude(scene):
+    """The exact swing in the velocities, less its mean, is one wave of the natural frequency: no term t sin is left."""
+    Omega = natural_rate(scene)
+    times = 1.5 + np.linspace(0, 2 * np.pi / Omega, 129)
+    # What is even in the shock (second order, growing with time) drops out of the half difference.
+    there, back = (simulate(resized(scene, sign), times, "spheres", 1e-13).rates[0, :, 0] for sign in (1, -1))
+    x = (there - back) / 2
+
+    waves = np.column_stack([np.cos(Omega * times), np.sin(Omega * times), np.ones_like(times)])
+    coefficients = np.linalg.lstsq(waves, x, rcond=None)[0]
+    slope = times * (coefficients[1] * waves[:, 0] - coefficients[0] * waves[:, 1])
+    full = np.column_stack([waves, slope])
+    shift = np.linalg.lstsq(full, x, rcond=None)[0][3]
+    assert abs(shift) / Omega < 1e-6
+
+
+@settings(max_examples=20, deadline=None)
+@given(scenes(0.5))
+def test_energy_and_after(scene):
+    answer = shock_response(scene)
+    late = np.array([scene.shock.at + 7 * scene.shock.width + 0.3])
+    assert np.abs(answer.after(late) - answer.through(late)).max() < 1e-12
+    small = resized(scene, 1e-3)
+    gained = np.ptp(simulate(small, np.array([0.0, 1.5]), "minimal", 1e-13).energy)
+    assert gained == pytest.approx(shock_response(small).energy, rel=2e-2)
+    assert answer.energy <= answer.impulse_energy * (1 + 1e-12)
+
+
+def test_the_papers_energy():
+    scene = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))
+    assert 100 + shock_response(scene).energy == pytest.approx(100.4459, abs=1e-4)
+
+
+def test_no_spin_topples_at_the_impulse_over_the_inertia():
+    scene = Scene(spins=(0, 0), link=Link(1, 0.01, 0.1), shock=Shock((1, 2, 0), 1, 0.02))
+    answer = shock_response(scene)
+    a, b = scene.inertias
+    assert answer.drift[0] == pytest.approx(answer.impulse[0] / (2 * (a + b)))
+    assert not answer.amplitude.any()
+
+
+def test_wide_pulse_stays_finite():
+    scene = Scene(spins=(100, -100), link=Link(1, 0.01, 0.1), shock=Shock((1, 0, 0), 50, 5))
+    assert np.isfinite(shock_response(scene).through(np.linspace(0, 100, 50))).all()
+
+
+@pytest.mark.parametrize(
+    ("changed", "word"),
+    [
+        ({"shock": None}, "shock"),
+        ({"link": None}, "bar"),
+        ({"rates": ((0, 1, 0), (0, 1, 0))}, "at rest"),
+        ({"axes": ((0, 0.6, 0.8), (0, 0.6, 0.8))}, "upright"),
+        ({"shock": Shock((1, 0, 0), 0.1, 0.05)}, "before t = 0"),
+    ],
+)
+def test_refused(changed, word):
+    with pytest.raises(InputError, match=word):
+        shock_response(Scene(**({"spins": (10, -10), "shock": Shock((1, 0, 0), 1, 0.05)} | changed)))
