@@ -72,6 +72,7 @@ findings.append(
     (
         "Why x does not stay for ever",
         "The shock leaves a mean twist Delta = p_x/G; turning about the joint line carries it into x, X' = −alpha' Delta/k "
-        f"for b = 0, less for b > 0 and more for b < 0. The force along y that cancels the drift leaves {spared:.3f} of that rate.",
+        f"for b = 0, less for b > 0 and more for b < 0. The force along y that "
+        f"cancels the drift leaves {spared:.3f} of that rate.",
     )
 )

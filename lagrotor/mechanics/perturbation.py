@@ -33,7 +33,9 @@ class LinearSystem:
         return sp.factor((s**2 * self.mass + s * self.gyroscopic + self.stiffness).det(method="berkowitz"))
 
 
-def linearise(system: Constrained, at: Mapping[sp.Symbol, Any], forces: Sequence[sp.Expr] | None = None) -> LinearSystem:
+def linearise(
+    system: Constrained, at: Mapping[sp.Symbol, Any], forces: Sequence[sp.Expr] | None = None
+) -> LinearSystem:
     """The linear system about an equilibrium `at` (q values; rates zero), in a basis of the constraints' null space.
 
     For an equilibrium that the constraints need not hold (multipliers zero there).
@@ -81,7 +83,9 @@ def lindstedt_poincare(
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]
     unknowns = [FourierSeries({(0, 0): r} if r else {}, order) for r in rest]
-    unknowns = [u + FourierSeries({(1, h): v for h, v in m.items()}, order) for u, m in zip(unknowns, mode, strict=True)]
+    unknowns = [
+        u + FourierSeries({(1, h): v for h, v in m.items()}, order) for u, m in zip(unknowns, mode, strict=True)
+    ]
     frequency = constant(one, order)
     operators: dict[int, list[dict[tuple[int, int], Coefficient]]] = {}
     drift = _frequency_column(residual, unknowns, one)

@@ -56,7 +56,9 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     guess = np.array([2 * r0 * np.sqrt((a + b) / (a - b)), 0.0, pi / 2])
     found = root(miss, guess, tol=1e-14)
     if np.abs(miss(found.x)).max() > 1e-10:
-        raise DomainError(f"exact_orbit: no periodic orbit found at r0 = {r0:g}: follow the family from a smaller amplitude")
+        raise DomainError(
+            f"exact_orbit: no periodic orbit found at r0 = {r0:g}: follow the family from a smaller amplitude"
+        )
     seen = MODEL.observe(still, start(found.x)[None])
     axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
     return ExactOrbit(replace(still, axes=axes, rates=rates), float(pi / 2 * natural / found.x[2]))  # type: ignore[arg-type]

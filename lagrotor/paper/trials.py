@@ -8,6 +8,7 @@ import json
 import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal
 
 from . import scripts
@@ -51,8 +52,9 @@ class Result:
     seconds: float
 
 
+@cache
 def hear(trial: Trial) -> Result:
-    """Run one trial and decide it."""
+    """Run one trial, once in a process, and decide it."""
     began = time.perf_counter()
     measured = {name: float(value) for name, value in trial.measure(trial.spins).items()}
     return Result(trial, measured, trial.decide(measured), time.perf_counter() - began)

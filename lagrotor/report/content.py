@@ -10,6 +10,7 @@ import sympy as sp
 
 from ..paper.catalogue import Equation, equation, equations
 from ..paper.ledger import Relation, Verdict
+from ..paper.tables import Table
 from ..paper.trials import Result
 from .figures import Picture
 
@@ -33,7 +34,8 @@ MEANINGS = {
 class Report:
     """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
 
-    claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides.
+    claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides;
+    tables: runs side by side.
     """
 
     verdicts: tuple[Verdict, ...]
@@ -42,6 +44,7 @@ class Report:
     seconds: float
     claims: tuple[Result, ...] = ()
     findings: tuple[tuple[str, str], ...] = ()
+    tables: tuple[Table, ...] = ()
 
     @property
     def waiting(self) -> list[Equation]:

@@ -27,6 +27,9 @@ def markdown(report: Report) -> str:
     if report.findings:
         blocks.append("## Findings")
         blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.findings]
+    for table in report.tables:
+        rows = [tuple(_prose(cell) for cell in row) for row in table.rows]
+        blocks += [f"## {_prose(table.title)}", _rows(table.head, rows), _prose(table.note)]
     if report.pictures:
         blocks.append("## Figures")
         blocks += [_picture(picture) for picture in report.pictures]

@@ -10,6 +10,7 @@ import sympy as sp
 
 from ..paper.catalogue import claims, equation
 from ..paper.ledger import Statement, Verdict
+from ..paper.tables import Table
 from ..paper.trials import Result
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
 from .errata import Erratum, errata
@@ -31,6 +32,7 @@ def page(report: Report) -> str:
     links += [("errata", "Errata")] * bool(sheet)
     links += [("claims", "Claims")] * bool(report.claims)
     links += [("findings", "Findings")] * bool(report.findings)
+    links += [("tables", "Tables")] * bool(report.tables)
     links += [("figures", "Figures")] * bool(report.pictures)
     links += [("waiting", "Not yet judged")] * bool(report.waiting)
     links.append(("made", "How this was made"))
@@ -52,6 +54,9 @@ def page(report: Report) -> str:
     if report.findings:
         body.append('<h2 id="findings">Findings</h2>')
         body += [f"<h3>{escape(title)}</h3><p>{escape(text)}</p>" for title, text in report.findings]
+    if report.tables:
+        body.append('<h2 id="tables">Tables</h2>')
+        body += [_side_by_side(table) for table in report.tables]
     if report.pictures:
         body.append('<h2 id="figures">Figures</h2>')
         body += [_picture(picture) for picture in report.pictures]
@@ -150,6 +155,14 @@ def _claim(result: Result) -> str:
         f"<blockquote>{escape(entry.text)}</blockquote><p>{escape(finding.explanation)}</p>{condition}"
         f"<details><summary>Measured ({escape(result.trial.model)}, {result.seconds:.1f} s)</summary>"
         f"{_rows(('What', 'Value'), rows)}</details></article>"
+    )
+
+
+def _side_by_side(table: Table) -> str:
+    rows = [tuple(escape(cell) for cell in row) for row in table.rows]
+    return (
+        f'<h3>{escape(table.title)}</h3><div class="wide" tabindex="0">{_rows(table.head, rows)}</div>'
+        f"<p><small>{escape(table.note)}</small></p>"
     )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ..errors import InputError, LagrotorError
 from ..numerics.files import write_text
-from ..paper import audit, catalogue, scripts, trials
+from ..paper import audit, catalogue, scripts, tables, trials
 from ..paper.ledger import Verdict
 from ..paper.trials import Result
 from . import figures
@@ -42,6 +42,8 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
         verdicts = audit.audit(step)
         heard = trials.hear_all(step)
         findings = audit.findings("s")
+        step("tables")
+        side_by_side = tables.tables()
         pictures = []
         (folder / "figures").mkdir()
         for number in sorted(figures.stems()):
@@ -51,7 +53,15 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
         found = outcomes(verdicts, heard)
         changed = changes(found, recorded())
         seconds = time.perf_counter() - began
-        report = Report(tuple(verdicts), tuple(pictures), tuple(changed), seconds, tuple(heard), tuple(findings))
+        report = Report(
+            tuple(verdicts),
+            tuple(pictures),
+            tuple(changed),
+            seconds,
+            tuple(heard),
+            tuple(findings),
+            tuple(side_by_side),
+        )
         write_text(folder / "index.html", page(report))
         write_text(folder / "report.md", markdown(report))
         write_text(folder / "verdicts.json", audit.to_json(verdicts) + "\n")
@@ -65,7 +75,7 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
 
 def steps() -> int:
     """How many times `reproduce` calls its `step`."""
-    return len(scripts.names("derivations", "s")) + len(trials.listed()) + len(figures.stems()) + 1
+    return len(scripts.names("derivations", "s")) + len(trials.listed()) + len(figures.stems()) + 2
 
 
 def recorded() -> dict[str, str] | None:

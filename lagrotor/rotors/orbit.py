@@ -100,7 +100,9 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> Pai
         squared = frequency * frequency
 
         def inertia(first: FourierSeries, second: FourierSeries) -> FourierSeries:
-            return squared * (first.derivative().derivative().scaled(own) + second.derivative().derivative().scaled(shared))
+            return squared * (
+                first.derivative().derivative().scaled(own) + second.derivative().derivative().scaled(shared)
+            )
 
         return [
             inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (constant(length, order) + x2),

@@ -1,7 +1,5 @@
 """The paper's simulator: bodies against exact free motion, links against the exact pair, steps against their limit."""
 
-from copy import deepcopy
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -22,6 +20,7 @@ from lagrotor.models.rigid_body import (
 )
 from lagrotor.models.spring_link import RigidBodySystem, link_force, printed_link_force, step_limit
 from lagrotor.models.spring_run import paper_system, run_solver, run_steps
+from lagrotor.study.stability import found_step_limit, step_grows
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)
@@ -281,18 +280,6 @@ def test_the_misplaced_bar_is_the_papers_energy_spike():
 # --- the longest stable step
 
 
-def grows(system, dt):
-    moving = deepcopy(system)
-    moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
-    with np.errstate(over="ignore", invalid="ignore"):
-        for _ in range(1000):
-            moving.compute_forces()
-            moving.step(dt)
-            if not abs(moving.gaps(moving.X, moving.R)).max() < 1e-5:
-                return True
-    return False
-
-
 @pytest.mark.parametrize(
     ("S", "D", "link", "spin"),
     [(1e4, 250, BAR, 10), (1e4, 0, BAR, 0), (1e4, 10, Link(1, 0.01, 0.1), 10), (1e5, 1, Link(1, 0.3, 0.02), 5),
@@ -302,11 +289,9 @@ def test_step_limit_is_where_the_step_fails(S, D, link, spin):
     system = paper_system(Scene(spins=(spin, -spin), link=link), S, D)
     limit = step_limit(system)
     assert limit.whole <= limit.joints.min() * (1 + 1e-12)
-    low, high = 0.8 * limit.whole, 1.2 * limit.whole
-    for _ in range(7):
-        middle = (low + high) / 2
-        low, high = (low, middle) if grows(system, middle) else (middle, high)
-    assert (low + high) / 2 == pytest.approx(limit.whole, rel=0.01)
+    assert found_step_limit(system) == pytest.approx(limit.whole, rel=0.01)
+    assert step_grows(system, 1.05 * limit.whole)
+    assert not step_grows(system, 0.95 * limit.whole)
 
 
 # --- refusals

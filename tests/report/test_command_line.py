@@ -290,9 +290,7 @@ def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str
     assert main(["reproduce"]) == 0
     report = small_paper / "report"
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
-    assert kept == reproduce.CONTENTS - {"figures"} | {
-        f"figures/fig17_stub.{kind}" for kind in ("svg", "png")
-    }
+    assert kept == reproduce.CONTENTS - {"figures"} | {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
     assert {entry["id"] for entry in json.loads((report / "verdicts.json").read_text())} == set(found())
     assert json.loads((report / "measured.json").read_text()) == {"fig17_stub": {"slope": 1.0}}
     assert "no verdicts are on record" in capsys.readouterr().err
@@ -361,7 +359,12 @@ def test_progress_is_shown_in_a_terminal_only(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["reproduce"]) == 0
     steps = capsys.readouterr().err.splitlines()
-    names = ("[1/3] s5_2a_single_rotor …", "[2/3] figure 17 …", "[3/3] report …")
+    names = (
+        "[1/4] s5_2a_single_rotor …",
+        "[2/4] tables …",
+        "[3/4] figure 17 …",
+        "[4/4] report …",
+    )
     assert [line.rsplit(" ", 2)[0] for line in steps] == list(names)
 
 
