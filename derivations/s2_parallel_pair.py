@@ -190,6 +190,7 @@ lever = R * sp.Matrix([0, 0, 1])
 printed_drift = lever.cross(F)[:2, :] / ((omega_1 + omega_2) * I)
 printed_half = lever.cross(F / 2)[:2, :] / (omega * I)
 equal = {omega_1: omega, omega_2: omega}
+own_drift = [sp.Matrix([drift[X_1], rate]).subs(spins).subs(equal) for rate in y_drift]
 
 
 def off(ratio: sp.Rational) -> sp.Expr:
@@ -267,7 +268,9 @@ statements = [
         "2.08",
         chain(r.cross(f_solved) + rho * r.cross(f_solved), r.cross(F) / 2 - rho * r.cross(F) / 2),
         wrong="The left side has the wrong sign.",
-        quantities=(r"\vec r \times \vec f + \tfrac{\omega_1}{\omega_2}\, \vec r \times \vec f",),
+        quantities=(
+            r"(1 + \rho)\,\vec r\times\vec f = (\rho - 1)\,\vec r\times\tfrac12\vec F,\quad \rho = \omega_1/\omega_2",
+        ),
         correction=chain(r.cross(f_solved) + rho * r.cross(f_solved), rho * r.cross(F) / 2 - r.cross(F) / 2),
         depends_on=("2.07",),
         evidence=("The left side has the wrong sign: collecting 2.07 gives rho r x F/2 - r x F/2.",),
@@ -276,7 +279,7 @@ statements = [
         "2.09",
         chain(r.cross(f_solved), printed_g),
         wrong="The sign of 2.08 is carried on.",
-        quantities=(r"\vec r \times \vec f",),
+        quantities=(r"\vec r\times\vec f = \frac{\rho - 1}{2(1 + \rho)}\,\vec r\times\vec F",),
         correction=chain(r.cross(f_solved), correct_g),
         depends_on=("2.08",),
         evidence=("It inherits the sign of 2.08: the faster rotor takes more of the force, not less.",),
@@ -285,7 +288,9 @@ statements = [
         "2.10",
         chain(omega_1 * I * w, r.cross(F) / 2 + printed_g),
         wrong="The sign of 2.08 is carried on.",
-        quantities=(r"\omega_1 I \dot{\hat r}",),
+        quantities=(
+            r"\omega_1 I\dot{\hat r} = \vec r\times\tfrac12\vec F + \frac{\rho - 1}{2(1 + \rho)}\,\vec r\times\vec F",
+        ),
         correction=chain(omega_1 * I * w, r.cross(F) / 2 + correct_g),
         depends_on=("2.09", "2.04"),
     ),
@@ -293,7 +298,7 @@ statements = [
         "2.11",
         chain(w, printed_6),
         wrong="The sign of 2.08 makes the factor 2/(1 + rho) where the premises give 2 rho/(1 + rho).",
-        quantities=(r"\dot{\hat r}",),
+        quantities=(r"\dot{\hat r} = \frac{1}{\omega_1 I}\,\vec r\times\frac{2\rho}{1 + \rho}\,\tfrac12\vec F",),
         correction=chain(w, correct_6),
         depends_on=("2.10",),
         evidence=(
@@ -326,7 +331,9 @@ statements = [
     ),
     Statement(
         "2.13",
-        chain(mean_drift.subs(equal), printed_half, printed_drift.subs(equal)),
+        tuple(r for each in own_drift for r in chain(each, printed_half, printed_drift.subs(equal))),
+        given={F[1]: sp.Integer(0)},
+        condition="force along the bar; drift of each axis of the linearised pair",
         depends_on=("2.12",),
         evidence=(
             "Each axis by itself drifts so for a force along the bar, which is shared in halves. A force across it "

@@ -149,7 +149,7 @@ statements = [
         "3.04",
         chain(U_cm, U1 + U2 + U3),
         wrong="The weights m_i/M of the mean are missing.",
-        quantities=(r"\vec U_{cm}",),
+        quantities=(r"\vec U_{cm} = \frac1M \sum_i m_i \vec U_i",),
         correction=chain(U_cm, (m1 * U1 + m2 * U2 + m3 * U3) / (m1 + m2 + m3)),
         depends_on=("3.03",),
         evidence=(

@@ -178,7 +178,7 @@ statements = [
         "3.14",
         chain(vertex_rate, X_r.cross(w * n)),
         wrong="The two factors of the cross product have changed places.",
-        quantities=(r"\dot{\vec X_r} = \vec\Omega \times \vec X_r",),
+        quantities=(r"\dot{\vec X_r} = \vec\Omega\times\vec X_r",),
         correction=chain(vertex_rate, (w * n).cross(X_r)),
         depends_on=("3.09",),
         evidence=(
@@ -202,7 +202,7 @@ statements = [
         "3.16",
         chain(projector, Omega * Omega.T),
         wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
-        quantities=(r"P = \Omega\Omega^T/|\Omega|^2",),
+        quantities=(r"P = \Omega\,\Omega^T/|\Omega|^2",),
         correction=chain(projector, Omega * Omega.T / Omega.dot(Omega)),
         evidence=(
             "For a column Omega^T Omega is the number |Omega|^2; for a row, as the program stores it, the outer "
@@ -235,7 +235,9 @@ statements = [
         "3.19",
         chain(on_1.dot(e_hat), printed_size),
         wrong="A number stands for a vector: the direction of the link is missing.",
-        quantities=(r"\vec F_{12}",),
+        quantities=(
+            r"\vec F_{12} = -\bigl(S s + D(\vec U_1 - \vec U_2)\cdot\hat e\bigr)\hat e,\quad s\,\hat e = \vec X_1 - \vec X_2",
+        ),
         correction=chain(on_1, corrected_F12),
         evidence=(
             "The right side is a number, the left a vector. The number is the tension of the link, S s + D s', if e_21 "

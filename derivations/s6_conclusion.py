@@ -107,25 +107,26 @@ statements = [
         (
             Relation(sp.Integer(5), sp.Integer(with_spins)),
             Relation(sp.Integer(5 - 2), sp.Integer(without_spins)),
-            Relation(sp.Integer(2), sp.Integer(modes)),
+            Relation(sp.Integer(2), sp.Integer(oscillations)),
         ),
-        wrong="A third freedom, the place of the precession centre, is left out; only one of the three oscillates.",
+        wrong="One mode oscillates, not two: toppling is a steady turning, and the third freedom is where the centre lies.",
         quantities=(
             r"\text{freedoms with the spins}",
             r"\text{without}",
-            r"\text{independent motions}",
+            r"\text{oscillations}",
             r"\det(s^2 M + s C)",
         ),
         correction=(
             Relation(sp.Integer(5), sp.Integer(with_spins)),
             Relation(sp.Integer(3), sp.Integer(without_spins)),
-            Relation(sp.Integer(3), sp.Integer(modes)),
+            Relation(sp.Integer(1), sp.Integer(oscillations)),
             Relation(2 * (a + b) * s**4 * ((a**2 - b**2) * s**2 + G**2), characteristic),
         ),
         depends_on=("5.09",),
         evidence=(
             f"5 - 2 = 3 is right: {with_spins} with the spins, {without_spins} without (rank of the constraints).",
-            f"The modes are {modes}, not 2, and {oscillations} of them oscillates. det(s² M + s C) = "
+            f"Of the two modes printed {oscillations} oscillates; with the third freedom there are {modes} "
+            f"motions. det(s² M + s C) = "
             f"{characteristic}: s² = -Omega_0² is the paired precession; of the {zeros} zero roots two are "
             f"toppling, y_1 = y_2 growing at a constant rate ({topplings} chain of two), and two the centre of the "
             "precession, a displacement in X and one in y_1 - y_2 that stay where a shock leaves them.",
@@ -139,7 +140,7 @@ statements = [
             Relation(printed_rate, equal),
             Relation(printed_rate**2, opposite_squared * ratio.subs(r0, sp.sin(theta)) ** 2),
         ),
-        wrong="The constant belongs to one bar and to equal spins, and opposite spins slow down with amplitude.",
+        wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos theta.",
         quantities=(
             r"\dot\phi\text{ (equal spins)}",
             r"\Omega_0^2\text{ (opposite spins)}",

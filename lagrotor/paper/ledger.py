@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeAlias
 import sympy as sp
 
 from ..algebra import Decision, agreement_order, decide_equal
-from ..errors import NotExactError
+from ..errors import InputError, NotExactError
 from .catalogue import equation
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
@@ -24,12 +24,16 @@ BEYOND = 4
 
 @dataclass(frozen=True)
 class Relation:
-    """`printed` should equal `derived`; with `small`, up to and including small**claimed."""
+    """`printed` should equal `derived`; with `small`, up to and including small**claimed.
+
+    within: for a number read off a run, the relative error that its printed digits allow.
+    """
 
     printed: Side
     derived: Side
     small: sp.Symbol | None = None
     claimed: int = 0
+    within: sp.Rational | None = None
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
@@ -45,7 +49,7 @@ class Statement:
     correction: what should stand there, as relations of its own; quantities: what each of them gives, in LaTeX.
     wrong: what was wrong, in a line.
     definition: the line only names something.
-    measured: the line is a number read off a run; the relations hold what it should have been.
+    measured: the line is a number read off a run; the relations hold what it should have been, and how near.
     depends_on: ids of the equations that this one uses. evidence: sentences with the numbers that were computed.
     """
 
@@ -65,6 +69,8 @@ class Statement:
     def __post_init__(self) -> None:
         for identifier in (self.id, *self.depends_on):
             equation(identifier)
+        if not self.relations:
+            raise InputError(f"Statement: {self.id} holds nothing against anything: give it a relation")
 
 
 @dataclass(frozen=True)
@@ -109,7 +115,7 @@ def judge(statement: Statement) -> Verdict:
         correction = _find(statement.correction).answer
     if finding.answer != "undecided" and statement.definition:
         finding = replace(finding, answer="definition") if finding.answer == "holds" else finding
-    if statement.measured and finding.answer in ("holds", "holds-if", "holds-to-order", "refuted"):
+    if statement.measured and finding.answer == "holds":
         finding = replace(finding, answer="measured")
     return Verdict(
         statement=statement,
@@ -155,6 +161,10 @@ def _find(relations: Iterable[Relation]) -> _Finding:
 
 
 def _single(relation: Relation) -> _Finding:
+    if relation.within is not None:
+        ratio = sp.cancel(relation.printed / relation.derived)
+        near = ratio.is_number and bool(abs(ratio - 1) <= relation.within)
+        return _Finding("holds" if near else "refuted")
     exact: Decision = decide_equal(relation.printed, relation.derived)
     domain = tuple(f for f in exact.domain if not (f.is_positive or f.is_number))
     if exact.answer == "zero":

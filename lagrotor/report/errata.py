@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+import sympy as sp
+
 from ..paper.catalogue import equation
 from ..paper.ledger import Relation, Verdict
 from ..symbols import latex
@@ -25,7 +27,9 @@ class Erratum:
     @property
     def reach(self) -> str:
         """What becomes of the paper's results, in words."""
-        return "the paper's results survive it" if self.survives else "a result of the paper falls with it"
+        if self.survives:
+            return "every result of the paper that rests on it stands"
+        return "a result of the paper that rests on it, or is it, is refuted too"
 
 
 def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
@@ -47,7 +51,12 @@ def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
 
 
 def _line(quantity: str, relation: Relation) -> str:
-    """quantity = expression, up to a power of what is small where the correction is a series."""
+    """quantity = expression, up to a power of what is small where the correction is a series.
+
+    Of a vector the quantity is the whole equation; its components were judged and stand in the JSON.
+    """
+    if isinstance(relation.printed, sp.MatrixBase):
+        return quantity
     rest = rf" + O({latex(relation.small ** (relation.claimed + 1))})" if relation.small else ""
     return f"{quantity} = {latex(relation.printed)}{rest}"
 

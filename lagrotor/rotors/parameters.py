@@ -9,6 +9,7 @@ from math import fsum, hypot, isfinite, nan, pi, sqrt
 from ..errors import InputError
 
 Vector = tuple[float, float, float]
+SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
 CLOSE = 1e-9  # how far a given state may lie off its constraints
 
 
@@ -19,6 +20,8 @@ def _number(value: object, where: str, unit: str) -> float:
         raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
     if isinstance(value, bool) or not isfinite(number):
         raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
+    if abs(number) > LARGEST:
+        raise InputError(f"{where} = {number:g} {unit} is beyond {LARGEST:g}, where squares overflow; change the units")
     return number
 
 
@@ -26,6 +29,12 @@ def _positive(value: object, where: str, unit: str) -> float:
     number = _number(value, where, unit)
     if number <= 0:
         raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
+    return _not_vanishing(number, where, unit)
+
+
+def _not_vanishing(number: float, where: str, unit: str) -> float:
+    if 0 < abs(number) < SMALLEST:
+        raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
     return number
 
 
@@ -153,6 +162,8 @@ class Scene:
             if not (isinstance(value, kind) or (optional and value is None)):
                 raise InputError(f"Scene: {name} = {value!r} must be a {kind.__name__}")
         object.__setattr__(self, "spins", _numbers(self.spins, 2, "Scene: spins", "rad/s"))
+        for i, spin in enumerate(self.spins):
+            _not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
         object.__setattr__(self, "axes", _two_vectors(self.axes, "Scene: axes", "1"))
         object.__setattr__(self, "rates", _two_vectors(self.rates, "Scene: rates", "1/s"))
         for i, (r, v) in enumerate(zip(self.axes, self.rates, strict=True)):
@@ -188,7 +199,7 @@ class Scene:
             n = (ell / R * sign + other[0], other[1], other[2])
             along = dot(n, r)
             pulls.append(hypot(n[0] - along * r[0], n[1] - along * r[1], n[2] - along * r[2]))
-        if max(pulls) < 1e-6:
+        if max(pulls) < 1e-6 * min(1.0, ell / R):
             raise InputError(
                 f"Scene: axes = {self.axes} both lie along the joint line, where the bar's constraint is singular; "
                 "tilt an axis"

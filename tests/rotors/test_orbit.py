@@ -118,5 +118,7 @@ def test_refusals() -> None:
         exact_orbit(SCENES["massless"], 1.5)
     with pytest.raises(DomainError, match="sine"):
         paired_scene(SCENES["massless"], 1.5)
+    with pytest.raises(DomainError, match="last terms"):
+        paired_scene(SCENES["massless"], 0.6)
     kept = paired_scene(Scene(spins=(10, -10), shock=Shock((1, 0, 0), 1, 0.1)), 0.1)
     assert kept.shock is not None
