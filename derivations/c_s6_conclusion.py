@@ -67,10 +67,12 @@ def decide_c24(m):
         return Finding("refuted", how)
     return Finding(
         "confirmed-if",
-        how
-        + "Two modes of three freedoms: the third is the place of the precession's centre (x and the twist), which rests "
-        f"where a shock leaves it, here at x = {m['centre_x_1']:+.5f}.",
-        "to first order, and but for the third freedom, which has no rate: where the precession is centred",
+        how + f"To first order the pair has three freedoms: {m['oscillations']:.0f} oscillation (paired precession), "
+        f"{m['steady_turnings']:.0f} steady turning about the joint line, 1 displacement of the precession centre (in x "
+        "and in the twist) that has no rate and stays where a shock leaves it, here at x = "
+        f"{m['centre_x_1']:+.5f}; only one of the paper's two modes oscillates.",
+        "to first order; the displacement of the precession centre, which rests, is not counted; toppling is a steady "
+        "turning, not an oscillation",
     )
 
 

@@ -68,6 +68,8 @@ ORACLES = [
     ("C07", "largest_omega_that_fails_rad_per_s", sqrt(5e-324) / sqrt(2), 0.03),
     ("C08", "after_exact_J", 100 + P_50**2 / 7 * exp(-((10 / 1.75 / 50) ** 2) / 2), 1e-6),
     ("C08", "after_closed_form_light_bar_J", 100 + P_50**2 / 5.02 * exp(-((10 / 1.255 / 50) ** 2) / 2), 1e-9),
+    ("C10", "dead_point_after_s", pi / 2 / (P_50 / 3.5), 1e-3),
+    ("C10", "shock_along_x_tilt_after_2.7_s_deg", np.degrees(2.7 * P_50 / 3.5), 1e-3),
     ("C10", "shock_along_x_rate_in_XZ_rad_per_s", P_50 / 3.5, 1e-4),
     ("C13", "shock_along_y_5_N_predicted", -P_50 / 10 / 20, 1e-12),
     ("C13", "shock_along_y_5_N_mean_x", -P_50 / 10 / 20, 0.05),
@@ -75,6 +77,8 @@ ORACLES = [
     ("C13", "power_of_shock_along_x_in_common_mean", 3, 0.02),
     ("C16", "constant_theta_longest", sqrt(1 + 4 * 0.204**2), 1e-4),
     ("C16", "corrected_longest", sqrt(1 + 4 * 0.204**2 + 4 * 0.204**4), 1e-4),
+    ("C16", "corrected_shortest", sqrt(1 + 4 * 0.204**2), 1e-4),
+    ("C16", "exact_orbit_longest", 1, 1e-9),
     # Omega/Omega_0 = 1 − r_0²/4 and cos = 1 − r_0²/2.
     ("C17", "change_over_r0_squared", -0.75, 0.01),
     ("C20", "rate_exact_rad_per_s", sqrt(20**2 + (P_40 * struck(16)) ** 2) / J, 2e-3),
@@ -113,7 +117,13 @@ def test_outcome_is_as_recorded(heard, identifier):
 @pytest.mark.parametrize("identifier", RECORDED)
 def test_a_scene_that_the_claim_is_not_about_comes_out_otherwise(heard, identifier):
     trial, finding = heard[identifier].trial, heard[identifier].finding
-    foreign = trial.decide(trial.measure(trial.foreign))
+    if identifier == "C14":
+        # A rotor at rest about its axis keeps that freedom, so no spins make the count another: what the claim is not
+        # about is the same pair without its bar.
+        assert trial.decide(trial.measure(trial.foreign)).outcome == finding.outcome
+        foreign = trial.decide(trial.measure(trial.spins, link=None))
+    else:
+        foreign = trial.decide(trial.measure(trial.foreign))
     assert (foreign.outcome, foreign.condition) != (finding.outcome, finding.condition), foreign.explanation
 
 
@@ -146,7 +156,8 @@ def test_stability_in_x_is_for_a_while(heard):
     # A mirror in the plane between the grounds takes one sign along x into the other, but not along y.
     assert m["fallen_in_x_after_s_+x"] == pytest.approx(m["fallen_in_x_after_s_-x"], abs=0.1)
     assert m["turned_about_joint_line_rad_+x"] == pytest.approx(m["turned_about_joint_line_rad_-x"], rel=1e-2)
-    assert m["fallen_in_x_after_s_-y"] < m["fallen_in_x_after_s_+x"] < m["fallen_in_x_after_s_+y"]
+    assert m["fallen_in_x_after_s_-y"] < m["fallen_in_x_after_s_+x"] < m["not_fallen_within_s_+y"]
+    assert "fallen_in_x_after_s_+y" not in m
     # Another model, in other coordinates: read at the same times, 1/40 s apart.
     scene = Scene((10, -10), link=Link(mass=1, inertia=1), shock=Shock((0, -50, 0), 0.2, 1 / 50))
     t = np.linspace(0.3, 10, 971)
@@ -156,6 +167,51 @@ def test_stability_in_x_is_for_a_while(heard):
     assert m["power_of_shock_in_toppling_rate_x"] == pytest.approx(2, abs=0.1)
     assert m["power_of_shock_in_time_x"] == pytest.approx(-3, abs=0.3)
     assert m["power_of_shock_in_time_minus_y"] == pytest.approx(-2, abs=0.3)
+
+
+def test_after_the_dead_point_side_force_and_softness_decide(heard):
+    m = heard["C10"].measured
+    assert m["shock_along_x_tilt_after_2.7_s_deg"] < 80
+    parted = [m[f"side_1_N_axes_part_by_deg_springs_S_{S}"] for S in ("1e4", "1e5", "1e6")]
+    assert parted == sorted(parted)
+    assert parted[0] < 5 < 0.1 * parted[2] + 5 < m["side_1_N_axes_part_by_deg_after_8_s"]
+    # Clear of the dead point another model, in other coordinates, does the same.
+    shock = Shock((50, 1, 0), 0.2, 1 / 50)
+    run = simulate(Scene((0, 0), link=Link(mass=1, inertia=1), shock=shock), [2.9, 5.2], "spheres", 1e-11)
+    assert m["side_1_N_tilt_deg"] == pytest.approx(90.1, abs=0.1)
+    assert np.linalg.norm(run.axes[1, 1] - run.axes[0, 1]) > 10 * np.linalg.norm(run.axes[1, 0] - run.axes[0, 0])
+
+
+def test_the_freedoms_are_those_of_a_pair_with_its_bar():
+    trial = TRIALS["C14"]
+    counted = {link: trial.measure((0, 0), link=bar) for link, bar in (("bar", Link(1, 1, 1)), ("none", None))}
+    assert [counted[k]["degrees_of_freedom"] for k in counted] == [5, 6]
+    assert [counted[k]["degrees_of_freedom_without_spins"] for k in counted] == [3, 4]
+    assert counted["bar"]["rank_where_axes_and_bar_are_in_line"] == 2
+
+
+def test_the_ansatz_is_within_its_bound(heard):
+    m = heard["C15"].measured
+    for name in ("massless", "light_bar"):
+        assert m[f"azimuth_rates_sum_relative_there_{name}"] == pytest.approx(0.05, rel=1e-3)
+        assert m[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] < 0.204 / 6
+
+
+def test_the_confirmation_is_held_against_a_plain_sine(heard):
+    m = heard["C19"].measured
+    assert m["left_projected_corrected"] < m["left_projected_plain_sine"] < m["left_projected_printed"] / 2
+    assert m["left_projected_plain_sine"] == pytest.approx(0.071, abs=0.001)
+    assert m["skew_deg"] == pytest.approx(-20.8, abs=0.1)
+
+
+def test_no_bar_keeps_the_printed_opposite_rate_for_three_cycles(heard):
+    m = heard["C22"].measured
+    cycles = [value for key, value in m.items() if key.startswith("cycles_within_a_quarter")]
+    assert len(cycles) == 6 and max(cycles) < 3
+    # A quarter cycle apart after n cycles of the motion: n |1/rate − 1/printed| · printed = 1/4.
+    assert m["cycles_within_a_quarter_after_small_shock_m_1_K_0.1"] == pytest.approx(
+        anti(1, 0.1) / (4 * (anti(1, 0.1) - 5.7)), rel=0.02
+    )
 
 
 @pytest.mark.parametrize("identifier", RECORDED)
@@ -173,4 +229,4 @@ def test_record(heard, identifier):
 
 
 def test_all_claims_together_are_quick(heard):
-    assert sum(result.seconds for result in heard.values()) < 35
+    assert sum(result.seconds for result in heard.values()) < 30  # 15 with the cores free
