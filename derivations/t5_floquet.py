@@ -14,10 +14,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene
 from lagrotor.algebra import decide_zero
-from lagrotor.rotors.averaged import SWING, slow_rates, slow_stiffness
+from lagrotor.rotors.averaged import slow_rates, slow_stiffness
 from lagrotor.study.compare import measured_order
 from lagrotor.study.floquet import floquet, leading_square
-from lagrotor.symbols import G, a, b
+from lagrotor.symbols import SWING, G, a, b
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -14,18 +14,15 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
 from lagrotor.rotors.drift import (
-    att,
     cancelling_force,
     cancelling_impulse,
-    p_y,
     second_order_momentum,
     shock_toppling,
     toppling_after_shock,
 )
-from lagrotor.rotors.response import P_X
 from lagrotor.study.after_shock import exact_cancelling_force, run_after, turning_rate
 from lagrotor.study.compare import measured_order
-from lagrotor.symbols import AXES, G, a, b, k
+from lagrotor.symbols import AXES, P_X, G, a, att, b, k, p_y
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -12,12 +12,11 @@
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
-from lagrotor.rotors.averaged import SWING, TWIST, P, slow_rates
-from lagrotor.rotors.drift import att, p_y, shock_wander, toppling_after_shock, wander_after_shock
-from lagrotor.rotors.response import P_X
+from lagrotor.rotors.averaged import slow_rates
+from lagrotor.rotors.drift import shock_wander, toppling_after_shock, wander_after_shock
 from lagrotor.study.after_shock import run_after, turning_rate, wandering_rate
 from lagrotor.study.compare import measured_order
-from lagrotor.symbols import G, a, b, k
+from lagrotor.symbols import P_X, SWING, TWIST, G, P, a, att, b, k, p_y
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -14,16 +14,14 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.rotors.response import shock_response
-from lagrotor.rotors.toppling import TWISTED
 from lagrotor.rotors.twist import (
     parallel_residual,
     parallel_scene,
-    rho,
     twist_coefficients,
     twist_growth,
     twist_multiplier_growth,
 )
-from lagrotor.symbols import G_1, G_2, G, a, b
+from lagrotor.symbols import G_1, G_2, TWISTED, G, a, b, rho
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -10,13 +10,25 @@ if TYPE_CHECKING:
     from .paper.audit import audit
     from .rotors.closed_forms import natural_rate
     from .rotors.consistent import consistent_scene, paired_scene
+    from .rotors.drift import cancelling_force
+    from .rotors.momentum import paired_momentum
+    from .rotors.precession import precession_orbit
+    from .rotors.response import shock_response
+    from .study.family import orbit_family
+    from .study.floquet import floquet
 
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
 _LATER = {
     "audit": "lagrotor.paper.audit",
+    "cancelling_force": "lagrotor.rotors.drift",
     "consistent_scene": "lagrotor.rotors.consistent",
+    "floquet": "lagrotor.study.floquet",
     "natural_rate": "lagrotor.rotors.closed_forms",
+    "orbit_family": "lagrotor.study.family",
+    "paired_momentum": "lagrotor.rotors.momentum",
     "paired_scene": "lagrotor.rotors.consistent",
+    "precession_orbit": "lagrotor.rotors.precession",
+    "shock_response": "lagrotor.rotors.response",
     "simulate": "lagrotor.models.simulate",
 }
 
@@ -27,9 +39,15 @@ __all__ = [
     "Scene",
     "Shock",
     "audit",
+    "cancelling_force",
     "consistent_scene",
+    "floquet",
     "natural_rate",
+    "orbit_family",
+    "paired_momentum",
     "paired_scene",
+    "precession_orbit",
+    "shock_response",
     "simulate",
 ]
 

@@ -40,6 +40,11 @@ r0, Phi, t = _real("r_0"), _real("Phi"), _real("t")
 theta_0 = _real("theta_0")
 A, B, a_const = map(_real, ("A", "B", "a_M"))
 M_z, M_3 = _real("M_z"), _real("M_3")
+nu, rho = _real("nu"), _positive("rho")
+P, P_X, P_1, P_2, p_y = map(_real, ("P", "p_x", "p_1", "p_2", "p_y"))
+att = _positive("A_w")
+X, TWIST, SWING = map(_real, ("X", "Delta_s", "d"))
+a_1, COSINE = _real("a_1"), _real("c")
 
 # One rotor, the pair, and the pair under the ansatz: the paper's Euler angles.
 ROTOR: Coordinates = coordinates("theta phi psi")
@@ -49,6 +54,7 @@ ANSATZ: Coordinates = coordinates("theta_1 theta_2 phi psi")
 AXES: Coordinates = coordinates("x_1 y_1 z_1 x_2 y_2 z_2")
 MERCATOR: Coordinates = coordinates("u_1 alpha_1 u_2 alpha_2")
 MINIMAL: Coordinates = coordinates("U chi alpha")
+TWISTED: Coordinates = coordinates("U Delta alpha")
 
 _ROWS: tuple[tuple[sp.Symbol, str, str, str], ...] = (
     (M, "M", "mass of a rotor", "kg"),
@@ -80,6 +86,19 @@ _ROWS: tuple[tuple[sp.Symbol, str, str, str], ...] = (
     (a_const, "a", "the constant M_z / I of one rotor", "rad/s"),
     (M_z, "M_z", "angular momentum of one rotor about the vertical", "kg m²/s"),
     (M_3, "M_3", "axial angular momentum of one rotor", "kg m²/s"),
+    (nu, r"\nu", "rate of uniform turning about the joint line, alpha'", "rad/s"),
+    (rho, r"\rho", "sine of the half-angle of the cone of equal spins", "1"),
+    (P, "P", "momentum about the joint line", "kg m²/s"),
+    (P_X, "p_x", "R times the impulse along x", "kg m²/s"),
+    (P_1, "p_1", "R times the impulse along y on rotor 1", "kg m²/s"),
+    (P_2, "p_2", "R times the impulse along y on rotor 2", "kg m²/s"),
+    (p_y, "p_y", "R times the impulse along y on the rotor that is struck", "kg m²/s"),
+    (att, "A_w", "what the pulse's width leaves of the swing, exp(−(Omega_0 w)²/4)", "1"),
+    (X, "X", "mean of U over the swing", "1"),
+    (TWIST, r"\Delta_s", "mean of the twist over the swing", "rad"),
+    (SWING, "d", "amplitude of the swing in the twist", "rad"),
+    (a_1, "a_1", "amplitude of cos Phi in x_1", "1"),
+    (COSINE, "c", "cosine of the phase", "1"),
 )
 _ANGLES = {
     "theta": (r"\theta", "inclination of the axis"),
@@ -92,12 +111,13 @@ _ANGLES = {
     "alpha": (r"\alpha", "turning angle about the joint line"),
     "U": ("U", "mean Mercator latitude (u_1 + u_2)/2"),
     "chi": (r"\chi", "twist of the pair, alpha_2 − alpha_1 when ell >= R"),
+    "Delta": (r"\Delta", "twist of the pair, alpha_2 − alpha_1"),
 }
 
 
 def _coordinate_rows() -> list[Entry]:
     rows = {}
-    for c in (ROTOR, PAIR, ANSATZ, AXES, MERCATOR, MINIMAL):
+    for c in (ROTOR, PAIR, ANSATZ, AXES, MERCATOR, MINIMAL, TWISTED):
         for q, v, acc in zip(c.q, c.v, c.a, strict=True):
             stem, _, index = q.name.partition("_")
             tex, meaning = _ANGLES[stem]

@@ -3,6 +3,7 @@
 Exact for any bar and any k = ell / R. Singular only where an axis lies along the joint line.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
 from math import asin, atan2, atanh, cosh, hypot, sin, sinh
 from typing import Any, Literal
@@ -13,6 +14,7 @@ import sympy as sp
 from ..errors import SingularError
 from ..mechanics import bias, mass_matrix
 from ..numerics.codegen import Program, Stage, compile_program, solve_symmetric
+from ..numerics.rates import rate_factory
 from ..numerics.solve import Rate
 from ..rotors.lagrangians import bar_curve, mercator_axis, mercator_lagrangian, minimal_embedding
 from ..rotors.parameters import Scene
@@ -55,6 +57,51 @@ def _curve(ratio: Ratio) -> list[Stage]:
 
 @lru_cache(maxsize=32)
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
+    """(U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → rates of the six; `body` 0: no force.
+
+    By elimination; for the massless bar as long as the rotors, with one multiplier, which takes half the operations.
+    """
+    return _slim(body) if ratio == "equal" and not massive else eliminated(massive, ratio, body)
+
+
+def _slim(body: int) -> Program:
+    """Massless bar, ell = R: each rotor alone has, with g = G/a,
+
+        u'' = tanh u (u'² − alpha'²) + g alpha',   alpha'' = u' (2 alpha' tanh u − g),
+
+    and inertia a sech² u in both; one multiplier keeps u_1 − u_2 = −ln cos(alpha_2 − alpha_1), where w'' = 1 + w'².
+    """
+    (U, chi, alpha), (U_v, chi_v, alpha_v) = MINIMAL.q, MINIMAL.v
+    E1, w, shared, twist = sp.symbols("E_1 w share twist", real=True)
+    stages: list[Stage] = [(_C, sp.cos(chi)), (_W1, sp.sin(chi) / _C), (w, -sp.log(_C)), (E1, sp.exp(2 * U + w))]
+    own, widths = [], []
+    for i, (E, G, sign) in enumerate(((E1, G_1, 1), (E1 * _C**2, G_2, -1))):
+        t, s, u_v, al_v, square, g = sp.symbols(f"t_{i} s_{i} u_{i}_v al_{i}_v e_{i} g_{i}", real=True)
+        stages += [(square, E), (t, (square - 1) / (square + 1)), (s, 4 * square / (square + 1) ** 2), (g, G / a)]
+        stages += [(u_v, U_v + sign * _W1 * chi_v / 2), (al_v, alpha_v - sign * chi_v / 2)]
+        along, round_ = t * (u_v**2 - al_v**2) + g * al_v, u_v * (2 * t * al_v - g)
+        if body == i + 1:
+            root, turn, (x, y, z) = sp.sqrt(s), alpha - sign * chi / 2, FORCE
+            along += x / a + t * (y * sp.sin(turn) - z * sp.cos(turn)) / (a * root)
+            round_ -= (y * sp.cos(turn) + z * sp.sin(turn)) / (a * root)
+        forces = sp.symbols(f"f_{i} h_{i}", real=True)
+        stages += list(zip(forces, (along, round_), strict=True))
+        own.append(forces)
+        widths.append(s)
+    (along_1, round_1), (along_2, round_2) = own
+    stages += [(twist, round_2 - round_1)]
+    lam = sp.Symbol("lam", real=True)
+    stages += [(lam, chi_v**2 + (_W1 * twist - along_1 + along_2) / (1 + _W1**2))]
+    # The multiplier moves rotor i by 1/s_i: half the difference of the two is left in the means.
+    stages += [(shared, lam * (widths[1] - widths[0]) / (2 * (widths[0] + widths[1])))]
+    means = (along_1 + along_2) / 2 + shared, (round_1 + round_2) / 2 + shared * _W1
+    accelerations = means[0], twist - _W1 * lam, means[1]
+    parameters = (a, G_1, G_2, *(FORCE if body else ()))
+    return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations))
+
+
+@lru_cache(maxsize=32)
+def eliminated(massive: bool, ratio: Ratio, body: int) -> Program:
     """(U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → rates of the six; `body` 0: no force.
 
     Mass matrix and bias of the Mercator Lagrangian, embedded by q₄ = e(q):  M = Eᵀ M₄ E,  h = Eᵀ (h₄ + M₄ E' v).
@@ -100,6 +147,11 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
 
 
 @lru_cache(maxsize=32)
+def _factory(massive: bool, ratio: Ratio, body: int) -> Callable[..., Rate]:
+    return rate_factory(program(massive, ratio, body), 6)
+
+
+@lru_cache(maxsize=32)
 def _compiled(massive: bool, ratio: Ratio, body: int) -> Any:
     return compile_program(program(massive, ratio, body))
 
@@ -111,7 +163,8 @@ def _ratio(scene: Scene) -> tuple[float, Ratio]:
     return value, "equal" if value == 1 else "short" if value < 1 else "long"
 
 
-def _rate(scene: Scene, pulsed: bool) -> Rate:
+def _terms(scene: Scene, pulsed: bool) -> tuple[tuple[bool, Ratio, int], tuple[float, ...]]:
+    """What picks the scene's program, and the values of its parameters but for the force."""
     inertia_a, inertia_b = scene.inertias
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
@@ -122,7 +175,20 @@ def _rate(scene: Scene, pulsed: bool) -> Rate:
         *(() if ratio == "equal" else (value,)),
         *scene.momenta,
     )
-    return python_rate(scene, _compiled(massive, ratio, body), parameters, pulsed)
+    return (massive, ratio, body), parameters
+
+
+def _rate(scene: Scene, pulsed: bool) -> Rate:
+    picked, parameters = _terms(scene, pulsed)
+    if not pulsed:
+        return _factory(*picked)(*parameters)
+    return python_rate(scene, _compiled(*picked), parameters, pulsed)
+
+
+def generated(scene: Scene, pulsed: bool) -> tuple[Program, tuple[float, ...]]:
+    """The scene's program, for a solver that takes expressions, and the values of its parameters but for the force."""
+    picked, parameters = _terms(scene, pulsed)
+    return program(*picked), parameters
 
 
 def _start(scene: Scene) -> Array:

@@ -6,11 +6,11 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, LagrotorError, SingularError
-from ..numerics.solve import Problem, check_tolerance, integrate
+from ..errors import InputError, IntegrationError
+from ..numerics.solve import TIGHTEST, Problem, Solution, check_tolerance, integrate
 from ..numerics.trajectory import Array, Trajectory
 from ..rotors.parameters import Scene
-from .model import Model
+from .model import Model, Observed
 
 
 def _minimal() -> Model:
@@ -31,6 +31,20 @@ def _euler() -> Model:
     return MODEL
 
 
+def _closed_form(scene: Scene, times: Array, tol: float) -> Observed:
+    from .closed_form import closed_form_run
+
+    return closed_form_run(scene, times, tol)
+
+
+def _linear(scene: Scene, times: Array, tol: float) -> Observed:
+    from .linear import linear_run
+
+    return linear_run(scene, times)
+
+
+# Rungs that answer at any time at once, and rungs that are integrated.
+DIRECT: dict[str, Callable[[Scene, Array, float], Observed]] = {"closed_form": _closed_form, "linear": _linear}
 MODELS: dict[str, Callable[[], Model]] = {"minimal": _minimal, "spheres": _spheres, "euler": _euler}
 
 
@@ -53,55 +67,93 @@ def check_times(t: ArrayLike) -> Array:
     return times
 
 
-def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9) -> Trajectory:
+def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9, engine: str = "core") -> Trajectory:
     """Run `scene` from t = 0 and read it at the times `t` (n,), in s.
 
-    model: "minimal", "spheres", "euler", or "auto": the smallest exact model that can hold the scene, named with its
-    reason in the trajectory. tol: the solver's relative and absolute local error, 1e-13 to 0.1.
+    model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
+    of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: for "auto" that error
+    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1.
+
+    engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal" and
+    "spheres". Never chosen silently: it compiles for a moment, and its last digits are others.
 
     Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
-    IntegrationError when the run cannot go on.
+    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
     times, tolerance = check_times(t), check_tolerance(tol)
+    if engine not in ("core", "fast"):
+        raise InputError(f"simulate: engine = {engine!r} is neither core nor fast")
     if model == "auto":
-        return _automatic(scene, times, tolerance)
+        return _automatic(scene, times, tolerance, engine)
+    if model in DIRECT:
+        return _trajectory(scene, model, "asked for", times, DIRECT[model](scene, times, tolerance), 0)
     if model not in MODELS:
-        raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join(MODELS)}")
-    return _run(MODELS[model](), scene, times, tolerance, "asked for")
+        raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join((*DIRECT, *MODELS))}")
+    return _run(MODELS[model](), scene, times, tolerance, "asked for", engine)
 
 
-def _automatic(scene: Scene, times: Array, tol: float) -> Trajectory:
+def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
+    from .choose import choose
+
+    choice = choose(scene, float(times[-1]), tol)
+    if choice.model in DIRECT:
+        return _trajectory(scene, choice.model, choice.reason, times, DIRECT[choice.model](scene, times, tol), 0)
     try:
-        return _run(_minimal(), scene, times, tol, "least exact model: bar eliminated, six states")
-    except LagrotorError as refusal:
-        if not isinstance(refusal, SingularError | ArithmeticError):
+        return _run(MODELS[choice.model](), scene, times, choice.solver_tol, choice.reason, engine)
+    except IntegrationError as refusal:
+        if choice.model == "spheres":
             raise
-        return _run(_spheres(), scene, times, tol, f"regular everywhere; {refusal}")
+        # Beside a singular position any error grows a millionfold: the solver gives all it has.
+        return _run(_spheres(), scene, times, TIGHTEST, f"regular everywhere; {refusal}", engine)
 
 
-def _run(model: Model, scene: Scene, times: Array, tol: float, why: str) -> Trajectory:
-    problem = Problem(
+def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
+    if engine == "fast":
+        solution = _fast(model, scene, times, tol)
+    else:
+        solution = integrate(problem_of(model, scene, float(times[-1])), times, tol)
+    return _trajectory(scene, model.name, why, times, model.observe(scene, solution.states), solution.evaluations)
+
+
+def problem_of(model: Model, scene: Scene, t_end: float) -> Problem:
+    """What `integrate` is given of a scene and a model that is integrated."""
+    return Problem(
         free=model.rate(scene, False),
         start=model.start(scene),
-        allowance=20_000 + 500 * _fastest(scene) * times[-1],
+        allowance=20_000 + 500 * _fastest(scene) * t_end,
         driven=model.rate(scene, True) if scene.shock else None,
         at=scene.shock.at if scene.shock else 0.0,
         width=scene.shock.width if scene.shock else 0.0,
         project=model.projection(scene) if model.projection else None,
     )
-    solution = integrate(problem, times, tol)
-    seen = model.observe(scene, solution.states)
+
+
+def _fast(model: Model, scene: Scene, times: Array, tol: float) -> Solution:
+    from ..numerics.taylor import Pulse, integrate_taylor
+    from . import minimal, spheres
+
+    offered = {"minimal": minimal.generated, "spheres": spheres.generated}
+    if model.name not in offered:
+        raise InputError(f"simulate: engine='fast' does not run model={model.name!r}; take minimal or spheres")
+    start, pulse = model.start(scene), None
+    if scene.shock:
+        x, y, z = (scene.rotor.length * f for f in scene.shock.force)
+        pulse = Pulse((x, y, z), scene.shock.at, scene.shock.width)
+    return integrate_taylor(lambda pulsed: offered[model.name](scene, pulsed), start, pulse, times, tol)
+
+
+def _trajectory(scene: Scene, model: str, why: str, times: Array, seen: Observed, evaluations: int) -> Trajectory:
     return Trajectory(
         scene=scene,
-        model=model.name,
+        model=model,
         why=why,
         t=times,
         axes=seen.axes,
         rates=seen.rates,
         momenta=seen.momenta,
-        evaluations=solution.evaluations,
+        evaluations=evaluations,
     )
 
 

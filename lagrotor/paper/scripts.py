@@ -1,5 +1,6 @@
 """Where the literate scripts live: beside the package in a checkout, inside it when installed from a wheel."""
 
+import re
 import runpy
 from functools import cache
 from pathlib import Path
@@ -19,8 +20,12 @@ def folder(name: str) -> Path:
 
 
 def names(kind: str, prefix: str = "") -> list[str]:
-    """Stems of the scripts in a folder, in order. Derivations: s… sections, c… claims, t… theory past the paper."""
-    return sorted(path.stem for path in folder(kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
+    """Stems of the scripts in a folder, in order, t2 before t10.
+
+    Derivations: s… sections, c… claims, m… tables, t… theory past the paper, p… the table of it.
+    """
+    found = (path.stem for path in folder(kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
+    return sorted(found, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
 
 
 @cache

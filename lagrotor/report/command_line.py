@@ -10,8 +10,10 @@ from typing import Any
 
 from .. import __version__
 from ..errors import InputError, LagrotorError
+from .chart_command import add_chart, chart_command
 from .options import Parser, add_scene, add_shock, check_folder
 from .scene_commands import animate_command, rate_command, simulate_command
+from .stability_command import stability_command
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
@@ -86,9 +88,11 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
 
-    added = command("figure", _figure, "draw figures of the paper as SVG and PNG", "lagrotor figure 17 18 --out .")
-    added.add_argument("numbers", nargs="+", type=int, metavar="N", help="the paper's figure number")
+    added = command("figure", _figure, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
+    added.add_argument("keys", nargs="+", metavar="N", help="the paper's figure number, or t1 to t10 for those past it")
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
+
+    add_chart(command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out ."))
 
     added = command(
         "simulate",
@@ -100,7 +104,8 @@ def _parser() -> argparse.ArgumentParser:
     add_shock(added)
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
-    added.add_argument("--model", default="auto", help="auto, minimal, spheres or euler (default: auto)")
+    says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
+    added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help="tolerance of the solver (default: 1e-9)")
     added.add_argument("--out", type=Path, metavar="FILE", help="write .npz or .csv instead of showing a table")
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
@@ -121,6 +126,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
     added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
+
+    added = command(
+        "stability",
+        stability_command,
+        "where methods fail, predicted and found; how much runs in a second",
+        "lagrotor stability --quick --out .",
+    )
+    added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+    added.add_argument("--out", type=Path, metavar="DIR", help="existing folder for stability.svg, .png and .json")
 
     added = command(
         "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
@@ -201,14 +216,14 @@ def _compared(changes: list[str], on_record: dict[str, str] | None) -> int:
 
 
 def _figure(given: argparse.Namespace) -> int:
-    from .figures import check_numbers, draw
+    from .figures import check_keys, draw
     from .terminal import progress
 
     check_folder(given.out)
-    numbers = check_numbers(given.numbers)
-    with progress(len(numbers)) as step:
-        for number in numbers:
-            step(f"figure {number}")
-            picture = draw(number, given.out)
+    keys = check_keys(given.keys)
+    with progress(len(keys)) as step:
+        for key in keys:
+            step(f"figure {key}")
+            picture = draw(key, given.out)
             print(picture.svg, picture.png, sep="\n")
     return 0

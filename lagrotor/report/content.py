@@ -12,7 +12,7 @@ from ..paper.catalogue import Equation, equation, equations
 from ..paper.ledger import Relation, Verdict
 from ..paper.tables import Table
 from ..paper.trials import Result
-from .figures import Picture
+from .figures import Picture, past
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
@@ -35,7 +35,7 @@ class Report:
     """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
 
     claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides;
-    tables: runs side by side.
+    tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings.
     """
 
     verdicts: tuple[Verdict, ...]
@@ -45,6 +45,18 @@ class Report:
     claims: tuple[Result, ...] = ()
     findings: tuple[tuple[str, str], ...] = ()
     tables: tuple[Table, ...] = ()
+    past: tuple[Table, ...] = ()
+    theory: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def papers_pictures(self) -> list[Picture]:
+        """The paper's figures."""
+        return [picture for picture in self.pictures if not past(picture.key)]
+
+    @property
+    def past_pictures(self) -> list[Picture]:
+        """The figures of the theory past the paper."""
+        return [picture for picture in self.pictures if past(picture.key)]
 
     @property
     def waiting(self) -> list[Equation]:
@@ -120,8 +132,8 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
 
 
 _REACHES = {
-    True: "yes: a result of the paper is wrong with it",
-    False: "no: no result of the paper is wrong because of it",
+    True: "yes: a result of the paper that rests on it is refuted too",
+    False: "no: every result of the paper that rests on it stands",
 }
 
 

@@ -1,7 +1,8 @@
 """Run a figure's script and keep its picture.
 
-A script `figures/figNN_*.py` defines `figure() -> matplotlib.figure.Figure`, the strings TITLE, CAPTION and ALT, and
-may define `measure() -> dict[str, float]`, the numbers read off it.
+A script `figures/figNN_*.py` (one of the paper's figures) or `figures/tN_*.py` (one past the paper) defines
+`figure() -> matplotlib.figure.Figure`, the strings TITLE, CAPTION and ALT, and may define
+`measure() -> dict[str, float]`, the numbers read off it.
 """
 
 import re
@@ -17,10 +18,13 @@ from ..paper import scripts
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure as saved: `svg` and `png` are the two files, `measured` the numbers its script reads off it."""
+    """A figure as saved: `svg` and `png` are the two files, `measured` the numbers its script reads off it.
+
+    key: the paper's number, such as "17", or the name of a figure past the paper, such as "t6".
+    """
 
     stem: str
-    number: int
+    key: str
     title: str
     caption: str
     alt: str
@@ -30,23 +34,28 @@ class Picture:
     seconds: float
 
 
-def stems() -> dict[int, str]:
-    """The scripts that draw the paper's figures: number → stem."""
-    found = ((re.match(r"fig(\d+)_", stem), stem) for stem in scripts.names("figures"))
-    return {int(match[1]): stem for match, stem in found if match}
+def stems() -> dict[str, str]:
+    """The scripts that draw figures: key → stem; the paper's, "1" to "28", then those past it, "t1" to "t10"."""
+    found = [(re.match(r"(?:fig0*|(?=t))(t?\d+)_", stem), stem) for stem in scripts.names("figures")]
+    return {match[1]: stem for match, stem in found if match}
 
 
-def check_numbers(numbers: Iterable[int]) -> list[int]:
-    """The numbers, each once; raises InputError for one that no script draws."""
+def past(key: str) -> bool:
+    """Whether the figure with this key shows the theory past the paper."""
+    return key.startswith("t")
+
+
+def check_keys(keys: Iterable[str]) -> list[str]:
+    """The keys, each once, 07 read as 7; raises InputError for one that no script draws."""
     drawn = stems()
-    wanted = list(dict.fromkeys(numbers))
-    for number in wanted:
-        if number not in drawn:
-            raise InputError(f"figure {number} has no script: those drawn are {', '.join(map(str, sorted(drawn)))}")
+    wanted = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
+    for key in wanted:
+        if key not in drawn:
+            raise InputError(f"figure {key!r} has no script: those drawn are {', '.join(drawn)}")
     return wanted
 
 
-def draw(number: int, folder: Path) -> Picture:
+def draw(key: str, folder: Path) -> Picture:
     """Draw one figure of `stems()` and write `<stem>.svg` and `<stem>.png` into `folder`: the same bytes every time.
 
     Raises InputError when the folder cannot be written to.
@@ -54,7 +63,7 @@ def draw(number: int, folder: Path) -> Picture:
     from .style import paper_style
 
     began = time.perf_counter()
-    stem = stems()[number]
+    stem = stems()[key]
     with paper_style():
         script = scripts.run("figures", stem)
         figure = script["figure"]()
@@ -67,7 +76,7 @@ def draw(number: int, folder: Path) -> Picture:
     measured = script["measure"]() if "measure" in script else {}
     return Picture(
         stem=stem,
-        number=number,
+        key=key,
         title=script["TITLE"],
         caption=script["CAPTION"],
         alt=script["ALT"],

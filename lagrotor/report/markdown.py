@@ -7,6 +7,7 @@ import sympy as sp
 
 from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
+from ..paper.tables import Cell, FigureLink, Table
 from ..paper.trials import Result
 from ..symbols import latex
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
@@ -28,11 +29,16 @@ def markdown(report: Report) -> str:
         blocks.append("## Findings")
         blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.findings]
     for table in report.tables:
-        rows = [tuple(_prose(cell) for cell in row) for row in table.rows]
-        blocks += [f"## {_prose(table.title)}", _rows(table.head, rows), _prose(table.note)]
-    if report.pictures:
+        blocks += _side_by_side(table)
+    if report.papers_pictures:
         blocks.append("## Figures")
-        blocks += [_picture(picture) for picture in report.pictures]
+        blocks += [_picture(picture) for picture in report.papers_pictures]
+    if report.past or report.theory or report.past_pictures:
+        blocks.append("## Past the paper")
+        for table in report.past:
+            blocks += _side_by_side(table, "###")
+        blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.theory]
+        blocks += [_picture(picture) for picture in report.past_pictures]
     if report.waiting:
         rows = [(entry.id, _prose(entry.title)) for entry in report.waiting]
         blocks += ["## Not yet judged", _rows(("Equation", "Title"), rows)]
@@ -106,9 +112,23 @@ def _claim(result: Result) -> str:
     return "\n\n".join([*parts, _rows((f"Measured ({_prose(result.trial.model)})", "Value"), rows)])
 
 
+def _side_by_side(table: Table, level: str = "##") -> list[str]:
+    rows = [tuple(_cell(cell) for cell in row) for row in table.rows]
+    return [f"{level} {_prose(table.title)}", _rows(table.head, rows), _prose(table.note)]
+
+
+def _cell(cell: Cell) -> str:
+    if isinstance(cell, tuple):
+        return "<br>".join(map(_cell, cell))
+    if isinstance(cell, FigureLink):
+        return f"[figure {cell.key}](#figure-{cell.key})"
+    return f"${latex(cell)}$" if isinstance(cell, sp.Basic) else _prose(cell)
+
+
 def _picture(picture: Picture) -> str:
     image = f"![{_prose(picture.alt)}](figures/{picture.svg.name})"
-    parts = [f"### Figure {picture.number}: {_prose(picture.title)}", image, _prose(picture.caption)]
+    heading = f'<a id="figure-{picture.key}"></a>\n\n### Figure {picture.key}: {_prose(picture.title)}'
+    parts = [heading, image, _prose(picture.caption)]
     if picture.measured:
         parts.append(_rows(("Measured", "Value"), [(_prose(n), f"{v:.6g}") for n, v in picture.measured.items()]))
     return "\n\n".join(parts)

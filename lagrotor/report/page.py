@@ -10,7 +10,7 @@ import sympy as sp
 
 from ..paper.catalogue import claims, equation
 from ..paper.ledger import Statement, Verdict
-from ..paper.tables import Table
+from ..paper.tables import Cell, FigureLink, Table
 from ..paper.trials import Result
 from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
 from .errata import Erratum, errata
@@ -33,7 +33,9 @@ def page(report: Report) -> str:
     links += [("claims", "Claims")] * bool(report.claims)
     links += [("findings", "Findings")] * bool(report.findings)
     links += [("tables", "Tables")] * bool(report.tables)
-    links += [("figures", "Figures")] * bool(report.pictures)
+    links += [("figures", "Figures")] * bool(report.papers_pictures)
+    beyond = _past(report)
+    links += [("past", "Past the paper")] * bool(beyond)
     links += [("waiting", "Not yet judged")] * bool(report.waiting)
     links.append(("made", "How this was made"))
     body = [
@@ -56,10 +58,12 @@ def page(report: Report) -> str:
         body += [f"<h3>{escape(title)}</h3><p>{escape(text)}</p>" for title, text in report.findings]
     if report.tables:
         body.append('<h2 id="tables">Tables</h2>')
-        body += [_side_by_side(table) for table in report.tables]
-    if report.pictures:
+        body += [_side_by_side(table, report) for table in report.tables]
+    if report.papers_pictures:
         body.append('<h2 id="figures">Figures</h2>')
-        body += [_picture(picture) for picture in report.pictures]
+        body += [_picture(picture) for picture in report.papers_pictures]
+    if beyond:
+        body += ['<h2 id="past">Past the paper</h2>', *beyond]
     if report.waiting:
         rows = [(entry.id, escape(entry.title)) for entry in report.waiting]
         body += ['<h2 id="waiting">Not yet judged</h2>', _rows(("Equation", "Title"), rows)]
@@ -158,12 +162,30 @@ def _claim(result: Result) -> str:
     )
 
 
-def _side_by_side(table: Table) -> str:
-    rows = [tuple(escape(cell) for cell in row) for row in table.rows]
+def _past(report: Report) -> list[str]:
+    """Table, findings and figures of the theory that the paper does not have; empty where there is none."""
+    return [
+        *(_side_by_side(table, report) for table in report.past),
+        *(f"<h3>{escape(title)}</h3><p>{escape(text)}</p>" for title, text in report.theory),
+        *(_picture(picture) for picture in report.past_pictures),
+    ]
+
+
+def _side_by_side(table: Table, report: Report) -> str:
+    rows = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     return (
         f'<h3>{escape(table.title)}</h3><div class="wide" tabindex="0">{_rows(table.head, rows)}</div>'
         f"<p><small>{escape(table.note)}</small></p>"
     )
+
+
+def _cell(cell: Cell, report: Report) -> str:
+    if isinstance(cell, tuple):
+        return "<br>".join(_cell(part, report) for part in cell)
+    if isinstance(cell, FigureLink):
+        drawn = any(picture.key == cell.key for picture in report.pictures)
+        return f'<a href="#figure-{cell.key}">figure {cell.key}</a>' if drawn else f"figure {escape(cell.key)}"
+    return mathml(cell, display=False) if isinstance(cell, sp.Basic) else escape(cell)
 
 
 def _picture(picture: Picture) -> str:
@@ -172,7 +194,7 @@ def _picture(picture: Picture) -> str:
     source = f"data:image/{kind};base64,{b64encode(file.read_bytes()).decode()}"
     rows = [(escape(name), f"{value:.6g}") for name, value in picture.measured.items()]
     return (
-        f'<figure id="figure-{picture.number}"><h3>Figure {picture.number}: {escape(picture.title)}</h3>'
+        f'<figure id="figure-{picture.key}"><h3>Figure {picture.key}: {escape(picture.title)}</h3>'
         f'<img src="{source}" alt="{escape(picture.alt)}"><figcaption>{escape(picture.caption)}</figcaption>'
         f"{_rows(('Measured', 'Value'), rows) if rows else ''}</figure>"
     )
@@ -183,7 +205,7 @@ def _made(report: Report) -> str:
     rows += [
         ("Judging", f"{sum(v.seconds for v in report.verdicts):.1f} s"),
         *([("Claims", f"{sum(c.seconds for c in report.claims):.1f} s")] if report.claims else []),
-        *((f"Figure {p.number}", f"{p.seconds:.1f} s") for p in report.pictures),
+        *((f"Figure {p.key}", f"{p.seconds:.1f} s") for p in report.pictures),
         ("In all", f"{report.seconds:.1f} s"),
     ]
     return _rows(("What", "Version or time"), rows)

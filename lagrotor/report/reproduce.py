@@ -46,9 +46,12 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
         side_by_side = tables.tables()
         pictures = []
         (folder / "figures").mkdir()
-        for number in sorted(figures.stems()):
-            step(f"figure {number}")
-            pictures.append(figures.draw(number, folder / "figures"))
+        for stem in scripts.names("derivations", "t"):
+            step(stem)
+            scripts.run("derivations", stem)
+        for key in figures.stems():
+            step(f"figure {key}")
+            pictures.append(figures.draw(key, folder / "figures"))
         step("report")
         found = outcomes(verdicts, heard)
         changed = changes(found, recorded())
@@ -61,6 +64,8 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
             tuple(heard),
             tuple(findings),
             tuple(side_by_side),
+            tuple(tables.tables("p")),
+            tuple(audit.findings("t")),
         )
         write_text(folder / "index.html", page(report))
         write_text(folder / "report.md", markdown(report))
@@ -75,7 +80,8 @@ def reproduce(target: Path, step: Callable[[str], None]) -> Report:
 
 def steps() -> int:
     """How many times `reproduce` calls its `step`."""
-    return len(scripts.names("derivations", "s")) + len(trials.listed()) + len(figures.stems()) + 2
+    run = sum(len(scripts.names("derivations", prefix)) for prefix in "st")
+    return run + len(trials.listed()) + len(figures.stems()) + 2
 
 
 def recorded() -> dict[str, str] | None:

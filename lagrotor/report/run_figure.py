@@ -49,12 +49,13 @@ def _over_time(panel: Axes, labelled: bool) -> None:
 def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
     """Energy, force and centre of rotor 1 over time, as in the paper's figures 11 to 13; dashed, the exact model.
 
-    data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre.
+    data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre;
+    exact_t (m,) where the exact model ends before the run.
     """
     figure = Figure(figsize=(7.0, 7.0))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
     upper.plot(data["t"], data["energy"], color=MODEL, linewidth=3)
-    upper.plot(data["t"], data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
+    upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
     upper.set(ylabel="energy [J]", title="Energy")
     upper.margins(y=0.12)
     middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
@@ -62,7 +63,14 @@ def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
     for j, (name, colour) in enumerate(COMPONENTS.items()):
         lower.plot(data["t"], data["centre"][:, j], color=colour, linewidth=3, label=f"{name}, paper's method")
         exact = "exact model" if j == 2 else None
-        lower.plot(data["t"], data["exact_centre"][:, j], color=EXACT, linestyle="--", linewidth=1.0, label=exact)
+        lower.plot(
+            data.get("exact_t", data["t"]),
+            data["exact_centre"][:, j],
+            color=EXACT,
+            linestyle="--",
+            linewidth=1.0,
+            label=exact,
+        )
     lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
     lower.margins(y=0.06)
     figure.suptitle(title)

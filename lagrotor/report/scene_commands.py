@@ -93,12 +93,18 @@ def rate_command(given: argparse.Namespace) -> int:
     scene = scene_of(given)
 
     from ..rotors.closed_forms import natural_rate
+    from ..rotors.rate_limits import natural_rate_limits
+    from .terminal import table
 
-    rate = float(natural_rate(scene))
+    rate, limits = natural_rate(scene), natural_rate_limits(scene)
     period = 2 * math.pi / abs(rate) if rate else None
     if given.json:
-        print(json.dumps({"rate": rate, "period": period}))
+        told = {name: limit.rate for name, limit in limits.items()}
+        print(json.dumps({"rate": rate, "period": period, "limits": told}))
     else:
         print(f"natural rate  {rate:.12g} rad/s")
         print(f"period        {f'{period:.12g} s' if period else 'none: no oscillation'}")
+        print()
+        rows = [(name, limit.formula, f"{limit.rate:.12g}", limit.says) for name, limit in limits.items()]
+        print(table(("limit", "formula", "rad/s", "what is changed"), rows))
     return 0

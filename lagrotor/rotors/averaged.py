@@ -14,11 +14,9 @@ from functools import cache
 
 import sympy as sp
 
-from ..symbols import G_1, G_2, G, a, b, k
-from .toppling import TWISTED, twisted_lagrangian
+from ..symbols import G_1, G_2, SWING, TWIST, TWISTED, G, P, X, a, b, k
+from .toppling import twisted_lagrangian
 
-P = sp.Symbol("P", real=True)  # momentum about the joint line (kg m²/s)
-X, TWIST, SWING = sp.symbols("X Delta_s d", real=True)  # mean of U and of Delta; amplitude of the swing in Delta
 _EPS = sp.Symbol("epsilon", positive=True)
 
 

@@ -17,14 +17,11 @@ from math import pi, sqrt
 import sympy as sp
 
 from ..errors import InputError
-from ..symbols import AXES, G_1, G_2, G, a, b, k
+from ..symbols import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
 from .closed_forms import ClosedForm
 from .lagrangians import joint_line_momentum, link_constraint
 from .parameters import Scene
-from .response import P_1, P_2, P_X, impulse_matrices, shock_response
-
-p_y = sp.Symbol("p_y", real=True)  # R × impulse along y on rotor 1 (N m s)
-att = sp.Symbol("A_w", positive=True)  # exp(−(Omega_0 w)²/4)
+from .response import impulse_matrices, shock_response
 
 
 @cache
@@ -101,7 +98,7 @@ def shock_wander() -> ClosedForm:
     with d² = A² (p_x² + sigma p_y²)/G² the swing's part. Without p_y it goes as the cube of the shock, so that x keeps
     within a given bound for a time that falls as the cube. Arguments: p_x, p_y, A, G, a, b, k.
     """
-    from .averaged import SWING, TWIST, P, slow_rates
+    from .averaged import slow_rates
 
     twist, square = P_X / G, att**2 * (P_X**2 + (a + b) / (a - b) * p_y**2) / G**2
     rate = sp.expand(slow_rates()[0]).subs(SWING, sp.sqrt(square)).subs({TWIST: twist, P: -p_y})

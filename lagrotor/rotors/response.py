@@ -20,13 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
 from ..mechanics.perturbation import LinearSystem
-from ..symbols import G_1, G_2, a, b
+from ..symbols import G_1, G_2, P_1, P_2, P_X, a, b
 from .closed_forms import ClosedForm, linear_pair, natural_frequency
 from .parameters import Scene
 
 Array = NDArray[np.float64]
 
-P_X, P_1, P_2 = sp.symbols("p_x p_1 p_2", real=True)  # generalised impulse along x, y_1, y_2 (N m s)
 _SPUN = (sp.Gt(a, sp.Abs(b)), sp.Gt(G_1**2 + G_2**2, 0))
 # A pulse that starts later than this many widths before its peak has lost 2e-8 of its impulse.
 _WHOLE = 4.0

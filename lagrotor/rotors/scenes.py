@@ -26,7 +26,11 @@ SCENES: dict[str, Ready] = {
     "same-spin-shock": Ready(
         Scene((10.0, 10.0), link=HEAVY, shock=SHOCK_X), 10.0, "equal spins, a shock along the bar: both precess alike"
     ),
-    "no-spin": Ready(Scene((0.0, 0.0), link=HEAVY, shock=SHOCK_X), 10.0, "no spin, the same shock: the pair topples"),
+    "no-spin": Ready(
+        Scene((0.0, 0.0), link=HEAVY, shock=SHOCK_X),
+        4.8,
+        "no spin, the same shock: the pair topples until all is in line",
+    ),
     "anti-spin-shock-x": Ready(
         Scene((10.0, -10.0), link=HEAVY, shock=SHOCK_X),
         10.0,

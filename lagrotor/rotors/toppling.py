@@ -13,14 +13,11 @@ from functools import cache
 
 import sympy as sp
 
-from ..mechanics import Coordinates, coordinates, euler_lagrange
+from ..mechanics import euler_lagrange
 from ..mechanics.perturbation import LinearSystem
-from ..symbols import G_1, G_2, MERCATOR, MINIMAL, G, a, b, k
+from ..symbols import G_1, G_2, MERCATOR, MINIMAL, TWISTED, G, a, b, k, nu
 from .closed_forms import ClosedForm
 from .lagrangians import mercator_lagrangian, minimal_embedding
-
-nu = sp.Symbol("nu", real=True)  # rate of turning alpha' = −y'/z (rad/s)
-TWISTED: Coordinates = coordinates("U Delta alpha")
 
 
 @cache

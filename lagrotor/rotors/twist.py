@@ -19,14 +19,12 @@ from numpy.typing import NDArray
 
 from ..errors import DomainError, InputError
 from ..mechanics import euler_lagrange
-from ..symbols import G_1, G_2, G, Phi, a, b
+from ..symbols import G_1, G_2, TWISTED, G, Phi, a, b, rho
 from .closed_forms import ClosedForm
 from .parameters import Scene
-from .toppling import TWISTED, twisted_lagrangian
+from .toppling import twisted_lagrangian
 
 Array = NDArray[np.float64]
-
-rho = sp.Symbol("rho", positive=True)  # sine of the half-angle of the cone on which the axes precess
 
 
 @cache

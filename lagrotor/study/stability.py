@@ -1,10 +1,19 @@
-"""Where methods fail: thresholds found by trying, to be held against the predicted ones."""
+"""Where methods fail: each threshold predicted by a formula, and found by trying."""
 
+from collections.abc import Callable
 from copy import deepcopy
 
 import numpy as np
 
+from ..models.rigid_body import RigidBody
 from ..models.spring_link import RigidBodySystem, step_limit
+from ..models.spring_run import paper_system
+from ..rotors.parameters import Link, Scene
+from ..rotors.scenes import DAMPING, HEAVY, LIGHT, STIFFNESS
+from .coordinates import euler_limits, joint_line_limits, projection_limits
+from .drifts import drift_limits, long_limits
+from .limits import Limit
+from .reach import amplitude_limits, horizon_limits, spin_limits
 
 
 def step_grows(system: RigidBodySystem, dt: float, steps: int = 1000) -> bool:
@@ -28,3 +37,62 @@ def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
         middle = (low + high) / 2
         low, high = (low, middle) if step_grows(system, middle) else (middle, high)
     return (low + high) / 2
+
+
+def _bar_on_rotor(bar: Link) -> RigidBodySystem:
+    """A rotor's tip joined to an end of the bar, and nothing else: the tip joint as if the others were cut."""
+    zero, one, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
+    rotor = RigidBody(z, np.array([-z, z]), one, one, 1.0, zero, zero)
+    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * one, one, bar.mass, zero, zero)
+    system = RigidBodySystem([rotor, link], STIFFNESS, DAMPING)
+    system.link(1, 2, 2, 1)
+    return system
+
+
+def step_limits(quick: bool) -> list[Limit]:
+    """The longest stable step of the paper's method: each kind of joint by itself, and all together."""
+    systems = {
+        "a ground joint alone": paper_system(Scene((0.0, 0.0), link=None), STIFFNESS, DAMPING),
+        "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY),
+        "a tip joint alone, bar of 0.01 kg": _bar_on_rotor(LIGHT),
+        "all joints, bar of 1 kg": paper_system(Scene((10.0, -10.0), link=HEAVY), STIFFNESS, DAMPING),
+        "all joints, bar of 0.01 kg": paper_system(Scene((10.0, -10.0), link=LIGHT), STIFFNESS, DAMPING),
+    }
+    law = "4/(w D + sqrt((w D)² + 4 w S)), w the largest mobility"
+    tool = "run_steps stops where the state blows up, and names the limit"
+    return [
+        Limit(
+            "explicit steps on stiff links",
+            f"longest stable step (s): {name}",
+            law,
+            step_limit(system).whole,
+            found_step_limit(system, 4 if quick else 7),
+            tool,
+        )
+        for name, system in systems.items()
+    ]
+
+
+LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
+    "stiff links": step_limits,
+    "Euler angles": euler_limits,
+    "joint line": joint_line_limits,
+    "projection": projection_limits,
+    "drift": drift_limits,
+    "amplitude": amplitude_limits,
+    "spins": spin_limits,
+    "long runs": long_limits,
+    "horizon": horizon_limits,
+}
+
+
+def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Limit]:
+    """Every limit: in a minute or two, or in seconds, with shorter runs and coarser thresholds, when `quick`.
+
+    step: called with the name of each regime before it is tried.
+    """
+    rows = []
+    for name, tried in LIMITS.items():
+        step(name)
+        rows += tried(quick)
+    return rows

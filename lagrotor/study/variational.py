@@ -88,7 +88,7 @@ def flow(scene: Scene) -> Callable[[Array, float], Flow]:
 
     def through(state: Array, time: float) -> Flow:
         start = np.concatenate([state, np.eye(6).ravel()])
-        end = integrate(Problem(rate, start, 50_000), np.array([time]), TIGHTEST).states[0]
+        end = integrate(Problem(rate, start, 12_000), np.array([time]), TIGHTEST).states[0]
         return Flow(end[:6], end[6:].reshape(6, 6), np.array(plain(time, end[:6])))
 
     return through

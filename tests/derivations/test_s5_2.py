@@ -114,5 +114,7 @@ def test_every_number_in_the_evidence_is_computed() -> None:
         source = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
         for text in re.findall(r"evidence=\((.*?)\n        \),", source, flags=re.S):
             plain = re.sub(r"\{[^{}]*\}", "", text)
-            typed = [n for n in re.findall(r"\d+\.\d+", plain) if n not in {"0.204"} and not re.match(r"[1-6]\.\d\d$", n)]
+            typed = [
+                n for n in re.findall(r"\d+\.\d+", plain) if n not in {"0.204"} and not re.match(r"[1-6]\.\d\d$", n)
+            ]
             assert not typed, (stem, typed)

@@ -26,7 +26,7 @@ NUMBERS = sorted(DIAGRAMS | PLOTS)
 
 @cache
 def script(number):
-    return scripts.run("figures", figures.stems()[number])
+    return scripts.run("figures", figures.stems()[str(number)])
 
 
 @cache

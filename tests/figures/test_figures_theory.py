@@ -24,7 +24,7 @@ SAMPLES, TOLERANCE = 7, 1e-6
 
 @cache
 def script(number):
-    return scripts.run("figures", figures.stems()[number])
+    return scripts.run("figures", figures.stems()[str(number)])
 
 
 def sampled(data):
@@ -158,7 +158,7 @@ def test_peak_of_a_known_sine():
 
 
 def test_drawn_twice_is_the_same_bytes(tmp_path):
-    first, second = (figures.draw(17, tmp_path / name) for name in _folders(tmp_path))
+    first, second = (figures.draw("17", tmp_path / name) for name in _folders(tmp_path))
     assert first.svg.read_bytes() == second.svg.read_bytes()
     assert first.png.read_bytes() == second.png.read_bytes()
     assert first.measured == second.measured
@@ -172,5 +172,8 @@ def _folders(base):
 
 if __name__ == "__main__":
     stems = figures.stems()
-    now = {str(n): sampled(runpy.run_path(str(scripts.folder("figures") / f"{stems[n]}.py"))["data"]()) for n in PANELS}
+    now = {
+        str(n): sampled(runpy.run_path(str(scripts.folder("figures") / f"{stems[str(n)]}.py"))["data"]())
+        for n in PANELS
+    }
     COMMITTED.write_text(json.dumps(now, indent=1) + "\n")

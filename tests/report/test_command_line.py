@@ -65,8 +65,9 @@ BAD: dict[str, tuple[list[str], str]] = {
     "abbreviated option": ([*SCENE, "--samp", "10"], "--samp"),
     "unknown equation": (["audit", "9.99"], "9.99"),
     "equation not judged": (["audit", "5.15"], "not yet judged"),
-    "figure no number": (["figure", "seventeen"], "invalid int"),
+    "figure no number": (["figure", "seventeen"], "'seventeen' has no script"),
     "figure without a script": (["figure", "1"], "those drawn are 17"),
+    "figure past the last": (["figure", "t11"], "'t11' has no script"),
     "figure none": (["figure"], "required"),
     "figure folder missing": (["figure", "17", "--out", "missing"], "no folder missing"),
     "report below a missing folder": (["reproduce", "--out", "missing/report"], "is missing"),
@@ -205,6 +206,8 @@ def test_run_is_written(small_paper: Path) -> None:
 def test_run_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     short = [*SCENE, "--t-end", "0.1", "--samples", "3"]
     assert main(short) == 0
+    assert "closed_form (at rest and left alone" in capsys.readouterr().out
+    assert main([*short, "--model", "minimal"]) == 0
     out = capsys.readouterr().out
     for part in ("minimal", "evaluations", "energy", "link length", "tip 1", "tip 2"):
         assert part in out
@@ -228,8 +231,25 @@ def test_rate(capsys: pytest.CaptureFixture[str]) -> None:
     answer = json.loads(capsys.readouterr().out)
     assert answer["rate"] == pytest.approx(8)  # I3 omega / J = 10 / (5/4)
     assert answer["period"] == pytest.approx(2 * np.pi / 8)
+    assert set(answer) == {"rate", "period", "limits"}
+    assert answer["limits"] == pytest.approx(dict.fromkeys(("equal", "opposite", "massless", "dumbbell"), 8))
     assert main(["rate", "--spins", "10", "-10"]) == 0
     assert "8 rad/s" in capsys.readouterr().out
+
+
+def test_rate_with_its_limits(capsys: pytest.CaptureFixture[str]) -> None:
+    bar = ["--link-mass", "1", "--link-inertia", "1"]
+    assert main(["rate", "--spins", "20", "-20", *bar, "--json"]) == 0
+    limits = json.loads(capsys.readouterr().out)["limits"]
+    a, b = 1.25 + 0.25 + 1, 0.25 - 1
+    expected = {"equal": 20 / (a + b), "opposite": 20 / np.sqrt(a * a - b * b), "massless": 16, "dumbbell": 20 / 1.75}
+    assert limits == pytest.approx(expected)
+    assert main(["rate", "--spins", "20", "-20", *bar]) == 0
+    shown = capsys.readouterr().out
+    assert "G/(a + b)" in shown
+    assert "G/sqrt(a**2 - b**2)" in shown
+    assert main(["rate", "--spins", "0", "0"]) == 0
+    assert "no oscillation" in capsys.readouterr().out
 
 
 def test_audit_table_and_json(capsys: pytest.CaptureFixture[str]) -> None:
@@ -284,6 +304,14 @@ def test_figure_writes_the_same_bytes_twice(small_paper: Path) -> None:
     assert set(first) == {"fig17_stub.svg", "fig17_stub.png"}
     assert main(["figure", "17"]) == 0
     assert {path.name: path.read_bytes() for path in small_paper.iterdir()} == first
+
+
+def test_figure_past_the_paper(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (scripts.folder("figures") / "t6_stub.py").write_text(FIGURE, encoding="utf-8")
+    assert main(["figure", "t6", "017"]) == 0
+    assert {path.stem for path in small_paper.iterdir()} == {"t6_stub", "fig17_stub"}
+    assert main(["figure", "6"]) == 2
+    assert "those drawn are 17, t6" in capsys.readouterr().err
 
 
 def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:

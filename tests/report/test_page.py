@@ -11,6 +11,7 @@ import sympy as sp
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equation, equations
 from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.report.content import Report
 from lagrotor.report.figures import Picture
 from lagrotor.report.markdown import markdown
@@ -62,8 +63,17 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
         steps=(HOSTILE,),
     )
     judged.append(replace(judge(corrected), reaches_result=True))
-    picture = Picture("fig17_stub", 17, HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25}, 0.5)
+    picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25}, 0.5)
     return Report(tuple(judged), (picture,), (HOSTILE,), 1.5)
+
+
+@pytest.fixture(scope="module")
+def longer(report: Report) -> Report:
+    """The same with a section past the paper."""
+    beyond = replace(report.pictures[0], stem="t6_stub", key="t6", measured={})
+    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2)), FigureLink("t6"), FigureLink("t7"))
+    table = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
+    return replace(report, pictures=(*report.pictures, beyond), past=(table,), theory=((HOSTILE, HOSTILE),))
 
 
 def read(text: str) -> Reader:
@@ -146,6 +156,26 @@ def test_markdown_reads_no_text_as_markup(report: Report) -> None:
     assert r"\<script\>" in text
     assert "<script" not in text.replace(r"\<script", "")
     assert text.count("$$") % 2 == 0
+
+
+def test_past_the_paper_is_a_section_of_its_own(report: Report, longer: Report) -> None:
+    assert 'id="past"' not in page(report)
+    assert "Past the paper" not in markdown(report)
+    text = page(longer)
+    reader = read(text)
+    assert reader.open == []
+    ids = {identifier for _, attrs in reader.seen if (identifier := attrs.get("id"))}
+    assert set(reader.all("a", "href")) <= {f"#{identifier}" for identifier in ids}
+    assert "#figure-t6" in set(reader.all("a", "href"))
+    assert "#figure-t7" not in set(reader.all("a", "href"))
+    assert text.index('id="figure-17"') < text.index('id="past"') < text.index('id="figure-t6"')
+    assert "<msub><mi>r</mi><mn>0</mn></msub>" in text[text.index('id="past"') :]
+    assert "<script" not in text
+    written = markdown(longer)
+    assert written.index("## Figures") < written.index("## Past the paper") < written.index("### Figure t6")
+    assert "$r_0 = M^{2}$" in written
+    assert "[figure t6](#figure-t6)" in written
+    assert '<a id="figure-t6"></a>' in written
 
 
 def test_not_yet_judged_are_listed(report: Report) -> None:

@@ -61,9 +61,7 @@ def test_the_natural_rate_is_the_exact_model_s(w1: float, w2: float, I1: float, 
     link = Link(ell, m, 0.3 * m) if m > 0.01 else Link(ell)
     scene = Scene(spins=(w1, w2), rotor=Rotor(1.2, 1.0, I1, 0.9), link=link)
     size = 1e-5
-    moved = consistent_scene(
-        scene.spins, ((0, 0, 1), (0, 0, 1)), ((size, 0, 0), (size, 0, 0)), scene.rotor, scene.link
-    )
+    moved = consistent_scene(scene.spins, ((0, 0, 1), (0, 0, 1)), ((size, 0, 0), (size, 0, 0)), scene.rotor, scene.link)
     period = 2 * np.pi / natural_rate(scene)
     run = simulate(moved, np.array([0.0, period, 1.3 * period]), "minimal", 1e-12)
     x_rate = run.rates[0, :, 0]
@@ -73,9 +71,7 @@ def test_the_natural_rate_is_the_exact_model_s(w1: float, w2: float, I1: float, 
 
 def test_the_rotor_s_rate_is_what_its_momenta_say() -> None:
     """A free rotor simulated: phi' from M_z, M_3 at each sample equals phi' from the motion."""
-    scene = Scene(
-        spins=(9, 0), link=None, axes=((0.6, 0, 0.8), (0, 0, 1)), rates=((0.4, 1.0, -0.3), (0, 0, 0))
-    )
+    scene = Scene(spins=(9, 0), link=None, axes=((0.6, 0, 0.8), (0, 0, 1)), rates=((0.4, 1.0, -0.3), (0, 0, 0)))
     run = simulate(scene, np.linspace(0, 3, 61), "spheres", 1e-12)
     r, v = run.axes[0], run.rates[0]
     J, G = scene.rotor.J, scene.momenta[0]
@@ -127,7 +123,9 @@ def test_wrong_numbers_of_arguments_are_refused() -> None:
 
 
 def test_consistent_scene_brings_a_state_onto_the_bar() -> None:
-    scene = consistent_scene((10, -10), ((0.2, 0.1, 1), (0.15, -0.1, 1)), ((1, 0, 0), (0, 1, 0)), link=Link(1.3, 1, 0.2))
+    scene = consistent_scene(
+        (10, -10), ((0.2, 0.1, 1), (0.15, -0.1, 1)), ((1, 0, 0), (0, 1, 0)), link=Link(1.3, 1, 0.2)
+    )
     run = simulate(scene, [0.0, 0.5], tol=1e-10)
     assert run.link_length == pytest.approx(1.3, abs=1e-12)
     with pytest.raises(SingularError, match="dependent"):

@@ -1,0 +1,102 @@
+# %% [markdown]
+# # Figure t1: the natural frequency of any bar
+#
+# The one oscillation of the linear pair against the bar's inertia and mass, for equal and for opposite spins, with the
+# paper's single constant and its two bars.
+
+# %%
+from functools import cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor import Link, Rotor, Scene, natural_rate, simulate
+from lagrotor.report.style import CORRECTED, EXACT, OKABE_ITO, PAPER
+from lagrotor.study.rates import peak, spectrum
+
+SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
+UNIT = Rotor().I3 * SPIN / Rotor().J
+SPINS = {"equal": (SPIN, SPIN), "opposite": (SPIN, -SPIN)}
+
+TITLE = "The natural frequency for any bar"
+ALT = (
+    "Two panels of the natural frequency in units of G over J. Against the bar's inertia at mass 1 kg the curve of "
+    "equal spins is level at 0.714 and that of opposite spins falls; they cross at the dumbbell. Against the mass at "
+    "inertia 0.1 kg m² both fall. The paper's constant is a level line that only equal spins with its heavy bar meet. "
+    "Points of the exact model lie on the curves."
+)
+
+
+# %%
+def measured(link: Link, spins: tuple[float, float]) -> float:
+    """Rate (in G/J) of the highest peak of x in an exact run started upright with a small push along x."""
+    scene = Scene(spins, link=link, rates=((0.01, 0, 0),) * 2)
+    t = np.linspace(0, 12, 601)
+    return peak(*spectrum(t, simulate(scene, t, "minimal", 1e-9).axes[0, :, 0])) / UNIT
+
+
+@cache
+def data() -> dict[str, np.ndarray]:
+    """Bars' inertias (kg m²) and masses (kg), frequencies (1, in G/J) in closed form and of exact runs."""
+    found = {"inertia": np.linspace(0, 1.2, 61), "mass": np.linspace(0.01, 2, 61)}
+    found |= {"inertia_tried": np.array([0.0, 0.5, 1.0]), "mass_tried": np.array([0.01, 0.8, 1.6])}
+    for name, spins in SPINS.items():
+        for tail, read in (("", lambda link, s=spins: natural_rate(Scene(s, link=link)) / UNIT), ("_tried", None)):
+            by = read or (lambda link, s=spins: measured(link, s))
+            found[f"{name}_by_inertia{tail}"] = np.array([by(Link(1, MASS, K)) for K in found[f"inertia{tail}"]])
+            found[f"{name}_by_mass{tail}"] = np.array([by(Link(1, m, INERTIA)) for m in found[f"mass{tail}"]])
+    return found
+
+
+# %%
+def measure() -> dict[str, float]:
+    """The paper's bars, and the largest distance of an exact run from the closed form (1)."""
+    d = data()
+    off = max(
+        np.abs(np.interp(d[f"{by}_tried"], d[by], d[f"{name}_by_{by}"]) - d[f"{name}_by_{by}_tried"]).max()
+        for name in SPINS
+        for by in ("inertia", "mass")
+    )
+    found = {f"{name} spins, heavy bar (G/J)": d[f"{name}_by_inertia_tried"][2] for name in SPINS}
+    found |= {f"{name} spins, light bar (G/J)": d[f"{name}_by_mass_tried"][0] for name in SPINS}
+    return found | {"largest distance of the exact model (G/J)": off}
+
+
+_heavy_equal, _heavy, _light_equal, _light, _off = measure().values()
+CAPTION = (
+    f"Omega_0 in units of G/J, J = {Rotor().J:g} kg m², ell = R = 1 m. Left: mass {MASS:g} kg. Right: inertia "
+    f"{INERTIA:g} kg m². The paper's constant {PRINTED} is J/(J + m R²/2) of equal spins with its heavy bar, "
+    f"{_heavy_equal:.4f}; opposite spins have {_heavy:.4f} there, and {_light:.4f} with the light bar of section 5.2.1. "
+    f"Exact: spectrum of a small motion over 12 s, at most {_off:.1g} away."
+)
+
+
+# %%
+def figure() -> Figure:
+    """Frequency against inertia and against mass."""
+    d = data()
+    picture = Figure(figsize=(8.0, 4.4))
+    panels = dict(zip(("inertia", "mass"), picture.subplots(1, 2, sharey=True), strict=True))
+    colours = {"equal": CORRECTED, "opposite": OKABE_ITO["reddish purple"]}
+    for by, panel in panels.items():
+        for name, colour in colours.items():
+            panel.plot(d[by], d[f"{name}_by_{by}"], color=colour, label=f"closed form, {name} spins")
+            panel.plot(
+                d[f"{by}_tried"], d[f"{name}_by_{by}_tried"], "o", color=EXACT, ms=5, mfc="none",
+                label="exact model", clip_on=False, zorder=4,
+            )  # fmt: skip
+        panel.axhline(PRINTED, color=PAPER, ls="--", label="the paper's constant")
+        edge = MASS / 4 if by == "inertia" else 4 * INERTIA
+        panel.axvline(edge, color="#777777", ls=":", label="dumbbell, K = m ell²/4")
+        place = 1.0 if by == "inertia" else 0.01
+        panel.axvline(place, color=PAPER, lw=5, alpha=0.25, label="the paper's bar")
+        panel.set_ylabel("natural frequency, in units of G/J [1]")
+    panels["inertia"].set(xlabel="inertia of the bar K [kg m²]", title=f"Mass of the bar m = {MASS:g} kg")
+    panels["mass"].set(xlabel="mass of the bar m [kg]", title=f"Inertia of the bar K = {INERTIA:g} kg m²")
+    panels["mass"].set_xlim(-0.05, 2)
+    panels["inertia"].set_ylim(0.4, 1.05)
+    picture.suptitle(TITLE)
+    handles, labels = panels["inertia"].get_legend_handles_labels()
+    one = dict(zip(labels, handles, strict=True))
+    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    return picture

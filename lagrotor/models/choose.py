@@ -1,0 +1,58 @@
+"""The cheapest rung of the ladder that a scene needs: closed form, linear, minimal, spheres."""
+
+from dataclasses import dataclass
+from math import inf
+
+from ..errors import LagrotorError
+from ..numerics.solve import TIGHTEST
+from ..rotors.parameters import Scene
+from .closed_form import closed_form
+from .linear import linear_error
+from .minimal import MODEL as MINIMAL
+
+# The linear motion's error is foreseen to leading order: two per cent off where it is small.
+MARGIN = 1.5
+# An integrated run gathers more than its local errors: what is wanted over what the solver is asked for, for a motion that
+# the linear one resembles, and for a wide one, whose neighbours part.
+NEAR, WIDE = 10.0, 3e3
+
+
+@dataclass(frozen=True)
+class Choice:
+    """model: a rung's name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence.
+
+    solver_tol: what the solver of an integrated model is to be asked for; 0 for a model without one.
+    """
+
+    model: str
+    estimate: float
+    reason: str
+    solver_tol: float = 0.0
+
+
+def choose(scene: Scene, t_end: float, tol: float) -> Choice:
+    """The cheapest rung whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
+
+    What the closed forms and the linear motion would miss is foreseen from the theory, without integrating; the solver of
+    an integrated model is asked for less than `tol`, so that its estimate is `tol`.
+    """
+    try:
+        answer = closed_form(scene, t_end, tol)
+        if answer.error <= tol:
+            return Choice("closed_form", answer.error, f"{answer.reason}; error {answer.error:.1e}")
+    except LagrotorError:
+        pass
+    error = inf
+    try:
+        error = MARGIN * linear_error(scene, t_end)
+        if error <= tol:
+            return Choice("linear", error, f"small motion: normal modes, whose next term is {error:.1e}")
+        missed = f"normal modes would miss by {error:.1e}"
+    except LagrotorError as refusal:
+        missed = str(refusal).split(";")[0]
+    solver_tol = max(tol / (NEAR if error < 0.1 else WIDE), TIGHTEST)
+    try:
+        MINIMAL.start(scene)
+    except LagrotorError as refusal:
+        return Choice("spheres", tol, f"regular everywhere; {refusal}", solver_tol)
+    return Choice("minimal", tol, f"least exact model: bar eliminated, six states; {missed}", solver_tol)

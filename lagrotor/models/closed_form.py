@@ -1,0 +1,259 @@
+"""Rung 1: motions known in closed form, at any time at once.
+
+- at rest and left alone, nothing moves: there is no gravity;
+- a free rotor turns about its angular momentum L = J r × r' + G r at the rate |L|/J, exactly;
+- equal spins with parallel axes are one such rotor of inertia a + b, exactly;
+- opposite spins on their paired precession follow its periodic series, of the order that the tolerance asks for.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from math import exp, inf, pi, sqrt
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from ..errors import DomainError
+from ..rotors.closed_forms import natural_rate
+from ..rotors.orbit import paired_series, shape_of
+from ..rotors.parameters import Link, Rotor, Scene
+from .linear import struck
+from .model import Array, Observed, constant_momenta
+
+Waves = NDArray[np.complex128]
+ORDERS = (3, 5, 7, 9, 11, 13, 15)
+FARTHEST_APART = 1e-6  # of two axes that count as parallel
+LARGEST = 0.5  # amplitude beyond which the series is of no use
+_ROUND = 4e-16  # relative, of an angle
+# What exchanging the rotors, half a period later, does to an axis.
+_MIRRORS = np.array([[[1.0, 1.0, 1.0]], [[-1.0, 1.0, 1.0]]])
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
+
+    motion: times (n,) in s → axes and rates, each (2, n, 3).
+    """
+
+    error: float
+    reason: str
+    motion: Callable[[Array], tuple[Array, Array]]
+
+
+def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
+    """Axes and rates at times t (n,). Raises DomainError where no closed form holds the scene."""
+    answer = closed_form(scene, float(t[-1]), tol)
+    if answer.error > tol:
+        answer = closed_form(scene, float(t[-1]), tol, best=True)
+    axes, rates = answer.motion(t)
+    return Observed(axes, rates, constant_momenta(scene, len(t)))
+
+
+@lru_cache(maxsize=8)
+def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> Answer:
+    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` asks for, at most 15.
+
+    The answer's error may exceed `tol`; with `best` it is then the least that can be had.
+    Raises DomainError, with the reason, where no closed form holds the scene.
+    """
+    if struck(scene, t_end):
+        raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")
+    axes, rates = np.array(scene.axes), np.array(scene.rates)
+    if not rates.any():
+        return Answer(0.0, "at rest and left alone: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
+    if scene.link is None:
+        reason = "no bar: each rotor turns about its own angular momentum, exactly"
+        return _tops(axes, rates, scene.rotor.J, scene.momenta, t_end, 0.0, reason)
+    if scene.spins[0] == scene.spins[1]:
+        return _parallel(scene, axes, rates, t_end)
+    if scene.spins[0] == -scene.spins[1]:
+        return _paired(scene, axes, rates, t_end, tol, best)
+    raise DomainError(
+        f"closed_form: none is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
+        "or opposite; use model='linear' or 'minimal'"
+    )
+
+
+def _still(value: Array, t: Array) -> Array:
+    return np.repeat(value[:, None, :], len(t), axis=1)
+
+
+def _tops(
+    axes: Array,
+    rates: Array,
+    inertia: float,
+    momenta: tuple[float, float],
+    t_end: float,
+    mismatch: float,
+    reason: str,
+) -> Answer:
+    """Two free tops: r turns about L = inertia r × r' + G r at |L|/inertia."""
+    turns = (inertia * np.cross(axes, rates) + np.array(momenta)[:, None] * axes) / inertia
+    speeds = np.linalg.norm(turns, axis=1)
+    poles = turns / np.where(speeds > 0, speeds, 1.0)[:, None]
+    along = (poles * axes).sum(axis=1, keepdims=True) * poles
+    out, across = axes - along, np.cross(poles, axes)
+
+    def motion(t: Array) -> tuple[Array, Array]:
+        phase = (speeds[:, None] * t)[..., None]
+        c, s = np.cos(phase), np.sin(phase)
+        seen = along[:, None] + c * out[:, None] + s * across[:, None]
+        return seen, np.cross(turns[:, None], seen)
+
+    fastest = float(speeds.max()) * t_end
+    off = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
+    return Answer(mismatch + (off + _ROUND) * (1 + fastest), reason, motion)
+
+
+def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> Answer:
+    """Equal spins, parallel axes: one rotor of inertia a + b; a start that is not quite parallel may twist apart."""
+    own, shared = scene.inertias
+    mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
+    turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (own + shared) * mean))
+    apart = float(np.linalg.norm(axes[1] - axes[0]) + np.linalg.norm(rates[1] - rates[0]) / (turn or 1.0))
+    if not apart <= FARTHEST_APART:
+        raise DomainError(
+            f"closed_form: equal spins are one rotor only with parallel axes that turn alike, not {apart:.2g} apart; "
+            "use model='linear' or 'minimal'"
+        )
+    one = _tops(
+        _twice(mean), _twice(mean_rate), own + shared, scene.momenta, t_end, 0.0,
+        "equal spins, parallel axes: one rotor of both inertias, exactly",
+    )  # fmt: skip
+    # d/dt((a − b)/2 (1 − x²) Delta') + b (|r'|² + x x'') Delta = 0: it grows no faster than the negative part allows.
+    phases = np.linspace(0, 2 * pi, 65)
+    (seen, _), (fast, _) = one.motion(phases / turn)
+    x, bend = seen[:, 0], np.gradient(fast[:, 0], phases / turn)
+    push = -2 * shared * ((fast**2).sum(1) + x * bend) / ((own - shared) * np.maximum(1 - x**2, 1e-9))
+    growth = float(np.sqrt(np.maximum(push, 0)).mean()) * t_end
+    mismatch = apart * (1 + turn * t_end) * (exp(growth) if growth < 600 else inf) if apart else 0.0
+    return Answer(one.error + mismatch, one.reason, one.motion)
+
+
+def _twice(vector: Array) -> Array:
+    return np.stack([vector, vector])
+
+
+@lru_cache(maxsize=64)
+def _coefficients(order: int, shape: sp.Rational, ratio: sp.Rational) -> tuple[Waves, Array]:
+    """The series of r_1, c[n, h, i] of r0**n exp(i h Phi) (real part meant), and of Omega/Omega_0, f[n]."""
+    series = paired_series(order, shape, ratio)
+    waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
+    for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
+        for (n, h), value in part.terms.items():
+            waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
+    for (n, _), value in series.frequency.terms.items():
+        frequency[n] = float(value)
+    return waves, frequency
+
+
+def _summed(powers: Array, waves: Waves) -> Waves:
+    """sum_n powers_n waves_n: the waves (order + 1, 3) at one amplitude."""
+    return np.asarray(np.tensordot(powers, waves, 1), dtype=np.complex128)
+
+
+def _axes_at(waves: Waves, phase: Array) -> Array:
+    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, n, 3).
+
+    waves (…, order + 1, 3); phase (n,).
+    """
+    h = np.arange(waves.shape[-2])
+    turn = np.exp(1j * np.outer(phase, h))
+    both = np.stack([turn, np.where(h % 2, -turn, turn)])
+    return np.real(both @ waves[..., None, :, :]) * _MIRRORS
+
+
+def _turned(vectors: Array, angle: float) -> Array:
+    """Vectors (…, 3) turned about the joint line by `angle`."""
+    c, s = np.cos(angle), np.sin(angle)
+    return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+
+
+def _fit(axes: Array, velocity: Array, unknowns: Array, waves: Waves, frequency: Array) -> tuple[Array, float]:
+    """(r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
+
+    axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
+    """
+    n = np.arange(len(frequency))
+    h = 1j * n[:, None]
+    wanted = np.stack([axes, velocity])
+    for last in (False, False, True):
+        r0, phase, azimuth = unknowns
+        powers, slopes = r0**n, n * r0 ** np.maximum(n - 1, 0)
+        at, by_r0 = _summed(powers, waves), _summed(slopes, waves)
+        rate, rate_by_r0 = powers @ frequency, slopes @ frequency
+        parts = _axes_at(np.stack([at, h * at, h * h * at, by_r0, h * by_r0]), np.array([phase]))[:, :, 0]
+        place, slope, bend, grown, sloped = _turned(parts, azimuth)
+        reached = np.stack([place, rate * slope])
+        left = (wanted - reached).ravel()
+        if last:
+            break
+        by_azimuth = np.stack([0 * reached[..., 0], -reached[..., 2], reached[..., 1]], axis=-1)
+        columns = (np.stack([grown, rate * sloped + rate_by_r0 * slope]), np.stack([slope, rate * bend]), by_azimuth)
+        unknowns = unknowns + np.linalg.lstsq(np.stack([c.ravel() for c in columns], 1), left, rcond=None)[0]
+    return unknowns, float(np.linalg.norm(left))
+
+
+def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> Answer:
+    """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
+
+    The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
+    series' last terms, which are larger than those left out. Each order costs more to derive than the one before; where
+    the terms fall too slowly for `tol` no further one is, unless the `best` is asked for.
+    """
+    own, shared = scene.inertias
+    width, natural = sqrt((own + shared) / (own - shared)), natural_rate(scene)
+    signed = natural if scene.spins[0] > 0 else -natural
+    turned, velocity = natural * t_end, rates / signed
+    guess = _guess(axes, velocity, width)
+    shape, ratio = _shape(scene.rotor, scene.link)
+    error, before = inf, inf
+    for order in ORDERS:
+        waves, frequency = _coefficients(order, shape, ratio)
+        last = np.abs(guess[0] ** np.arange(order - 1, order + 1))
+        tail = float((last[:, None, None] * np.abs(waves[order - 1 :])).sum())
+        slip = float((last * np.abs(frequency[order - 1 :])).sum()) * guess[0] * max(1.0, width)
+        before, error = error, tail + slip * turned
+        fall = (error / before) ** ((ORDERS[-1] - order) / 2) if order > 5 else 0.0
+        if error <= tol / 4 or (error * fall > tol and not best):
+            break
+    unknowns, mismatch = _fit(axes, velocity, guess, waves, frequency)
+    powers = unknowns[0] ** np.arange(order + 1)
+    error += (mismatch + _ROUND) * (1 + turned)
+    return _orbit_answer(_summed(powers, waves), signed * float(powers @ frequency), unknowns, order, error)
+
+
+@lru_cache(maxsize=64)
+def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
+    return shape_of(Scene((1.0, -1.0), rotor, link))
+
+
+def _guess(axes: Array, velocity: Array, width: float) -> Array:
+    """(r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
+    azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
+    first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
+    (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
+    r0, phase = float(np.hypot(x, y)), float(np.arctan2(y, x))
+    off = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
+    if not off <= 2 * (1 + width**2) * r0**2 or r0 > LARGEST:
+        raise DomainError(
+            f"closed_form: the start is not on a paired precession: {off:.2g} of the natural rate off the one of amplitude "
+            f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
+        )
+    return np.array([r0, phase, azimuth])
+
+
+def _orbit_answer(waves: Waves, frequency: float, unknowns: Array, order: int, error: float) -> Answer:
+    r0, phase, azimuth = (float(u) for u in unknowns)
+    both = np.stack([waves, 1j * np.arange(order + 1)[:, None] * waves])
+
+    def motion(t: Array) -> tuple[Array, Array]:
+        at = phase + frequency * t
+        axes, slopes = _turned(_axes_at(both, at), azimuth)
+        return axes, frequency * slopes
+
+    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r0^{order}"
+    return Answer(error, reason, motion)

@@ -1,0 +1,216 @@
+"""Rung 2: normal modes. Small motion about the upright rest state at any time at once, for any spins and any bar.
+
+The coordinates are those of `minimal`, q = (U, chi, alpha): the bar keeps its length and the axes stay unit vectors, and
+turning about the joint line, a symmetry, may be large. To first order M q'' + C q' = Q(t); with N = M⁻¹ C and
+A = [[0, 1], [0, −N]] on (q, q'), A² (A² + Omega²) = 0, so
+
+    exp(A t) = 1 + A t + A² (1 − cos Omega t)/Omega² + A³ (Omega t − sin Omega t)/Omega³.
+
+A pulse adds the answer of `rotors.response`. What is left out is foreseen by `linear_error`.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+from math import exp, pi
+from typing import Any
+
+import numpy as np
+
+from ..errors import DomainError, SingularError
+from ..numerics.codegen import Program, compile_program
+from ..rotors.closed_forms import natural_frequency
+from ..rotors.parameters import Scene, Shock
+from ..rotors.response import impulse_matrices, shock_response
+from ..rotors.toppling import toppling_growth
+from ..symbols import G_1, G_2, a, b
+from .minimal import MODEL, Ratio, program
+from .model import Array, Observed
+
+FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
+REACH = 6.5  # widths from its peak at which a Gaussian pulse is below the last bit
+_WHOLE = 4.0  # widths that shock_response wants between the start and the pulse
+_FAR = 0.1  # rad about the joint line below which turning spreads no error
+_A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """The linear pair of a scene in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); mass: M; turning: N = M⁻¹ C, all
+    (3, 3); frequency: Omega (rad/s)."""
+
+    upright: Array
+    mass: Array
+    turning: Array
+    frequency: float
+
+    def free(self, q: Array, v: Array, t: Array) -> Array:
+        """exp(A t) (q, v) at times t (n,): (n, 6)."""
+        Omega, t = self.frequency, t[:, None]
+        once, twice = self.turning @ v, self.turning @ self.turning @ v
+        if Omega == 0:
+            return np.hstack([q + t * v, v + 0 * t])
+        versed, sine = 2 * (np.sin(Omega * t / 2) / Omega) ** 2, np.sin(Omega * t) / Omega
+        return np.hstack([q + t * v - versed * once + (t - sine) / Omega**2 * twice, v - sine * once + versed * twice])
+
+    def answer(self, t: Array, push: Array) -> Array:
+        """What accelerations `push` (n, 3) at the times t (n,) move q by: ∫ (upper right of exp A(t − s)) push ds."""
+        Omega, t = self.frequency, t[:, None]
+        received = _integral(t, push)
+        drift = t * received - _integral(t, t * push)
+        if Omega == 0:
+            return drift
+        c, s = np.cos(Omega * t), np.sin(Omega * t)
+        even, odd = _integral(t, c * push), _integral(t, s * push)
+        versed, sine = (received - c * even - s * odd) / Omega**2, (s * even - c * odd) / Omega
+        return drift - versed @ self.turning.T + (drift - sine) / Omega**2 @ (self.turning @ self.turning).T
+
+
+def _integral(t: Array, values: Array) -> Array:
+    """∫ values dt from the first time to each, by trapezia, (n, 3)."""
+    steps = np.diff(t, axis=0) * (values[1:] + values[:-1]) / 2
+    return np.vstack([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])
+
+
+@cache
+def _matrices() -> Any:
+    """(a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
+    matrices = impulse_matrices()
+    frequency = natural_frequency().expressions[0]
+    return compile_program(Program((a, b, G_1, G_2), (), (*matrices.mass, *matrices.gyroscopic, frequency)))
+
+
+def modes(scene: Scene) -> Modes:
+    """The linear pair of a scene, about the upright rest state. Raises SingularError without a bar."""
+    if scene.link is None:
+        raise SingularError("linear: the scene has no bar; use model='closed_form' or 'spheres'")
+    # sin Delta = k sin chi for a bar shorter than the axes; y_i = −alpha_i.
+    twist = min(1.0, scene.link.length / scene.rotor.length) / 2
+    upright = np.array([[1, 0, 0], [0, twist, -1], [0, -twist, -1]])
+    numbers = _matrices()(*scene.inertias, *scene.momenta)
+    mass, gyroscopic = (upright.T @ np.reshape(part, (3, 3)) @ upright for part in (numbers[:9], numbers[9:18]))
+    return Modes(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
+
+
+def struck(scene: Scene, t_end: float) -> Shock | None:
+    """The scene's shock if its pulse is felt between 0 and t_end (s)."""
+    shock = scene.shock
+    felt = shock is not None and -REACH * shock.width < shock.at < t_end + REACH * shock.width
+    return shock if felt else None
+
+
+def linear_states(scene: Scene, t: Array) -> Array:
+    """(U, chi, alpha, rates) of the linear motion at times t (n,) in s: (n, 6).
+
+    Raises SingularError without a bar or for an axis along the joint line, DomainError where the motion leaves
+    |U|, |chi| <= pi/3.
+    """
+    linear, start = modes(scene), MODEL.start(scene)
+    states, shock = linear.free(start[:3], start[3:], t), struck(scene, float(t[-1]))
+    if shock is not None:
+        pulse, response = _pulsed(linear, _straightened(scene, linear, start, shock), np.append(t, 0.0))
+        # The pulse may have begun before t = 0: the start is what it is.
+        states += pulse - linear.free(response[:3], response[3:], t)
+    off = np.abs(states[:, :2]).max(axis=1)
+    if not off.max() <= FARTHEST:
+        where = int(np.argmax(~(off <= FARTHEST)))
+        raise DomainError(
+            f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(off[where]):.3g}° from rest, across the joint line "
+            f"or in twist; beyond {np.degrees(FARTHEST):.0f}° small motion means nothing: use model='minimal'"
+        )
+    return states
+
+
+def _straightened(scene: Scene, linear: Modes, start: Array, shock: Shock) -> Scene:
+    """The scene at rest and upright, the force turned back by the azimuth the struck axis has when the pulse peaks."""
+    at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
+    angle = -(linear.upright @ at[:3])[shock.body]
+    fx, fy, fz = shock.force
+    c, s = np.cos(angle), np.sin(angle)
+    force = (fx, c * fy + s * fz, c * fz - s * fy)
+    still = ((0.0, 0.0, 0.0),) * 2
+    return replace(scene, axes=((0.0, 0.0, 1.0),) * 2, rates=still, shock=replace(shock, force=force))
+
+
+def _pulsed(linear: Modes, scene: Scene, t: Array) -> tuple[Array, Array]:
+    """The answer to the pulse at all times but the last (n, 6), and at the last (6,)."""
+    from scipy.special import erfc
+
+    assert scene.shock is not None
+    shock = scene.shock
+    later = max(0.0, _WHOLE * shock.width - shock.at)
+    response = shock_response(replace(scene, shock=replace(shock, at=shock.at + later)))
+    q = np.linalg.solve(linear.upright, response.through(t + later).T).T
+    received = erfc((shock.at - t) / shock.width)[:, None] / 2
+    kick = np.linalg.solve(linear.mass, linear.upright.T @ response.impulse)
+    states = np.hstack([q, received * kick - q @ linear.turning.T])
+    return states[:-1], states[-1]
+
+
+def linear_run(scene: Scene, t: Array) -> Observed:
+    """Axes and rates of the linear motion at times t (n,). Raises as `linear_states`."""
+    return MODEL.observe(scene, linear_states(scene, t))
+
+
+@cache
+def _accelerations(massive: bool, ratio: Ratio, body: int) -> Any:
+    """The exact rates of `minimal`, for arrays of states."""
+    return compile_program(program(massive, ratio, body), "numpy")
+
+
+def linear_error(scene: Scene, t_end: float) -> float:
+    """Largest error of an axis (tips: in units of R) of the linear motion up to t_end (s): the next term, integrated.
+
+    Along the linear motion the exact equations leave a defect of second order; the linear pair's answer to it is the
+    error, to leading order. A pair that turns far about the joint line carries it from one coordinate into the other, and
+    may leave the turning exponentially: `_spread` is by how much.
+    Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
+    """
+    linear, shock = modes(scene), struck(scene, t_end)
+    points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))
+    if points > _MOST:
+        raise DomainError(f"linear: {points // _A_TURN} turns are too many to foresee the error; use model='minimal'")
+    t = np.linspace(0.0, t_end, points)
+    if shock is not None:
+        about = shock.at + shock.width * np.linspace(-4, 4, 65)
+        t = np.unique(np.concatenate([t, about[(about > 0) & (about < t_end)]]))
+    states = linear_states(scene, t)
+    error = linear.answer(t, _defect(scene, linear, shock, t, states))
+    off = error @ linear.upright.T
+    since = max(0.0, shock.at) if shock else 0.0
+    return float(np.hypot(off[:, :1], off[:, 1:]).max()) * _spread(scene, float(np.ptp(states[:, 2])), t_end - since)
+
+
+def _spread(scene: Scene, angle: float, duration: float) -> float:
+    """(1 + angle/(2k)) exp(growth duration): what turning by `angle` (rad) in `duration` (s) may make of an error.
+
+    G U' = −(G nu/k) Delta is the stronger coupling beside uniform turning at nu; the growth is that of opposite spins.
+    """
+    assert scene.link is not None
+    if angle < _FAR or duration <= 0:
+        return 1.0
+    momentum = (abs(scene.momenta[0]) + abs(scene.momenta[1])) / 2
+    ratio, rate = scene.link.length / scene.rotor.length, angle / duration
+    growth = max(
+        float(toppling_growth()(nu, momentum or 1e-9, *scene.inertias, ratio))  # type: ignore[arg-type]
+        for nu in (rate, -rate)
+    )
+    return (1 + angle / (2 * ratio)) * exp(min(growth * duration, 600.0))
+
+
+def _defect(scene: Scene, linear: Modes, shock: Shock | None, t: Array, states: Array) -> Array:
+    """Exact less linear acceleration along the linear motion, (n, 3)."""
+    assert scene.link is not None
+    (own, shared), k = scene.inertias, scene.link.length / scene.rotor.length
+    ratio: Ratio = "equal" if k == 1 else "short" if k < 1 else "long"
+    parameters: list[Any] = [own, *((shared,) if shared else ()), *(() if k == 1 else (k,)), *scene.momenta]
+    acceleration = -states[:, 3:] @ linear.turning.T
+    if shock is not None:
+        pulse = scene.rotor.length * np.exp(-(((t - shock.at) / shock.width) ** 2))
+        parameters += [f * pulse for f in shock.force]
+        straight = _straightened(scene, linear, states[0], shock).shock
+        assert straight is not None
+        push = np.zeros(3)
+        push[0], push[shock.body] = straight.force[:2]
+        acceleration = acceleration + pulse[:, None] * np.linalg.solve(linear.mass, linear.upright.T @ push)
+    exact = _accelerations(shared != 0, ratio, shock.body if shock else 0)(*states.T, *parameters)
+    return np.stack(exact[3:], axis=1) - acceleration

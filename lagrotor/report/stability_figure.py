@@ -1,0 +1,50 @@
+"""The figure of `lagrotor stability`: where each closed form stops being useful."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..numerics.files import write_beside
+from ..study.usefulness import USEFUL, Usefulness
+from .style import OKABE_ITO, paper_style
+
+STEM = "stability"
+
+
+def stability_figure(found: Usefulness) -> Figure:
+    """Error of each order over amplitude and departure from opposite spins, and the line beyond which it is no use."""
+    figure = Figure(figsize=(3.2 * len(found.orders) + 1.2, 4.0))
+    panels = figure.subplots(1, len(found.orders), sharey=True, squeeze=False)[0]
+    levels = np.arange(-8, 1)
+    for panel, order, errors in zip(panels, found.orders, found.errors, strict=True):
+        shown = np.clip(np.log10(errors), levels[0], levels[-1])
+        filled = panel.contourf(found.amplitudes, found.departures, shown, levels, cmap="cividis")
+        panel.contour(
+            found.amplitudes,
+            found.departures,
+            np.log10(errors / found.amplitudes / USEFUL),
+            [0.0],
+            colors=OKABE_ITO["vermillion"],
+            linewidths=2,
+        )
+        panel.set(xscale="log", yscale="log", title=f"order {order}", xlabel="amplitude $r_0$")
+        panel.grid(False)
+    panels[0].set_ylabel(r"departure from opposite spins, $1 + \omega_2/\omega_1$")
+    bar = figure.colorbar(filled, ax=list(panels))
+    bar.set_label(r"largest error over a turn, $\log_{10}$ of R")
+    figure.suptitle(f"Closed forms of the paired orbit: useful left of and below the line (error {USEFUL:g} $r_0$)")
+    return figure
+
+
+def draw_stability(found: Usefulness, folder: Path) -> tuple[Path, Path]:
+    """Write `stability.svg` and `stability.png` into the folder. Raises InputError when it cannot be written to."""
+    with paper_style():
+        figure = stability_figure(found)
+        svg = write_beside(
+            folder / f"{STEM}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
+        )
+        png = write_beside(
+            folder / f"{STEM}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
+        )
+    return svg, png

@@ -1,0 +1,37 @@
+"""What a limit is: where a method stops being of use, by a formula, and as found by trying."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import exp, log
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One row: the regime, what is limited (with its unit), the formula, its value, the value found, what the tool does."""
+
+    regime: str
+    what: str
+    formula: str
+    predicted: float
+    measured: float
+    tool: str
+
+    @property
+    def ratio(self) -> float:
+        """Measured over predicted."""
+        return self.measured / self.predicted
+
+
+def threshold(fails: Callable[[float], bool], low: float, high: float, share: float = 0.01) -> float:
+    """The positive x between low and high at which `fails` changes, to a relative `share`, by halving in log x.
+
+    Raises ValueError when it does not change between them.
+    """
+    below = fails(low)
+    if fails(high) == below:
+        raise ValueError(f"threshold: no change between {low:g} and {high:g}")
+    left, right = log(low), log(high)
+    while right - left > share:
+        middle = (left + right) / 2
+        left, right = (middle, right) if fails(exp(middle)) == below else (left, middle)
+    return exp((left + right) / 2)

@@ -1,0 +1,73 @@
+"""Trajectories per second in ensembles, and points per second of the closed forms against what memory delivers."""
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from ..models.minimal import MODEL
+from ..models.orbit import exact_orbit
+from ..rotors.closed_forms import corrected_trajectories, paired_frequency
+from ..rotors.parameters import Scene
+from ..rotors.precession import precession_orbit
+from .ensemble import CHUNK, started, sweep
+
+_RUN = 10.0  # s
+_BIG = 1_000_000  # doubles: 8 MB an array, past the caches that a core has to itself
+
+
+@dataclass(frozen=True)
+class Throughput:
+    """What was done, how many a second (`unit`), and how that compares: `against` says with what."""
+
+    what: str
+    unit: str
+    rate: float
+    share: float
+    against: str
+
+
+def displaced_family(n: int, r0: float = 0.204) -> list[Scene]:
+    """n opposite pairs displaced from the paired precession: its start at `r0` scaled from a quarter to one and a half."""
+    scene = Scene((10.0, -10.0))
+    return started(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, r0).scene))
+
+
+def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:
+    """Rates of an ensemble of n at 1e-6 and 1e-10, in `executor` or here, and of the closed forms; each the best of a few."""
+    scenes = displaced_family(n)
+    sweep(scenes[:8], [0.1], chunk=4, executor=executor)  # what is compiled once is compiled here
+    chunk = max(1, min(CHUNK, n // 2))
+    fine, finer = (
+        _best(partial(sweep, scenes, [_RUN], tol, chunk=chunk, executor=executor), 2) for tol in (1e-6, 1e-10)
+    )
+    what = f"trajectories of {_RUN:g} s, displaced family, error"
+    rows = [
+        Throughput(f"{what} 1e-6", "trajectories/s", n / fine, 1.0, "itself"),
+        Throughput(f"{what} 1e-10", "trajectories/s", n / finer, fine / finer, "the same at 1e-6"),
+    ]
+    phases, source, target = np.linspace(0, 2 * np.pi, _BIG), np.ones(_BIG), np.empty(_BIG)
+    copied = _BIG / _best(partial(np.copyto, target, source), 5)
+    rows.append(Throughput("an array copied", "numbers/s", copied, 1.0, "itself"))
+    amplitudes, orbit = np.linspace(0.01, 0.3, _BIG), precession_orbit(Scene((10.0, -10.0)), 0.204, 9)
+    for name, outputs, work in (
+        ("paired_frequency, order 3", 1, partial(paired_frequency(3), amplitudes, 1.0, 1.0)),
+        ("corrected_trajectories, order 3", 6, partial(corrected_trajectories(3), 0.204, phases, 1.0, 1.0)),
+        ("precession_orbit, order 9", 6, partial(orbit.at_phase, phases)),
+    ):
+        rate = _BIG / _best(work, 2)
+        rows.append(Throughput(name, "points/s", rate, outputs * rate / copied, "the numbers that a copy moves"))
+    return rows
+
+
+def _best(work: Callable[[], object], times: int) -> float:
+    """Least seconds of a few runs."""
+    seconds = []
+    for _ in range(times):
+        began = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - began)
+    return min(seconds)

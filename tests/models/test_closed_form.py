@@ -1,0 +1,101 @@
+"""The closed forms: each against the exact models, from any start that it holds, and what is refused and why."""
+
+from dataclasses import replace
+from math import cos, sin
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
+from lagrotor.errors import DomainError
+from lagrotor.models.closed_form import closed_form
+from lagrotor.models.orbit import exact_orbit
+from lagrotor.rotors.twist import parallel_scene
+
+T = np.linspace(0, 5, 101)
+ROTOR = Rotor(1.3, 0.9, 0.7, 1.1)
+LEANING = ((sin(0.7), 0.0, cos(0.7)), (0.0, -1.0, 0.0))
+TURNING = ((0.0, 3.0, 0.0), (-2.0, 0.0, 1.0))
+
+
+def check(scene: Scene, bound: float, model: str = "minimal", tol: float = 1e-9) -> float:
+    """The largest error of an axis, below `bound` and below what the answer says; rates are derivatives of the axes."""
+    run, exact = simulate(scene, T, "closed_form", tol), simulate(scene, T, model, 1e-13)
+    found = float(np.linalg.norm(run.axes - exact.axes, axis=-1).max())
+    assert found < bound
+    assert found < max(tol, closed_form(scene, T[-1], tol, best=True).error) + 5e-12
+    assert np.abs(run.rates - exact.rates).max() < 50 * bound
+    assert run.model == "closed_form" and run.evaluations == 0
+    return found
+
+
+@pytest.mark.parametrize("spins", [(10.0, -7.0), (3.0, 0.0)])
+def test_free_rotors_turn_about_their_angular_momentum(spins: tuple[float, float]) -> None:
+    free = Scene(spins, ROTOR, None, axes=LEANING, rates=TURNING)
+    check(free, 1e-11, "spheres")
+    # Twin: the other sense of spin is another motion.
+    other = simulate(replace(free, spins=(-spins[0], spins[1])), T, "closed_form").axes
+    assert np.abs(other - simulate(free, T, "spheres", 1e-12).axes).max() > 0.1
+
+
+@pytest.mark.parametrize("link", [Link(0.9, 1.0, 0.1), Link(1.3, 0.5)])
+def test_equal_spins_in_parallel_are_one_rotor(link: Link) -> None:
+    check(parallel_scene(Scene((10, 10), ROTOR, link), 0.3), 1e-10)
+    free = Scene((4, 4), ROTOR, link, axes=(LEANING[0],) * 2, rates=(TURNING[0],) * 2)
+    check(free, 1e-10)
+    with pytest.raises(DomainError, match="none is known for a bar and spins 4, 3 rad/s"):
+        simulate(replace(free, spins=(4, 3)), T, "closed_form")
+
+
+def test_without_spin_the_pair_swings_on_a_great_circle() -> None:
+    check(Scene((0, 0), rates=((0, 1, 0), (0, 1, 0))), 1e-11)
+    with pytest.raises(DomainError, match="turn alike, not 2 apart"):
+        simulate(Scene((0, 0), rates=((0, 1, 0), (0, -1, 0))), T, "closed_form")
+
+
+def test_a_twist_at_the_start_is_in_the_error() -> None:
+    for link in (Link(1, 1, 0.1), Link(1, 0.01, 0.1)):
+        found = check(parallel_scene(Scene((10, 10), link=link), 0.3, 1e-8), 1e-5)
+        assert found > 1e-9
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("link", [Link(1, 0.01, 0.1), Link(0.7), Link(1.3, 1.0, 0.05)])
+def test_paired_precession_from_any_phase_and_azimuth(link: Link, sign: int) -> None:
+    orbit = exact_orbit(Scene((10 * sign, -10 * sign), link=link), 0.08)
+    c, s = cos(1.1), sin(1.1)
+    turn = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+    for at in (0.0, 0.17, 0.31):
+        now = simulate(orbit.scene, [at], "minimal", 1e-13)
+        axes, rates = ((part[:, 0] @ turn.T).tolist() for part in (now.axes, now.rates))
+        check(replace(orbit.scene, axes=axes, rates=rates), 1e-8)
+
+
+def test_the_order_follows_the_tolerance() -> None:
+    scene = paired_scene(Scene((10, -10), link=Link(1, 0.01, 0.1)), 0.1, order=13)
+    says = [closed_form(scene, 5.0, tol) for tol in (1e-2, 1e-5, 1e-8)]
+    assert [answer.error <= tol for answer, tol in zip(says, (1e-2, 1e-5, 1e-8), strict=True)] == [True] * 3
+    orders = [int(answer.reason.rsplit("^", 1)[1]) for answer in says]
+    assert orders == sorted(set(orders))
+
+
+def test_a_start_off_the_orbit_is_in_the_error() -> None:
+    scene = paired_scene(Scene((10, -10)), 0.2, order=5)
+    assert check(scene, 1e-2) > 1e-5
+
+
+def test_at_rest_nothing_moves() -> None:
+    run = simulate(Scene((10, -3), axes=(LEANING[0],) * 2), T, "closed_form")
+    assert (run.axes == run.axes[:, :1]).all() and not run.rates.any()
+
+
+def test_what_no_closed_form_holds_is_refused() -> None:
+    shocked = Scene((10, 10), shock=Shock((1, 0, 0), 1.0, 0.05))
+    with pytest.raises(DomainError, match="no closed form goes through a shock"):
+        simulate(shocked, T, "closed_form")
+    assert simulate(shocked, [0, 0.5], "closed_form").axes[:, -1].tolist() == [[0, 0, 1], [0, 0, 1]]
+    off = paired_scene(Scene((10, -10)), 0.1)
+    with pytest.raises(DomainError, match="not on a paired precession"):
+        simulate(replace(off, rates=tuple(tuple(2 * x for x in v) for v in off.rates)), T, "closed_form")
+    with pytest.raises(DomainError, match="only with parallel axes that turn alike"):
+        simulate(replace(off, spins=(10, 10)), T, "closed_form")

@@ -1,0 +1,132 @@
+"""The linear rung: its exponential decided, its error measured and foreseen, shocks, and what it refuses."""
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.linalg import expm
+
+from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import DomainError, SingularError
+from lagrotor.models.linear import linear_error, linear_run, modes
+from lagrotor.models.minimal import MODEL
+from lagrotor.rotors.response import impulse_matrices
+from lagrotor.study.compare import measured_order
+
+ROTOR, BAR = Rotor(1.3, 0.9, 0.7, 1.1), Link(0.8, 0.3, 0.05)
+UP = np.array([[0, 0, 1.0], [0, 0, 1.0]])
+LEAN = np.array([[0.6, -0.3, 0.0], [0.6, 0.8, 0.0]])
+PUSH = np.array([[2.0, -1.0, 0.0], [2.0, 3.0, 0.0]])
+
+
+def started(size: float, spins: tuple[float, float] = (10, -7), link: Link = BAR) -> Scene:
+    axes = UP + size * LEAN
+    return consistent_scene(spins, axes / np.linalg.norm(axes, axis=1)[:, None], size * PUSH, ROTOR, link)
+
+
+def error(scene: Scene, t: np.ndarray) -> float:
+    exact = simulate(scene, t, "minimal", 1e-13)
+    return float(np.linalg.norm(linear_run(scene, t).axes - exact.axes, axis=-1).max())
+
+
+def test_the_exponential_closes() -> None:
+    """A² (A² + Omega²) = 0 for any spins and bar, decided; with another frequency it is refuted."""
+    matrices = impulse_matrices()
+    N = matrices.mass.inv() * matrices.gyroscopic
+    A = sp.zeros(3).row_join(sp.eye(3)).col_join(sp.zeros(3).row_join(-N))
+    for factor, answer in ((1, {"zero"}), (2, {"zero", "nonzero"})):
+        rest = (A**2 * (A**2 + factor * matrices.frequency_squared * sp.eye(6))).applyfunc(sp.together)
+        assert {decide_zero(e).answer for e in rest} == answer
+
+
+@pytest.mark.parametrize("spins", [(10.0, -7.0), (3.0, 3.0), (5.0, 0.0), (1e-3, -1e-3), (0.0, 0.0)])
+def test_the_exponential_is_the_matrix_exponential(spins: tuple[float, float]) -> None:
+    linear, t = modes(started(0.1, spins)), np.array([0.0, 0.3, 4.0])
+    A = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -linear.turning]])
+    y = np.array([0.1, -0.2, 0.3, 0.5, 0.7, -0.4])
+    assert linear.free(y[:3], y[3:], t) == pytest.approx(np.array([expm(A * s) @ y for s in t]), abs=1e-11)
+
+
+@pytest.mark.parametrize("spins", [(10, -7), (10, -10), (4, 1)])
+def test_error_falls_as_the_square_of_the_amplitude(spins: tuple[float, float]) -> None:
+    sizes, t = (0.001, 0.002, 0.004), np.linspace(0, 3, 61)
+    assert measured_order(sizes, [error(started(s, spins), t) for s in sizes]) == pytest.approx(2, abs=0.1)
+
+
+@pytest.mark.parametrize("link", [Link(0.6, 0.3, 0.05), Link(0.9), Link(1.3, 1.0, 1.0)])
+@pytest.mark.parametrize("body", [1, 2])
+def test_error_is_foreseen(link: Link, body: int) -> None:
+    t = np.linspace(0, 6, 400)
+    shock = Shock((1.0, -0.7, 0.4), 1.5, 0.05, body)
+    for scene in (started(0.01, link=link), replace(started(0.01, link=link), shock=shock)):
+        assert linear_error(scene, 6.0) == pytest.approx(error(scene, t), rel=0.1)
+
+
+@pytest.mark.parametrize("link", [Link(), Link(1.3, 1.0, 0.05), Link(0.7, 1.0, 1.0)])
+@pytest.mark.parametrize("lean", [(1e-7, 0.0), (0.0, 1e-7)])
+def test_error_beside_a_fast_toppling_is_foreseen(lean: tuple[float, float], link: Link) -> None:
+    """A tiny lean or twist grows exponentially there: the next term alone would say far too little."""
+    axes = UP + [[lean[0], lean[1], 0], [lean[0], -lean[1], 0]]
+    scene = consistent_scene((10, -10), axes, [[0, -2, 0], [0, -2, 0]], link=link)
+    found = error(scene, np.linspace(0, 5, 200))
+    assert found > 1e-5
+    assert found < linear_error(scene, 5.0) < 1e3 * found
+
+
+def test_axes_bar_and_rates_are_consistent() -> None:
+    scene = replace(started(0.05), shock=Shock((3, 2, 1), 0.8, 0.05, 2))
+    h, t = 1e-5, np.linspace(0.1, 2, 20)
+    run = simulate(scene, t, "linear")
+    assert run.model == "linear" and run.evaluations == 0
+    assert np.linalg.norm(run.axes, axis=-1) == pytest.approx(1, abs=1e-14)
+    assert run.link_length == pytest.approx(BAR.length, abs=1e-14)
+    ahead, behind = (simulate(scene, t + s, "linear").axes for s in (h, -h))
+    assert (ahead - behind) / (2 * h) == pytest.approx(run.rates, abs=1e-7)
+    # Any time at once: a single time is what it is among others.
+    assert simulate(scene, [t[7]], "linear").axes[:, 0] == pytest.approx(run.axes[:, 7], abs=1e-14)
+
+
+def test_turning_about_the_joint_line_may_be_large() -> None:
+    """A start turned by 2 rad about the joint line is the same motion, turned; with a shock turned too."""
+    c, s = np.cos(2), np.sin(2)
+    turn, t = np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), np.linspace(0, 4, 9)
+    force = np.array([2.0, 1.0, 0.0])
+    scene = replace(started(0.02), shock=Shock(tuple(force), 1.0, 0.05))
+    turned = replace(
+        scene,
+        axes=tuple(map(tuple, np.array(scene.axes) @ turn.T)),
+        rates=tuple(map(tuple, np.array(scene.rates) @ turn.T)),
+        shock=Shock(tuple(turn @ force), 1.0, 0.05),
+    )
+    assert linear_run(turned, t).axes == pytest.approx(linear_run(scene, t).axes @ turn.T, abs=1e-12)
+
+
+@pytest.mark.parametrize("at", [-0.02, 0.0, 0.1])
+def test_a_pulse_that_began_before_the_start(at: float) -> None:
+    """Only what comes after t = 0 is felt."""
+    scene, t = Scene((10, -7), ROTOR, BAR, Shock((0.01, 0.02, 0), at, 0.05)), np.linspace(0, 2, 50)
+    assert error(scene, t) < 1e-6 < np.abs(linear_run(scene, t).axes - UP[:, None]).max()
+
+
+def test_a_pulse_beyond_the_run_is_none() -> None:
+    scene, t = started(0.01), np.linspace(0, 1, 5)
+    for at in (-1.0, 2.0):
+        assert (linear_run(replace(scene, shock=Shock((9, 9, 9), at, 0.05)), t).axes == linear_run(scene, t).axes).all()
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    with pytest.raises(SingularError, match="linear: the scene has no bar"):
+        simulate(Scene((10, -10), link=None), [0, 1], "linear")
+    far = ((0.9, 0, sqrt(1 - 0.81)),) * 2
+    with pytest.raises(DomainError, match=r"at t = 0 s the motion is 84.*° from rest.*use model='minimal'"):
+        simulate(Scene((10, -10), axes=far), [0, 1], "linear")
+    with pytest.raises(DomainError, match="turns are too many to foresee"):
+        linear_error(started(0.01), 1e5)
+    # Just inside it still answers.
+    assert (
+        np.isfinite(MODEL.start(started(0.3))).all()
+        and np.isfinite(linear_run(started(0.3), np.array([0.0])).axes).all()
+    )

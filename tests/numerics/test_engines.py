@@ -1,0 +1,146 @@
+"""The solvers one by one: order, reading, counting, stopping, and the programs they are given."""
+
+import sys
+from math import cos
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Scene, Shock, simulate
+from lagrotor.errors import InputError
+from lagrotor.models import minimal, spheres
+from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.engines import ORDER, Array, StopError, Stretch, adams, adams_weights, dop853, lsoda
+from lagrotor.numerics.engines import _piece as piece
+from lagrotor.numerics.rates import rate_factory
+from lagrotor.rotors.scenes import HEAVY, SHOCK_PAIRED
+
+TIMES = np.linspace(0.3, 20, 57)
+
+
+def oscillate(s: float, y: Array) -> list[float]:
+    return [y[1], -y[0]]
+
+
+def stretch(**more: object) -> Stretch:
+    return Stretch(oscillate, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("engine", "error", "within"), [(lsoda, 1e-10, 2e-8), (adams, 1e-12, 1e-12), (dop853, 1e-12, 1e-11)]
+)
+def test_each_engine_reads_the_oscillator_at_any_time(engine, error, within) -> None:
+    run = engine(stretch(), error)
+    assert run.states == pytest.approx(np.column_stack([np.cos(TIMES), -np.sin(TIMES)]), abs=within)
+    assert run.end[0] == pytest.approx(cos(20), abs=within)
+
+
+@pytest.mark.parametrize("engine", [lsoda, adams, dop853])
+def test_evaluations_are_those_that_were_made(engine) -> None:
+    calls = 0
+
+    def counted(s: float, y: Array) -> list[float]:
+        nonlocal calls
+        calls += 1
+        return oscillate(s, y)
+
+    run = engine(Stretch(counted, np.array([1.0, 0.0]), 0.0, 20.0, TIMES), 1e-8)
+    assert run.evaluations == pytest.approx(calls, abs=2)
+
+
+@pytest.mark.parametrize("engine", [lsoda, adams, dop853])
+def test_each_engine_stops_when_it_crawls(engine) -> None:
+    with pytest.raises(StopError):
+        engine(stretch(allowance=100), 1e-9)
+
+
+def test_the_weights_integrate_polynomials_exactly() -> None:
+    A, B, P = adams_weights(5)
+    nodes = np.arange(5) - 4.0
+    for n in range(5):
+        assert A @ nodes**n == pytest.approx(1 / (n + 1))
+        assert B @ nodes**n == pytest.approx(-((-1.0) ** (n + 1)) / (n + 1))
+    x = 1.7 ** np.arange(6)
+    assert x @ P.T @ (np.arange(5) - 2.0) ** 3 == pytest.approx(1.7**4 / 4)
+
+
+def test_the_order_is_what_it_is_called() -> None:
+    """Powers below the order are integrated exactly, to the rounding; the next ones are not."""
+
+    def error(power: int) -> float:
+        rising = Stretch(lambda s, y: [(power + 1) * s**power], np.zeros(1), 0.0, 1.0, TIMES[:1])
+        reached = piece(rising, np.zeros(1), 0.0, 1 / 20, 20, 1e9).states[:, 0]
+        return float(np.abs(reached - (np.arange(len(reached)) / 20) ** (power + 1)).max())
+
+    assert max(error(power) for power in range(ORDER)) < 1e-13
+    assert error(ORDER + 4) > 1e-12
+
+
+def test_the_adams_pair_shortens_a_step_that_becomes_too_long() -> None:
+    def quickens(s: float, y: Array) -> list[float]:
+        faster = 1 + 20 / (1 + np.exp(-4 * (s - 10)))
+        return [y[1] * faster, -y[0] * faster]
+
+    run = adams(Stretch(quickens, np.array([1.0, 0.0]), 0.0, 20.0, np.array([20.0])), 1e-10)
+    turned = 20 + 5 * (np.log1p(np.exp(40)) - np.log1p(np.exp(-40)))
+    assert run.states[0, 0] == pytest.approx(cos(turned), abs=1e-8)
+
+
+@pytest.mark.parametrize("body", [0, 1, 2])
+def test_the_slim_program_is_the_eliminated_one(body: int) -> None:
+    """One multiplier by hand against the mass matrix by machine."""
+    slim, full = minimal.program(False, "equal", body), minimal.eliminated(False, "equal", body)
+    assert slim.arguments == full.arguments
+    one, other = compile_program(slim), compile_program(full)
+    draw = np.random.default_rng(body)
+    for _ in range(20):
+        x = draw.normal(0, 0.5, len(slim.arguments))
+        x[6] = 1.3
+        assert one(*x.tolist()) == pytest.approx(other(*x.tolist()), rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize("link", [Link(), HEAVY, Link(0.8), Link(1.3, 0.2, 0.1)])
+@pytest.mark.parametrize("module", [minimal, spheres])
+def test_the_rate_is_the_compiled_program(module, link) -> None:
+    scene = Scene((10, -7), link=link, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
+    program, parameters = module.generated(scene, False)
+    y = module.MODEL.start(scene)
+    made = rate_factory(program, len(y))(*parameters)(0.0, y)
+    assert made == pytest.approx(compile_program(program)(*y.tolist(), *parameters), rel=1e-13, abs=1e-13)
+
+
+def test_a_state_out_of_reach_gives_no_number() -> None:
+    scene = Scene((10, -7))
+    beyond, nowhere = np.array([0.0, 2.0, 0, 0, 0, 0]), np.zeros(12)
+    assert np.isnan(minimal.MODEL.rate(scene, False)(0.0, beyond)).all()
+    assert np.isnan(spheres.MODEL.rate(scene, False)(0.0, nowhere)).all()
+
+
+def test_the_projection_keeps_unit_vectors_on_their_bar_for_long() -> None:
+    scene = Scene((10, -7), rates=((0.4, 1, 0), (0.4, -0.5, 0)))
+    for tol in (1e-7, 1e-11):
+        run = simulate(scene, np.linspace(0, 100, 201), "spheres", tol)
+        assert np.abs(run.link_length - 1).max() < 1e-11
+        assert np.ptp(run.energy) < 2e3 * tol
+
+
+def test_without_the_fast_extra_a_word_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    with pytest.raises(InputError, match=r"pip install 'lagrotor\[fast\]'"):
+        simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [1.0], "minimal", 3e-4, engine="fast")
+    with pytest.raises(InputError, match="take minimal or spheres"):
+        simulate(Scene((10, -10), axes=((0.6, 0, 0.8),) * 2), [1.0], "euler", engine="fast")
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres"])
+@pytest.mark.parametrize("shock", [None, SHOCK_PAIRED, Shock((4, 1, 0), at=0.02, width=0.1, body=2)])
+def test_the_fast_extra_gives_the_same_motion(model: str, shock: Shock | None) -> None:
+    pytest.importorskip("heyoka")
+    scene = Scene((10, -7), shock=shock, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
+    times = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
+    core, fast = (simulate(scene, times, model, 1e-11, engine) for engine in ("core", "fast"))
+    assert fast.axes == pytest.approx(core.axes, abs=1e-10)
+    assert fast.rates == pytest.approx(core.rates, abs=1e-9)
+    loose = simulate(scene, times, model, 1e-5, "fast")
+    assert loose.axes == pytest.approx(core.axes, abs=1e-4)
+    assert loose.evaluations < fast.evaluations
