@@ -102,7 +102,7 @@ def spin_limits(quick: bool) -> list[Limit]:
     def falls(spin: float) -> bool:
         scene = Scene((spin, spin), rates=((0.0, push, 0.0), (0.0, push, 0.0)))
         turn = 2 * pi / max(natural_rate(scene), push)
-        return bool(simulate(scene, np.linspace(0, turn, 201), "spheres", 1e-8).axes[..., 2].min() < 0)
+        return bool(simulate(scene, np.linspace(0, turn, 201), "closed_form", 1e-8).axes[..., 2].min() < 0)
 
     return [
         Limit(
@@ -119,7 +119,7 @@ def spin_limits(quick: bool) -> list[Limit]:
             "(a + b) push / I_3: the largest inclination is 2 atan((a + b) push / G)",
             heavy * push / bar.rotor.I3,
             threshold(falls, 0.5 * heavy, 2 * heavy, 0.01 if quick else 0.001),
-            "auto goes on by spheres; the natural rate goes to 0 with the spins",
+            "none: parallel equal spins are one rotor in closed form at any inclination",
         ),
     ]
 

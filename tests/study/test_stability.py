@@ -88,12 +88,15 @@ def test_what_the_tool_does_at_the_pole_and_at_the_joint_line():
     near = Scene((0.0, 0.0), axes=((5e-4, 0.0, (1 - 25e-8) ** 0.5),) * 2)
     with pytest.raises(SingularError, match="Euler angles"):
         euler.MODEL.start(near)
-    falling = Scene((0.0, 0.0), rates=((1.0, 0.0, 0.0), (1.0, 0.0, 0.0)))
+    falling = Scene((0.0, 0.0), rates=((0.3, 1.0, 0.0), (0.3, -0.6, 0.0)))  # one axis passes through the joint line
     with pytest.raises(IntegrationError):
-        simulate(falling, [np.pi / 2, 2.0], "minimal", 1e-8)
-    assert simulate(falling, [np.pi / 2, 2.0], "spheres", 1e-8).axes[0, -1] == pytest.approx(
-        [np.sin(2), 0, np.cos(2)], abs=1e-6
-    )
+        simulate(falling, [1.0, 2.0], "minimal", 1e-8)
+    runs = [simulate(falling, [1.0, 2.0], "spheres", tol).axes for tol in (1e-8, 1e-12)]
+    assert np.abs(runs[0] - runs[1]).max() < 1e-6
+    together = Scene((0.0, 0.0), rates=((1.0, 0.0, 0.0), (1.0, 0.0, 0.0)))  # both: the constraints themselves fail
+    for model in ("minimal", "spheres"):
+        with pytest.raises(IntegrationError):
+            simulate(together, [1.0, 2.0], model, 1e-8)
 
 
 def test_the_great_circle_is_exact_for_every_model():
