@@ -51,6 +51,8 @@ MODELS: dict[str, Callable[[], Model]] = {"minimal": _minimal, "spheres": _spher
 def check_times(t: ArrayLike) -> Array:
     """Times as a float array (n,), refused unless finite, increasing and not before 0."""
     try:
+        if isinstance(t, str | bytes):
+            raise TypeError
         times = np.atleast_1d(np.asarray(t, dtype=float))
     except (TypeError, ValueError):
         raise InputError(f"simulate: t = {t!r} is not an array of times in s") from None

@@ -20,6 +20,8 @@ _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and give its exit status; every refusal is one line on stderr."""
+    if sys.stdout is None:  # started with its output closed
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     try:
         arguments = _parser().parse_args(argv)
         status = int(arguments.run(arguments))

@@ -126,11 +126,26 @@ def check_target(target: Path) -> Path:
     return folder
 
 
+def _alive(process: str) -> bool:
+    """Whether a process of that number is running."""
+    try:
+        os.kill(int(process), 0)
+    except (ValueError, OverflowError, ProcessLookupError):
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
 @contextmanager
 def replaced(target: Path) -> Iterator[Path]:
     """A new folder that takes the place of `target` when the block ends well, and is removed when it does not."""
     target = check_target(target)
-    new, old = (target.with_name(f".{target.name}.{age}") for age in ("new", "old"))
+    # Two runs at once each fill a folder of their own; the last to end is the one that stays.
+    new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
+    for left in target.parent.glob(f".{target.name}.new-*"):
+        if not _alive(left.name.rpartition("-")[2]):
+            shutil.rmtree(left, ignore_errors=True)
     if old.exists() and not target.exists():  # a run that was killed between the two renames below
         old.rename(target)
     shutil.rmtree(new, ignore_errors=True)

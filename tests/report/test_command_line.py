@@ -357,7 +357,7 @@ def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatc
     rename = Path.rename
 
     def failing(path: Path, to: Path) -> Path:
-        if path.name == ".report.new":
+        if path.name.startswith(".report.new-"):
             raise KeyboardInterrupt
         return rename(path, to)
 
@@ -368,10 +368,28 @@ def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatc
     assert [path.name for path in small_paper.iterdir()] == ["report"]
 
 
+def test_two_runs_at_once_do_not_touch_each_other(small_paper: Path) -> None:
+    """The folder of a run that lives is left alone: here that of the process that runs the tests' parent."""
+    other = small_paper / f".report.new-{os.getppid()}"
+    other.mkdir()
+    with reproduce.replaced(small_paper / "report") as folder:
+        assert folder != other
+        (folder / "index.html").write_text("mine")
+    assert other.is_dir()
+    assert (small_paper / "report" / "index.html").read_text() == "mine"
+
+
+def test_closed_output_gives_no_traceback() -> None:
+    command = f"{sys.executable} -m lagrotor rate --spins 10 -10 >&-"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
+
+
 def test_killed_swap_is_mended_by_the_next_run(small_paper: Path) -> None:
     (small_paper / ".report.old").mkdir()
     (small_paper / ".report.old" / "index.html").write_text("good")
-    (small_paper / ".report.new").mkdir()
+    (small_paper / ".report.new-999999999").mkdir()
     with pytest.raises(RuntimeError), reproduce.replaced(small_paper / "report"):
         raise RuntimeError
     assert (small_paper / "report" / "index.html").read_text() == "good"
