@@ -115,6 +115,10 @@ def _powers(series: FourierSeries, amplitude: float, order: int, sine: bool) -> 
 
 @cache
 def _compiled(order: int) -> Callable[..., Any]:
+    return compile_program(program(order), "numpy")
+
+
+def program(order: int) -> Program:
     """(c, s, coefficients of x, y, z) → x_1, y_1, z_1, x_2, y_2, z_2: Horner's rule in w = c², generated."""
     c, s, w = sp.symbols("c s w", real=True)
     names = [[sp.Symbol(f"{q}{n}", real=True) for n in range(order + 1)] for q in "xyz"]
@@ -136,4 +140,4 @@ def _compiled(order: int) -> Callable[..., Any]:
     )
     outputs = (ox + ex, s * (oy + ey), ez + oz, ox - ex, s * (oy - ey), ez - oz)
     arguments = (c, s, *(n for group in names for n in group))
-    return compile_program(Program(arguments, tuple(stages), outputs), "numpy")
+    return Program(arguments, tuple(stages), outputs)
