@@ -88,11 +88,11 @@ def _squared_sine(order: int, shape: sp.Expr) -> sp.Expr:
 def _largest(square: sp.Expr, place: sp.Expr, lowest: int, order: int) -> sp.Expr:
     """The largest value over the phase, through r_0**(order − 1), followed from the cosine `place` at r_0 = 0."""
     slope = square.diff(COSINE)
-    curvature = sp.simplify(slope.coeff(r0, lowest).diff(COSINE).subs(COSINE, place))
+    curvature = sp.cancel(slope.coeff(r0, lowest).diff(COSINE).subs(COSINE, place))
     where = place
     for n in range(1, order):
         left = sp.expand(slope.subs(COSINE, where)).coeff(r0, n + lowest)
-        where -= sp.simplify(left / curvature) * r0**n
+        where -= sp.cancel(left / curvature) * r0**n
     return _through(sp.expand(square.subs(COSINE, where)), r0, order - 1)
 
 

@@ -74,4 +74,4 @@ def leading_square(r0: float, sigma: float, k: float) -> float:
     The powers follow from the averaged motion (`rotors.averaged`: the twist's stiffness is b Omega_0² d²/8, that of the
     mean x vanishes to the same order). The three rational factors were read off exact multipliers, not derived.
     """
-    return 9 / 32 * r0**8 / k**4 if sigma == 1 else 3 / 16 * sigma**2 * (1 - sigma) * r0**6 / k**2
+    return 9 * r0**8 / (32 * k**4) if sigma == 1 else 3 * sigma**2 * (1 - sigma) * r0**6 / (16 * k**2)
