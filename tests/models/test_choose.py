@@ -150,4 +150,6 @@ def test_the_estimate_integrates_nothing(monkeypatch: pytest.MonkeyPatch) -> Non
 
     monkeypatch.setattr("lagrotor.models.simulate.integrate", never)
     for scene in (Scene((10, -10), shock=SHOCK), paired_scene(Scene((10, -10)), 0.2)):
-        choose(scene, 10.0, 1e-10)
+        assert choose(scene, 10.0, 1e-10).estimate <= 1e-10
+        with pytest.raises(AssertionError, match="integrated"):  # twin: a run does integrate
+            simulate(scene, [0.0, 10.0], "minimal")
