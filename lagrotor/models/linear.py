@@ -23,7 +23,8 @@ from ..rotors.parameters import Scene, Shock
 from ..rotors.response import impulse_matrices, shock_response
 from ..rotors.toppling import toppling_growth
 from ..symbols import G_1, G_2, a, b
-from .minimal import MODEL, Ratio, program
+from .elimination import Ratio, program
+from .minimal import MODEL
 from .model import Array, Observed
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing

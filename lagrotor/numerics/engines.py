@@ -17,7 +17,6 @@ Array = NDArray[np.float64]
 Rate = Callable[[float, Array], list[float]]
 Projection = Callable[[Array], Array]
 
-ORDER = 12  # of the Adams pair: 10 needs more steps below 1e-11, 14 is not stable with steps as long as accuracy allows
 _BLOCK = 100
 _SWEEPS = 25
 
@@ -161,6 +160,11 @@ def dop853(stretch: Stretch, error: float) -> Run:
     return Run(project(found.T).T if project else found, solver.y, solver.nfev)
 
 
+def adams_order(error: float) -> int:
+    """Of the pair, for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
+    return 10 if error >= 1e-10 else 12
+
+
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array]:
     """What an Adams pair of q rates needs, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
@@ -187,8 +191,10 @@ def adams_weights(q: int) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t: states and rates (n + 1, d) at the nodes, what was spent, and by how much h is to change."""
+    """Equal steps h from t by the pair of order q: states and rates (n + 1, d) at the nodes, what was spent, and by how
+    much h is to change."""
 
+    q: int
     t: float
     h: float
     states: Array
@@ -198,21 +204,22 @@ class _Piece:
 
     def read(self, times: Array) -> Array:
         """States (m, d) at times within the piece, by the polynomial of the pair itself."""
-        _, _, P = adams_weights(ORDER)
+        q = self.q
+        _, _, P = adams_weights(q)
         steps = (times - self.t) / self.h
-        middle = np.clip(np.floor(steps).astype(int), ORDER // 2, len(self.states) - ORDER + ORDER // 2)
-        weights = np.vander(steps - middle, ORDER + 1, increasing=True) @ P.T
-        window = self.rates[middle[:, None] + np.arange(ORDER) - ORDER // 2]
+        middle = np.clip(np.floor(steps).astype(int), q // 2, len(self.states) - q + q // 2)
+        weights = np.vander(steps - middle, q + 1, increasing=True) @ P.T
+        window = self.rates[middle[:, None] + np.arange(q) - q // 2]
         return self.states[middle] + self.h * np.einsum("mj,mjd->md", weights, window)
 
 
-def _piece(stretch: Stretch, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
+def _piece(stretch: Stretch, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
     """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
 
     Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
-    Wanner, III.1). The first ORDER nodes come together: their integral equation is swept until nothing moves.
+    Wanner, III.1). The first q nodes come together: their integral equation is swept until nothing moves.
     """
-    q, rate = ORDER, stretch.rate
+    rate = stretch.rate
     A, B, P = adams_weights(q)
     from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
     S = h * (from_middle - from_middle[0])
@@ -229,7 +236,7 @@ def _piece(stretch: Stretch, y: Array, t: float, h: float, steps: int, limit: fl
         if sweep and not moved > 2e-15 * (1 + np.abs(y).max()):
             break
     if not moved < 1e-13 * (1 + np.abs(y).max()):
-        return _Piece(t, h, states[:1], rates[:1], spent, 0.5)
+        return _Piece(q, t, h, states[:1], rates[:1], spent, 0.5)
 
     hA, hB, last, n = h * A, h * B, states[q - 1], q
     while n <= steps:
@@ -241,29 +248,32 @@ def _piece(stretch: Stretch, y: Array, t: float, h: float, steps: int, limit: fl
             off[n] = last - predicted
             rates[n] = rate(t + n * h, last)
         spent += 2 * len(block)
-        worst = np.abs(off[block.start : n + 1]).max() / (h * (1 + np.abs(last).max()))
+        worst = np.abs(off[block.start : n + 1]).max() / (h * (1 + np.abs(last).max())) + 1e-300
+        change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         if not worst <= limit:
-            change = max(0.4, (limit / worst / 4) ** (1 / q)) if np.isfinite(worst) else 0.4
             kept = block.start if block.start > q else 1
-            return _Piece(t, h, states[:kept], rates[:kept], spent, change)
+            return _Piece(q, t, h, states[:kept], rates[:kept], spent, change)
         if stretch.project is not None:
             states[n] = last = stretch.project(last)
         n += 1
-        if worst < limit / 1000 and n <= steps:
-            return _Piece(t, h, states[:n], rates[:n], spent, 1.5)
-    return _Piece(t, h, states, rates, spent, 1.0)
+        if worst < limit / 300 and n <= steps and 1.3 * h < stretch.longest:
+            return _Piece(q, t, h, states[:n], rates[:n], spent, change)
+    return _Piece(q, t, h, states, rates, spent, 1.0)
 
 
 def adams(stretch: Stretch, error: float) -> Run:
-    """Adams predictor and corrector of order 12 in equal steps, changed where the pair's own difference asks for it."""
+    """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it."""
     asked, right, y, t = stretch.asked, stretch.right, stretch.start, stretch.left
-    h = min((right - t) / ORDER, stretch.longest, 1 / (20 * stretch.pace + 1e-300))
+    q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
+    h = min((right - t) / q, stretch.longest, min(limit ** (1 / q) / 10, 0.05) / (stretch.pace + 1e-300))
     found, done, spent, end = np.empty((len(asked), len(y))), 0, 1, y
     while t < right:
-        steps = min(max(int(np.ceil((right - t) / h)), ORDER), 10_000)
-        with np.errstate(all="ignore"):  # a step that is too long overflows, and is halved
-            piece = _piece(stretch, y, t, h, steps, 100 * error)
+        steps = min(max(int(np.ceil((right - t) / h)), q), 10_000)
+        with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
+            piece = _piece(stretch, q, y, t, h, steps, limit)
         spent += piece.spent
+        if piece.change < 1:  # too long once, for its error or because it is not stable: not tried again
+            stretch = replace(stretch, longest=1.2 * piece.change * h)
         if spent > stretch.allowance:
             raise StopError(t, f"{spent} evaluations spent")
         if len(piece.states) > 1:
@@ -272,7 +282,7 @@ def adams(stretch: Stretch, error: float) -> Run:
             found[done:until] = piece.read(asked[done:until])
             end = piece.read(np.array([right]))[0] if reached >= right else end
             done, t, y = until, reached, piece.states[-1]
-        h = min(h * piece.change, stretch.longest)
+        h = min(h * min(piece.change, 2.0), stretch.longest)
         if t + h == t:
             raise StopError(t, "the step vanishes")
     if not (np.isfinite(end).all() and np.isfinite(found).all()):

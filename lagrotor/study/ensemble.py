@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError, IntegrationError
-from ..models.minimal import MODEL, Ratio, program
+from ..models.elimination import Ratio, program
+from ..models.minimal import MODEL
 from ..models.simulate import check_times, simulate
 from ..numerics.codegen import compile_program
 from ..numerics.files import write_beside, write_text

@@ -10,7 +10,8 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from ..errors import SingularError
-from ..models.minimal import MODEL, Ratio, program
+from ..models.elimination import Ratio, program
+from ..models.minimal import MODEL
 from ..numerics.codegen import Program, compile_program
 from ..numerics.solve import TIGHTEST, Problem, integrate
 from ..rotors.parameters import Scene

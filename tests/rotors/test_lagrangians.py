@@ -23,7 +23,6 @@ from lagrotor.mechanics import (
     solve_constrained,
     total_derivative,
 )
-from lagrotor.models.minimal import _curve
 from lagrotor.rotors.lagrangians import (
     INERTIAS,
     J_OF,
@@ -309,25 +308,3 @@ def test_the_bars_curve_satisfies_the_bar(ratio: Any, chi: float, U: float, alph
     rho = k * sp.cosh(curve.latitude) - sp.sinh(curve.latitude)
     size = value(sp.cosh(curve.latitude), at)
     assert value(curve.rho, at) == pytest.approx(value(rho, at), abs=1e-13 * size**2)
-
-
-@pytest.mark.parametrize("ratio", RATIOS)
-@settings(max_examples=12, deadline=None)
-@given(share=st.floats(-0.9, 0.9))
-def test_the_derivatives_the_minimal_model_uses_are_those_of_the_curve(ratio: Any, share: float) -> None:
-    chi = MINIMAL.q[1]
-    at: dict[sp.Symbol, float] = {chi: share * (np.pi / 2 if ratio == "equal" else np.pi), k: RATIOS[ratio]}
-    stages = dict(at)
-    for symbol, expression in _curve(ratio):
-        stages[symbol] = float(expression.subs(stages))
-    by_name = {s.name: x for s, x in stages.items()}
-    curve = bar_curve(ratio)
-    expected = {
-        "D": curve.twist, "D_1": curve.twist.diff(chi), "D_2": curve.twist.diff(chi, 2),
-        "w": curve.latitude, "w_1": curve.latitude.diff(chi), "w_2": curve.latitude.diff(chi, 2),
-        "c_D": sp.cos(curve.twist), "s_D": sp.sin(curve.twist), "rho": curve.rho,
-    }  # fmt: skip
-    for name, expression in expected.items():
-        assert by_name[name] == pytest.approx(value(expression, at), rel=1e-9, abs=1e-11), name
-    # Twin: the latitude's slope is not rho's.
-    assert by_name["w_1"] != pytest.approx(value(curve.rho.diff(chi), at), rel=1e-3) or abs(share) < 1e-3
