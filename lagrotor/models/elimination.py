@@ -94,8 +94,9 @@ def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
 
 def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Rotor]:
     """Both rotors from U, chi, alpha: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
-    # For ell = R the logarithm is also the guard: chi beyond a right angle has no state.
-    e_1 = stages.keep("e_1", sp.exp(2 * _U - sp.log(_C)) if ratio == "equal" else sp.exp(2 * _U) / _DROP)
+    # The logarithm is a guard, too: for ell = R there is no state where chi is beyond a right angle.
+    e_1 = sp.exp(2 * _U - stages.keep("falling", sp.log(_C))) if ratio == "equal" else sp.exp(2 * _U) / _DROP
+    e_1 = stages.keep("e_1", e_1)
     rotors = []
     for i, (e, G, sign) in enumerate(((e_1, G_1, 1), (e_1 * _DROP**2, G_2, -1)), start=1):
         e = stages.keep(f"e_{i}", e) if i == 2 else e
