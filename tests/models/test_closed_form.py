@@ -99,3 +99,16 @@ def test_what_no_closed_form_holds_is_refused() -> None:
         simulate(replace(off, rates=tuple(tuple(2 * x for x in v) for v in off.rates)), T, "closed_form")
     with pytest.raises(DomainError, match="only with parallel axes that turn alike"):
         simulate(replace(off, spins=(10, 10)), T, "closed_form")
+
+
+def test_asked_for_by_name_the_series_goes_on_to_order_21() -> None:
+    """On the exact orbit each two orders gain a digit; the rung's own choice stops where deriving costs more than a run."""
+    scene = exact_orbit(Scene((10, -10)), 0.204).scene
+    exact = simulate(scene, T, "minimal", 1e-13).axes
+    errors = [np.abs(simulate(scene, T, "closed_form", tol).axes - exact).max() for tol in (1e-6, 1e-8, 1e-13)]
+    assert errors[0] < 1e-8 and errors[1] < 1e-10 and errors[2] < 3e-12
+    assert "r0^15" in closed_form(scene, 5.0, 1e-13).reason
+    assert "r0^21" in closed_form(scene, 5.0, 1e-13, best=True).reason
+    # Twin: the orbit of another amplitude is not this one.
+    other = exact_orbit(Scene((10, -10)), 0.2).scene
+    assert np.abs(simulate(other, T, "closed_form", 1e-13).axes - exact).max() > 1e-3
