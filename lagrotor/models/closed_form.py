@@ -55,9 +55,9 @@ def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
 
 @lru_cache(maxsize=8)
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> Answer:
-    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` asks for, at most 15, or 21 with `best`.
+    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` asks for, at most 15.
 
-    The answer's error may exceed `tol`; with `best` it is then the least that can be had.
+    The answer's error may exceed `tol`; with `best` it is then the least that can be had, from a series through r0^21.
     Raises DomainError, with the reason, where no closed form holds the scene.
     """
     if struck(scene, t_end):

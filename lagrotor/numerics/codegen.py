@@ -4,16 +4,20 @@ A `Program` is a list of named stages and the outputs made of them. Stages keep 
 one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 from sympy.utilities.iterables import topological_sort
 
 from ..errors import SingularError
 
+Array = NDArray[np.float64]
 Stage = tuple[sp.Symbol, sp.Expr]
+_BLOCK = 8192  # values at once: what a processor keeps close
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,19 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
     function = sp.lambdify(list(program.arguments), list(outputs), modules=module, cse=lambda _: (stages, outputs))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(outputs)} numbers"
     return function
+
+
+def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
+    """A numpy program's outputs (outputs, n), where an argument is one number or an array (n,), some thousands at a time.
+
+    A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
+    """
+    found = np.empty((outputs, n))
+    for i in range(0, n, _BLOCK):
+        part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
+        for row, values in zip(found, part, strict=True):
+            row[i : i + _BLOCK] = values
+    return found
 
 
 def javascript(program: Program, name: str) -> str:

@@ -21,6 +21,8 @@ from .codegen import Program, reduce_common
 from .solve import PULSE_REACH, Solution
 
 Array = NDArray[np.float64]
+Counts = NDArray[np.int64]
+LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
@@ -45,18 +47,18 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
     edges, asked = [begin, *inner, end], times - at
     states, y, evaluations = np.empty((len(times), len(start))), start, 0
     states[asked == begin] = start
-    decade = 10.0 ** np.floor(np.log10(tol) + 1e-9) / 10
     for left, right in pairwise(edges):
         driven = pulse is not None and abs(left + right) / 2 < reach
         program, values = generated(driven)
-        solver = _solver(program, len(start), driven, max(decade, 1e-16), get_ident())
+        solver = _solver(program, len(start), driven, max(_decade(tol), 1e-16), 1, get_ident())
         if pulse and driven:
             values = (*values, *pulse.force, width)
         solver.time = left
         solver.state[:] = y
         solver.pars[: len(values)] = values
         inside = (asked > left) & (asked <= right)
-        grid = np.unique([left, *asked[inside], right])
+        last = [] if right in asked[-1:] or not right > left else [right]
+        grid = np.concatenate([[left], asked[inside], last])
         outcome, _, _, steps, _, found = solver.propagate_grid(grid, max_delta_t=width if driven else np.inf)
         if "time_limit" not in str(outcome) or not np.isfinite(found).all():
             raise IntegrationError(f"the Taylor solver stopped near t = {at + solver.time:.6g} s; use engine='core'")
@@ -65,8 +67,36 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
     return Solution(states, evaluations)
 
 
+def march_taylor(program: Program, start: Array, parameters: Array, times: Array, tol: float) -> tuple[Array, Counts]:
+    """States (n, m, d) at times (m,) of n starts (d, n) with parameters (p, n), LANES at a time, and evaluations (n,).
+
+    The lanes of a processor's vectors step together, each with its own step. One that stops leaves NaN. Raises InputError
+    without heyoka.
+    """
+    (d, n), m = start.shape, len(times)
+    states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
+    solver = _solver(program, d, False, max(_decade(tol), 1e-16), LANES, get_ident())
+    first = int(times[0] == 0)
+    grid = np.repeat(np.concatenate([[0.0], times[first:]])[:, None], LANES, axis=1)
+    for begin in range(0, n, LANES):
+        lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
+        solver.set_time(np.zeros(LANES))
+        solver.state[:], solver.pars[:] = start[:, lanes], parameters[:, lanes]
+        _, found = solver.propagate_grid(grid)
+        kept = min(LANES, n - begin)
+        steps = [steps for _, _, _, steps in solver.propagate_res[:kept]]
+        states[begin : begin + kept] = found[1 - first :, :, :kept].transpose(2, 0, 1)
+        spent[begin : begin + kept] = np.array(steps) * solver.order
+    return states, spent
+
+
+def _decade(tol: float) -> float:
+    """What heyoka is asked for: a tenth of the decade of `tol`, so that few programs are compiled."""
+    return float(10.0 ** np.floor(np.log10(tol) + 1e-9) / 10)
+
+
 @lru_cache(maxsize=64)
-def _solver(program: Program, states: int, driven: bool, tol: float, thread: int) -> Any:
+def _solver(program: Program, states: int, driven: bool, tol: float, lanes: int, thread: int) -> Any:
     """The compiled integrator of a program whose first `states` arguments are the state; each thread has its own."""
     try:
         import heyoka
@@ -83,6 +113,8 @@ def _solver(program: Program, states: int, driven: bool, tol: float, thread: int
         known[name] = _translate(expression, known, heyoka)
     rates = [_translate(e, known, heyoka) for e in outputs]
     equations = [(known[s], rate) for s, rate in zip(names, rates, strict=True)]
+    if lanes > 1:
+        return heyoka.taylor_adaptive_batch(equations, state=np.zeros((states, lanes)), tol=tol)
     # A pulse is short: there its loops are not unrolled, which compiles many times faster and runs a little slower.
     return heyoka.taylor_adaptive(equations, state=[0.0] * states, tol=tol, compact_mode=driven)
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import DomainError, InputError
 from ..mechanics import momenta
 from ..mechanics.perturbation import LinearSystem, linearise
+from ..numerics.codegen import Program, compile_program, in_blocks
 from ..symbols import ANSATZ, AXES, G_1, G_2, GLOSSARY, I3, M_3, ROTOR, A, B, G, J, M_z, Phi, a, b, k, omega, r0, sigma
 from .lagrangians import ansatz_integrals, axes_pair, rotor_lagrangian
 from .orbit import paired_series
@@ -42,8 +44,6 @@ class ClosedForm:
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
-        from ..numerics.codegen import Program, compile_program
-
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
         values = compile_program(Program(self.arguments, (), self.expressions), "numpy", doc)
@@ -64,20 +64,26 @@ class ClosedForm:
             raise InputError(
                 f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
             )
-        arrays = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in values))
-        function, conditions = self._functions
-        for argument, array in zip(self.arguments, arrays, strict=True):
+        given = [np.asarray(v, dtype=float) for v in values]
+        shape = np.broadcast_shapes(*(array.shape for array in given))
+        for argument, array in zip(self.arguments, given, strict=True):
             if not np.isfinite(array).all():
                 raise DomainError(f"{self.name}: {argument} holds a value that is not finite")
             if argument.is_positive and not (array > 0).all():
                 raise DomainError(f"{self.name}: {argument} = {array.min():g} must be greater than zero")
+        # One value for all stays one number.
+        flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in given]
+        function, conditions = self._functions
         for relation, condition in zip(self.domain, conditions, strict=True):
-            inside = np.broadcast_to(condition(*arrays), arrays[0].shape)
+            inside = np.broadcast_to(condition(*flat), prod(shape))
             if not inside.all():
-                where = np.unravel_index(int(np.argmin(inside)), inside.shape)
-                at = ", ".join(f"{s} = {float(v[where]):g}" for s, v in zip(self.arguments, arrays, strict=True))
+                where = int(np.argmin(inside))
+                at = ", ".join(
+                    f"{s} = {v if isinstance(v, float) else v[where]:g}"
+                    for s, v in zip(self.arguments, flat, strict=True)
+                )
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
-        results = tuple(np.array(np.broadcast_to(r, arrays[0].shape)) for r in function(*arrays))
+        results = tuple(row.reshape(shape) for row in in_blocks(function, flat, len(self.outputs), prod(shape)))
         return results if len(results) > 1 else results[0]
 
 

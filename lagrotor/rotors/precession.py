@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DomainError, InputError
 from ..mechanics.fourier import FourierSeries
-from ..numerics.codegen import Program, compile_program
+from ..numerics.codegen import Program, compile_program, in_blocks
 from .closed_forms import natural_rate
 from .consistent import paired_scene
 from .momentum import paired_momentum
@@ -27,7 +27,6 @@ from .orbit import evaluate, paired_series, shape_of
 from .parameters import Scene
 
 Array = NDArray[np.float64]
-_BLOCK = 8192  # times at once: what a processor keeps close
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,12 +58,8 @@ class PrecessionOrbit:
         phases = np.asarray(phase, dtype=float)
         if not np.isfinite(phases).all():
             raise DomainError("precession_orbit: a time is not finite")
-        flat, axes = phases.ravel(), np.empty((6, phases.size))
-        function = _compiled(self.order)
-        for i in range(0, len(flat), _BLOCK):
-            part = flat[i : i + _BLOCK]
-            for row, values in zip(axes, function(np.cos(part), np.sin(part), *self._coefficients), strict=True):
-                row[i : i + _BLOCK] = values
+        flat = phases.ravel()
+        axes = in_blocks(_at_phases(self.order), [flat, *self._coefficients], 6, flat.size)
         return axes.reshape(2, 3, *phases.shape)
 
 
@@ -114,8 +109,9 @@ def _powers(series: FourierSeries, amplitude: float, order: int, sine: bool) -> 
 
 
 @cache
-def _compiled(order: int) -> Callable[..., Any]:
-    return compile_program(program(order), "numpy")
+def _at_phases(order: int) -> Callable[..., Any]:
+    function = compile_program(program(order), "numpy")
+    return lambda phases, *coefficients: function(np.cos(phases), np.sin(phases), *coefficients)
 
 
 def program(order: int) -> Program:

@@ -23,6 +23,7 @@ from ..models.simulate import check_times, simulate
 from ..numerics.codegen import compile_program
 from ..numerics.files import write_beside, write_text
 from ..numerics.solve import check_tolerance
+from ..numerics.taylor import march_taylor
 from ..numerics.trajectory import Trajectory
 from ..rotors.parameters import Scene
 from .steps import Index, Rates, Swarm, march
@@ -73,12 +74,14 @@ def sweep(
     *,
     chunk: int = CHUNK,
     executor: Executor | None = None,
+    engine: str = "core",
     folder: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Ensemble:
     """Run every scene from t = 0 and read it at the times `t` (m,) in s, with the error control of `simulate`.
 
-    chunk: trajectories at a time. executor: where chunks run; here, one after another, when None. folder: an existing
+    engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
+    time. executor: where chunks run; here, one after another, when None. folder: an existing
     folder into which each finished chunk is written whole; called again with the same arguments, the sweep takes what
     is there and goes on. progress: called with the trajectories done and how many there are, after each chunk.
 
@@ -90,9 +93,13 @@ def sweep(
         raise InputError("sweep: scenes must be a sequence of at least one Scene")
     if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
         raise InputError(f"sweep: chunk = {chunk!r} must be a whole number above zero")
+    if engine not in ("core", "fast"):
+        raise InputError(f"sweep: engine = {engine!r} is neither core nor fast")
+    if engine == "fast" and any(scene.shock for scene in members):
+        raise InputError("sweep: engine='fast' takes no shock: use engine='core'")
     order = sorted(range(len(members)), key=lambda i: _kind(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
-    target = None if folder is None else _own(Path(folder), repr((members, times.tolist(), tolerance, chunk)))
+    target = None if folder is None else _own(Path(folder), repr((members, times.tolist(), tolerance, chunk, engine)))
     shape, none = (len(members), 2, len(times), 3), np.zeros(len(members), np.int64)
     whole = Ensemble(members, times, np.empty(shape), np.empty(shape), none, none.copy())
     done = 0
@@ -115,9 +122,9 @@ def sweep(
     tasks = {number: [members[i] for i in parts[number]] for number in waiting}
     if executor is None:
         for number, part in tasks.items():
-            keep(number, run_chunk(part, times, tolerance), True)
+            keep(number, run_chunk(part, times, tolerance, engine), True)
         return whole
-    futures = {executor.submit(run_chunk, part, times, tolerance): number for number, part in tasks.items()}
+    futures = {executor.submit(run_chunk, part, times, tolerance, engine): number for number, part in tasks.items()}
     try:
         for future in as_completed(futures):
             keep(futures[future], future.result(), True)
@@ -141,7 +148,7 @@ def started(scene: Scene, states: ArrayLike) -> list[Scene]:
     return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
 
 
-def run_chunk(scenes: Sequence[Scene], times: Array, tol: float) -> Chunk:
+def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Chunk:
     """The work of one process: a few thousand scenes at once by `minimal`, those that it cannot hold by `spheres`."""
     n, shape = len(scenes), (len(scenes), 2, len(times), 3)
     found = Chunk(np.full(shape, np.nan), np.full(shape, np.nan), np.zeros(n, np.int64), np.full(n, 2))
@@ -150,7 +157,7 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float) -> Chunk:
         groups.setdefault(_kind(scene), []).append(i)
     for kind, group in groups.items():
         if kind is not None:
-            _by_minimal(kind, [scenes[i] for i in group], np.array(group), times, tol, found)
+            _by_minimal(kind, [scenes[i] for i in group], np.array(group), times, tol, engine, found)
     for i in np.flatnonzero(found.models == MODELS.index("none")).tolist():
         try:
             run = simulate(scenes[i], times, "spheres", tol)
@@ -175,10 +182,16 @@ def _compiled(kind: Kind) -> Callable[..., list[Array]]:
     return compile_program(program(*kind), "numpy")
 
 
-def _by_minimal(kind: Kind, scenes: list[Scene], places: Index, times: Array, tol: float, found: Chunk) -> None:
+def _by_minimal(
+    kind: Kind, scenes: list[Scene], places: Index, times: Array, tol: float, engine: str, found: Chunk
+) -> None:
     """Run scenes of one kind side by side and put what comes out whole into its places."""
-    swarm, ratios = _swarm(kind, scenes)
-    states, spent = march(swarm, times, tol)
+    ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
+    columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
+    if engine == "fast":
+        states, spent = march_taylor(program(*kind), start, np.array(columns), times, tol)
+    else:
+        states, spent = march(_swarm(kind, scenes, columns, start), times, tol)
     found.evaluations[places] = spent
     whole = np.isfinite(states).all((1, 2))
     found.models[places[whole]] = MODELS.index("minimal")
@@ -191,15 +204,18 @@ def _by_minimal(kind: Kind, scenes: list[Scene], places: Index, times: Array, to
                 getattr(found, name)[places[alike]] = rows
 
 
-def _swarm(kind: Kind, scenes: list[Scene]) -> tuple[Swarm, Array]:
-    """The scenes of one kind as arrays, and their k = ell / R (n,)."""
-    massive, ratio, body = kind
-    function = _compiled(kind)
+def _columns(kind: Kind, scenes: list[Scene], ratios: Array) -> list[Array]:
+    """The program's parameters but for the force, each for all scenes (n,)."""
+    massive, ratio, _ = kind
     inertias = np.array([scene.inertias for scene in scenes])
     momenta = np.array([scene.momenta for scene in scenes])
-    ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
     columns = [inertias[:, 0], *([inertias[:, 1]] if massive else []), *([] if ratio == "equal" else [ratios])]
-    columns += [momenta[:, 0], momenta[:, 1]]
+    return [*columns, momenta[:, 0], momenta[:, 1]]
+
+
+def _swarm(kind: Kind, scenes: list[Scene], columns: list[Array], start: Array) -> Swarm:
+    """The scenes of one kind as arrays."""
+    body, function = kind[2], _compiled(kind)
     at, width, force = np.zeros(len(scenes)), np.zeros(len(scenes)), np.zeros((3, len(scenes)))
     if body:
         shocks = [(scene.shock, scene.rotor.length) for scene in scenes if scene.shock]
@@ -219,8 +235,7 @@ def _swarm(kind: Kind, scenes: list[Scene]) -> tuple[Swarm, Array]:
         return into
 
     fastest = np.array([_fastest(scene) for scene in scenes])
-    start = np.array([MODEL.start(scene) for scene in scenes]).T.copy()
-    return Swarm(rates, start, fastest, 20_000 + 500 * fastest, at, width), ratios
+    return Swarm(rates, start, fastest, 20_000 + 500 * fastest, at, width)
 
 
 def _fastest(scene: Scene) -> float:
@@ -238,7 +253,9 @@ def _own(folder: Path, arguments: str) -> Path:
     if not mark.exists():
         write_text(mark, digest + "\n")
     elif mark.read_text().strip() != digest:
-        raise InputError(f"sweep: {folder} holds another sweep (scenes, times, tol or chunk differ): give an empty one")
+        raise InputError(
+            f"sweep: {folder} holds another sweep (scenes, times, tol, chunk or engine differ): give an empty one"
+        )
     return folder
 
 

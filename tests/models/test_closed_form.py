@@ -102,12 +102,12 @@ def test_what_no_closed_form_holds_is_refused() -> None:
 
 
 def test_asked_for_by_name_the_series_goes_on_to_order_21() -> None:
-    """On the exact orbit each two orders gain a digit; the rung's own choice stops where deriving costs more than a run."""
+    """On the exact orbit each two orders gain a digit; the rung's own choice is given up early."""
     scene = exact_orbit(Scene((10, -10)), 0.204).scene
     exact = simulate(scene, T, "minimal", 1e-13).axes
     errors = [np.abs(simulate(scene, T, "closed_form", tol).axes - exact).max() for tol in (1e-6, 1e-8, 1e-13)]
-    assert errors[0] < 1e-8 and errors[1] < 1e-10 and errors[2] < 3e-12
-    assert "r0^15" in closed_form(scene, 5.0, 1e-13).reason
+    assert errors[0] < 1e-8 and errors[1] < errors[0] / 50 and errors[2] < errors[1] / 5
+    assert closed_form(scene, 5.0, 1e-13).error > 1e-5  # given up early: no order to 15 would do
     assert "r0^21" in closed_form(scene, 5.0, 1e-13, best=True).reason
     # Twin: the orbit of another amplitude is not this one.
     other = exact_orbit(Scene((10, -10)), 0.2).scene

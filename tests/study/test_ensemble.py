@@ -114,9 +114,9 @@ def test_a_cluster():
 def test_an_interrupted_sweep_goes_on(tmp_path, monkeypatch):
     scenes, ran = family(10), []
 
-    def counted(part, times, tol):
+    def counted(part, times, tol, engine: str):
         ran.append(len(part))
-        return run_chunk(part, times, tol)
+        return run_chunk(part, times, tol, engine)
 
     def stop(done, n):
         if done >= 6:
@@ -158,3 +158,21 @@ def test_started_keeps_the_states():
         started(Scene((1.0, 1.0)), STATE)
     with pytest.raises(SingularError):
         started(Scene((1.0, 1.0), link=None), [STATE])
+
+
+def test_the_fast_extra_runs_the_same_ensemble():
+    """Lanes are filled up where their number does not divide the ensemble's; each keeps its own motion."""
+    pytest.importorskip("heyoka", reason="the fast extra is not installed")
+    scenes = [scene for scene in mixed() if not scene.shock] + family(11)
+    core, fast = (sweep(scenes, T, 1e-10, engine=engine) for engine in ("core", "fast"))
+    np.testing.assert_allclose(fast.axes, core.axes, atol=1e-8)
+    np.testing.assert_allclose(fast.rates, core.rates, atol=1e-7)
+    assert (fast.models == core.models).all() and (fast.evaluations > 0).all()
+    assert np.abs(fast.axes[-1] - fast.axes[-2]).max() > 1e-2  # twin: one lane is not another
+
+
+def test_what_an_engine_does_not_do_is_refused_at_the_door():
+    with pytest.raises(InputError, match="neither core nor fast"):
+        sweep(family(2), T, engine="quick")
+    with pytest.raises(InputError, match="takes no shock"):
+        sweep([replace(family(1)[0], shock=Shock((1, 0, 0), 0.1, 0.1))], T, engine="fast")
