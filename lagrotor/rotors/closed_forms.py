@@ -46,7 +46,8 @@ class ClosedForm:
     def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
-        values = compile_program(Program(self.arguments, (), self.expressions), "numpy", doc)
+        expressions = tuple(e.replace(_is_multiple, _by_one_angle) for e in self.expressions)
+        values = compile_program(Program(self.arguments, (), expressions), "numpy", doc)
         return values, tuple(sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain)
 
     def _repr_latex_(self) -> str:
@@ -85,6 +86,19 @@ class ClosedForm:
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
         results = tuple(row.reshape(shape) for row in in_blocks(function, flat, len(self.outputs), prod(shape)))
         return results if len(results) > 1 else results[0]
+
+
+def _is_multiple(e: sp.Expr) -> bool:
+    """cos(n x) or sin(n x) with n = 2, 3, …"""
+    return isinstance(e, sp.cos | sp.sin) and e.args[0].as_coeff_Mul()[0] in range(2, 100)
+
+
+def _by_one_angle(e: sp.Expr) -> sp.Expr:
+    """T_n(cos x) or sin x U_(n−1)(cos x): products of two functions cost less than another function."""
+    n, x = e.args[0].as_coeff_Mul()
+    if isinstance(e, sp.cos):
+        return sp.chebyshevt(n, sp.cos(x))
+    return sp.sin(x) * sp.chebyshevu(n - 1, sp.cos(x))
 
 
 @cache

@@ -138,7 +138,8 @@ def long_limits(quick: bool) -> list[Limit]:
                     law,
                     float(values[:11].max()) * 10**power,
                     float(values.max()),
-                    f"{run.evaluations:,} evaluations",
+                    f"auto takes the closed form where one holds; else the run's own integrals tell ({run.evaluations:,} "
+                    "evaluations)",
                 )
             )
     return rows

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -37,18 +38,22 @@ def displaced_family(n: int, r0: float = 0.204) -> list[Scene]:
 
 
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:
-    """Rates of an ensemble of n at 1e-6 and 1e-10, in `executor` or here, and of the closed forms; each the best of a few."""
+    """Rates of an ensemble of n at 1e-6 and 1e-10, in `executor` or here, and of the closed forms; each the best of a few.
+
+    With the fast extra, where heyoka is installed, the ensembles once more by it.
+    """
     scenes = displaced_family(n)
-    sweep(scenes[:8], [0.1], chunk=4, executor=executor)  # what is compiled once is compiled here
+    rows: list[Throughput] = []
     chunk = max(1, min(CHUNK, n // 2))
-    fine, finer = (
-        _best(partial(sweep, scenes, [_RUN], tol, chunk=chunk, executor=executor), 2) for tol in (1e-6, 1e-10)
-    )
-    what = f"trajectories of {_RUN:g} s, displaced family, error"
-    rows = [
-        Throughput(f"{what} 1e-6", "trajectories/s", n / fine, 1.0, "itself"),
-        Throughput(f"{what} 1e-10", "trajectories/s", n / finer, fine / finer, "the same at 1e-6"),
-    ]
+    for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
+        for tol in (1e-6, 1e-10):
+            # What is compiled once in a process is compiled here.
+            sweep(scenes[:16], [0.1], tol, chunk=4, executor=executor, engine=engine)
+            seconds = _best(partial(sweep, scenes, [_RUN], tol, chunk=chunk, executor=executor, engine=engine), 2)
+            what = f"trajectories of {_RUN:g} s, displaced family, {engine}, error {tol:.0e}"
+            rate = n / seconds
+            against = "itself" if not rows else f"that of {rows[0].what.split(', ', 2)[2]}"
+            rows.append(Throughput(what, "trajectories/s", rate, rate / rows[0].rate if rows else 1.0, against))
     phases, source, target = np.linspace(0, 2 * np.pi, _BIG), np.ones(_BIG), np.empty(_BIG)
     copied = _BIG / _best(partial(np.copyto, target, source), 5)
     rows.append(Throughput("an array copied", "numbers/s", copied, 1.0, "itself"))
