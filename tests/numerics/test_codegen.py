@@ -141,6 +141,14 @@ def test_javascript_says_the_same_as_python() -> None:
     assert found[0] != pytest.approx(python(*points[1]))
 
 
+def test_javascript_refuses_a_function_it_does_not_have() -> None:
+    from sympy.printing.codeprinter import PrintMethodNotImplementedError
+
+    assert javascript(Program((x,), (), (sp.atanh(x), x ** sp.Rational(-1, 2))), "f").count("Math.") == 2
+    with pytest.raises(PrintMethodNotImplementedError, match="besselj"):
+        javascript(Program((x,), (), (sp.besselj(0, x),)), "f")
+
+
 entries = st.floats(-2, 2)
 
 

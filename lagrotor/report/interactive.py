@@ -1,0 +1,156 @@
+"""The interactive model of the report: the pair on sliders, with its formulas generated as JavaScript.
+
+What the browser computes comes from the expressions that Python compiles: the minimal model's rates and axes, the
+periodic series with the bar left free, the paper's formula. Written by hand are the stepper, the drawing and the
+controls (interactive_*.js), the look (interactive.css) and the markup (interactive.html).
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+import sympy as sp
+
+from ..mechanics.fourier import FourierSeries
+from ..models import minimal
+from ..numerics.codegen import Program, Stage, javascript
+from ..rotors import precession
+from ..rotors.closed_forms import linear_pair, natural_frequency
+from ..rotors.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
+from ..rotors.orbit import paired_series
+from ..rotors.parameters import Link, Rotor, Scene
+from ..symbols import AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, J, K, M, Phi, R, a, b, ell, k, m, omega_1, omega_2
+from ..symbols import r0 as amplitude
+from ..symbols import sigma as shape
+
+ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
+Ratio = Literal["short", "equal", "long"]
+_LENGTHS: dict[Ratio, float] = {"short": 0.5, "equal": 1.0, "long": 2.0}  # a bar of each kind, R = 1 m
+_HERE = Path(__file__).parent
+_Y_1, _Y_2 = AXES.v[1], AXES.v[4]
+
+
+@cache
+def interactive() -> str:
+    """The section as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
+
+    def part(name: str) -> str:
+        return (_HERE / f"interactive{name}").read_text(encoding="utf-8")
+
+    lines = [formulas(), *(part(f"_{name}.js") for name in ("motion", "drawing", "controls"))]
+    script = "\n".join(["(() => {", '"use strict";', *lines, 'show(document.getElementById("model"));', "})();"])
+    return part(".html").replace("/* style */", part(".css")).replace("/* script */", script)
+
+
+@cache
+def formulas() -> str:
+    """The generated part of the script: the series' order, and one function a program."""
+    return "\n".join([f"const ORDER = {ORDER};", *(javascript(program, name) for name, program in programs().items())])
+
+
+@cache
+def programs() -> dict[str, Program]:
+    """What the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
+
+    constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
+    rate_, axes_  for a bar shorter than, as long as, longer than an axis: of the minimal model; axes r_1, r_2
+    start_        (r_0, y_1', y_2', k) → its state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
+    small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one oscillation, linear in r_0, any spins
+    series        (powers of r_0, sigma, k) → coefficients of c⁰ … in x, y / s, z, and Omega / Omega_0
+    orbit         (c, s, coefficients) → r_1, r_2
+    paper         (r_0, Phi) → r_1, r_2 as printed: 5.20, 5.22
+    bar_length    (r_1, r_2, ell) → m
+    """
+    found = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
+    found |= {"series": _series(), "orbit": precession.program(ORDER)}
+    for ratio in _LENGTHS:
+        found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
+    return found
+
+
+def _constants() -> Program:
+    rotor = Rotor()
+    sizes = {M: rotor.mass, R: rotor.length, I1: rotor.I1, I3: rotor.I3}
+    values = {symbol: sp.Rational(repr(size)) for symbol, size in sizes.items()}
+    stages = [(symbol, expression.subs(J, J_OF).subs(values)) for symbol, expression in INERTIAS.items()]
+    stages += [(shape, (a + b) / (a - b)), (G_1, values[I3] * omega_1), (G_2, values[I3] * omega_2)]
+    printed = (sp.Rational("0.7125") * I3 * omega_1 / J_OF).subs(values)
+    outputs = (a, b, k, shape, G_1, G_2, natural_frequency().expressions[0], printed)
+    return Program((m, K, ell, omega_1, omega_2), tuple(stages), outputs)
+
+
+def _rate(ratio: Ratio) -> Program:
+    dumbbell = Scene((1.0, -1.0), link=Link(_LENGTHS[ratio], mass=1.0))  # b ≠ 0; the program holds for b = 0 too
+    program, _ = minimal.generated(dumbbell, False)
+    return replace(program, arguments=(*MINIMAL.q, *MINIMAL.v, a, b, k, G_1, G_2))
+
+
+def _pair_at(ratio: Ratio) -> sp.Matrix:
+    """r_1 and r_2, one under the other, in the coordinates of the minimal model."""
+    curve = bar_curve(ratio)
+    embedding = minimal_embedding(curve.twist, curve.latitude)
+    first, second = (mercator_axis(*MERCATOR.q[i : i + 2]).subs(embedding) for i in (0, 2))
+    return first.col_join(second)
+
+
+def _axes(ratio: Ratio) -> Program:
+    return Program((*MINIMAL.q, k), (), tuple(_pair_at(ratio)))
+
+
+def _start(ratio: Ratio) -> Program:
+    U, chi, alpha = MINIMAL.q
+    parallel = {U: sp.atanh(amplitude), chi: 0, alpha: 0}
+    across = sp.Matrix([_pair_at(ratio)[i] for i in (1, 4)])
+    slopes = across.jacobian([chi, alpha]).subs(parallel)
+    rates = slopes.LUsolve(sp.Matrix([_Y_1, _Y_2]))
+    return Program((amplitude, _Y_1, _Y_2, k), (), (parallel[U], sp.Integer(0), sp.Integer(0), sp.Integer(0), *rates))
+
+
+def _small_motion() -> Program:
+    """M q'' + C q' = 0 about the mean: M q' = −C q, with q where the axes are parallel, y_1 = y_2 = 0."""
+    linear = linear_pair()
+    parallel = linear.basis[0, :].T * amplitude
+    rates = -linear.basis * linear.mass.LUsolve(linear.gyroscopic * parallel)
+    return Program((amplitude, a, b, G_1, G_2), (), (sp.factor(rates[1]), sp.factor(rates[4])))
+
+
+def _series() -> Program:
+    """Symbols r_n stand for the powers r_0**n, so that one function serves every order: those beyond it are put to 0."""
+    orbit, cosine = paired_series(ORDER), sp.Symbol("c", real=True)
+    powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, ORDER + 1))]
+    stages: list[Stage] = []
+
+    def sizes(of: FourierSeries, name: str) -> Iterator[tuple[int, sp.Symbol]]:
+        for (n, h), value in sorted(of.terms.items()):
+            size = sp.Symbol(f"{name}_{n}_{h}".replace("-", "s"), real=True)
+            stages.append((size, sp.factor(orbit.field.to_sympy(value)) * powers[n]))
+            yield h, size
+
+    outputs: list[sp.Expr] = []
+    for name, of, scale in (("x", orbit.x, 1), ("y", orbit.Y, sp.sqrt(shape)), ("z", orbit.z, 1)):
+        sums = [sp.Integer(0)] * (ORDER + 1)
+        for h, size in sizes(of, name):
+            # cos h Phi = T_h(c), sin h Phi = s U_(h−1)(c).
+            wave = sp.chebyshevt(h, cosine) if h >= 0 else sp.chebyshevu(-h - 1, cosine)
+            for (degree,), share in sp.Poly(wave, cosine).terms():
+                sums[degree] += share * size
+        outputs += [scale * total for total in sums]
+    frequency = sum((size for _, size in sizes(orbit.frequency, "f")), sp.Integer(0))
+    return Program((*powers[1:], shape, k), tuple(stages), (*outputs, frequency))
+
+
+def _paper() -> Program:
+    sines = amplitude - amplitude**2 * sp.cos(Phi), amplitude + amplitude**2 * sp.cos(Phi)
+    first, second = (
+        (sine * sp.cos(phi), sine * sp.sin(phi), sp.sqrt(1 - sine**2))
+        for sine, phi in zip(sines, (Phi, -Phi), strict=True)
+    )
+    return Program((amplitude, Phi), (), (*first, *second))
+
+
+def _length() -> Program:
+    first, second = sp.Matrix(AXES.q[:3]), sp.Matrix(AXES.q[3:])
+    bar = ell * JOINT_LINE + sp.Rational(repr(Rotor().length)) * (second - first)
+    return Program((*AXES.q, ell), (), (sp.sqrt(bar.dot(bar)),))
