@@ -61,13 +61,16 @@ def _call(name: str, thing: Any) -> str:
     """name(argument=default, …), types left to the docstring; a property is its name."""
     if isinstance(thing, property | cached_property):
         return name
-    parts, star = [], False
+    parts: list[str] = []
+    star = False
     for argument in inspect.signature(thing).parameters.values():
         if argument.name == "self":
             continue
         if argument.kind is argument.KEYWORD_ONLY and not star:
             parts, star = [*parts, "*"], True
-        prefix = {argument.VAR_POSITIONAL: "*", argument.VAR_KEYWORD: "**"}.get(argument.kind, "")
+        prefix = (
+            "*" if argument.kind is argument.VAR_POSITIONAL else "**" if argument.kind is argument.VAR_KEYWORD else ""
+        )
         default = "" if argument.default is argument.empty else f"={_short(argument.default)}"
         parts.append(prefix + argument.name + default)
     return f"{name}({', '.join(parts)})"
