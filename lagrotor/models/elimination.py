@@ -44,7 +44,7 @@ class _Rotor(NamedTuple):
     t: sp.Symbol
     u_v: sp.Symbol
     alpha_v: sp.Symbol
-    g: sp.Symbol
+    g: sp.Expr
     force: Pair
 
 
@@ -73,6 +73,22 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         *(FORCE if body else ()),
     )
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations))
+
+
+@lru_cache(maxsize=3)
+def observation(ratio: Ratio) -> Program:
+    """(U, chi, alpha, rates; k) → r_1, r_2, r_1', r_2', twelve numbers."""
+    stages = _Stages()
+    rotors = _rotors(stages, _curve(stages, ratio), ratio, 0)
+    axes, rates = [], []
+    for i, (r, sign) in enumerate(zip(rotors, (1, -1), strict=True), start=1):
+        turn = _ALPHA - sign * _D / 2
+        sech = stages.keep(f"s_{i}", 2 * sp.sqrt(r.e) / (r.e + 1))
+        c, s = stages.keep(f"c_{i}", sp.cos(turn)), stages.keep(f"n_{i}", sp.sin(turn))
+        along, round_ = stages.keep(f"x_{i}", sech * r.t * r.u_v), stages.keep(f"y_{i}", sech * r.alpha_v)
+        axes += [r.t, -sech * s, sech * c]
+        rates += [sech**2 * r.u_v, along * s - round_ * c, -along * c - round_ * s]
+    return Program((*MINIMAL.q, *MINIMAL.v, k), tuple(stages), (*axes, *rates))
 
 
 def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
@@ -108,7 +124,7 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
             turn, (x, y, z) = _ALPHA - sign * _D / 2, FORCE
             c, s, sech = sp.cos(turn), sp.sin(turn), 2 * sp.sqrt(e) / (e + 1)
             force = (sech * x + t * (y * s - z * c)) / a, -(y * c + z * s) / a
-        rotors.append(_Rotor(e, t, u_v, alpha_v, stages.keep(f"g_{i}", G / a), force))
+        rotors.append(_Rotor(e, t, u_v, alpha_v, G / a, force))
     return rotors
 
 

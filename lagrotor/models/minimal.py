@@ -9,16 +9,13 @@ from math import asin, atan2, atanh, cosh, hypot, sin, sinh
 from typing import Any
 
 import numpy as np
-import sympy as sp
 
 from ..errors import SingularError
 from ..numerics.codegen import Program, compile_program
 from ..numerics.rates import rate_factory
 from ..numerics.solve import Rate
-from ..rotors.lagrangians import bar_curve, mercator_axis, minimal_embedding
 from ..rotors.parameters import Scene
-from ..symbols import MERCATOR, MINIMAL, k
-from .elimination import Ratio, program
+from .elimination import Ratio, observation, program
 from .model import Array, Model, Observed, constant_momenta, python_rate
 
 
@@ -94,15 +91,7 @@ def _start(scene: Scene) -> Array:
 
 @lru_cache(maxsize=3)
 def _axes_function(ratio: Ratio) -> Any:
-    """(U, chi, alpha, rates, k) → r_1, r_2, r_1', r_2' as twelve arrays."""
-    curve = bar_curve(ratio)
-    embedding = minimal_embedding(curve.twist, curve.latitude)
-    outputs, velocities = [], []
-    for u, alpha in (MERCATOR.q[:2], MERCATOR.q[2:]):
-        r = mercator_axis(u, alpha).subs(embedding)
-        outputs += list(r)
-        velocities += list(r.jacobian(MINIMAL.q) * sp.Matrix(MINIMAL.v))
-    return compile_program(Program((*MINIMAL.q, *MINIMAL.v, k), (), (*outputs, *velocities)), "numpy")
+    return compile_program(observation(ratio), "numpy")
 
 
 def _observe(scene: Scene, states: Array) -> Observed:

@@ -9,25 +9,24 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Literal
 
 import sympy as sp
 
 from ..mechanics.fourier import FourierSeries
-from ..models import minimal
+from ..models import elimination
+from ..models.elimination import Ratio
 from ..numerics.codegen import Program, Stage, javascript
 from ..rotors import precession
 from ..rotors.closed_forms import linear_pair, natural_frequency
 from ..rotors.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from ..rotors.orbit import paired_series
-from ..rotors.parameters import Link, Rotor, Scene
+from ..rotors.parameters import Rotor
 from ..symbols import AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, J, K, M, Phi, R, a, b, ell, k, m, omega_1, omega_2
 from ..symbols import r0 as amplitude
 from ..symbols import sigma as shape
 
 ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
-Ratio = Literal["short", "equal", "long"]
-_LENGTHS: dict[Ratio, float] = {"short": 0.5, "equal": 1.0, "long": 2.0}  # a bar of each kind, R = 1 m
+_BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _HERE = Path(__file__).parent
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
@@ -65,7 +64,7 @@ def programs() -> dict[str, Program]:
     """
     found = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
     found |= {"series": _series(), "orbit": precession.program(ORDER)}
-    for ratio in _LENGTHS:
+    for ratio in _BARS:
         found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
     return found
 
@@ -82,9 +81,8 @@ def _constants() -> Program:
 
 
 def _rate(ratio: Ratio) -> Program:
-    dumbbell = Scene((1.0, -1.0), link=Link(_LENGTHS[ratio], mass=1.0))  # b ≠ 0; the program holds for b = 0 too
-    program, _ = minimal.generated(dumbbell, False)
-    return replace(program, arguments=(*MINIMAL.q, *MINIMAL.v, a, b, k, G_1, G_2))
+    massive = elimination.program(True, ratio, 0)  # holds for b = 0 too
+    return replace(massive, arguments=(*MINIMAL.q, *MINIMAL.v, a, b, k, G_1, G_2))
 
 
 def _pair_at(ratio: Ratio) -> sp.Matrix:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from lagrotor.mechanics import bias, mass_matrix
 from lagrotor.models.elimination import _curve as bar_stages
-from lagrotor.models.elimination import _Stages, program
+from lagrotor.models.elimination import _Stages, observation, program
 from lagrotor.numerics.codegen import Program, Stage, compile_program, operations, solve_symmetric
 from lagrotor.rotors.lagrangians import bar_curve, mercator_axis, mercator_lagrangian, minimal_embedding
 from lagrotor.symbols import G_1, G_2, MERCATOR, MINIMAL, a, b, k
@@ -159,3 +159,18 @@ def test_the_derivatives_are_those_of_the_bars_curve(ratio: Any, share: float) -
         float(found.W1.subs(values)) != pytest.approx(float(curve.rho.diff(chi).subs(at)), rel=1e-3)
         or abs(share) < 1e-3
     )
+
+
+@pytest.mark.parametrize("ratio", LENGTH)
+def test_what_is_seen_is_the_embedding_and_its_derivative(ratio: Any) -> None:
+    curve, draw = bar_curve(ratio), np.random.default_rng(3)
+    embedding = minimal_embedding(curve.twist, curve.latitude)
+    axes = [mercator_axis(u, alpha).subs(embedding) for u, alpha in (MERCATOR.q[:2], MERCATOR.q[2:])]
+    rates = [r.jacobian(MINIMAL.q) * sp.Matrix(MINIMAL.v) for r in axes]
+    expected = compile_program(Program((*MINIMAL.q, *MINIMAL.v, k), (), (*axes[0], *axes[1], *rates[0], *rates[1])))
+    seen = compile_program(observation(ratio))
+    for _ in range(10):
+        values = [*draw.normal(0, 0.5, 6).tolist(), *(LENGTH[ratio] or [1.0])]
+        assert seen(*values) == pytest.approx(expected(*values), rel=1e-12, abs=1e-13)
+    # Twin: the other rotor is not this one.
+    assert seen(*values)[:3] != pytest.approx(expected(*values)[3:6], rel=1e-3)
