@@ -6,16 +6,18 @@
 - opposite spins on their paired precession follow its periodic series, of the order that the tolerance asks for.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import exp, inf, pi, sqrt
+from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
 from ..errors import DomainError
+from ..mechanics.fourier import FourierSeries
 from ..rotors.closed_forms import natural_rate
 from ..rotors.orbit import paired_series, shape_of
 from ..rotors.parameters import Link, Rotor, Scene
@@ -27,6 +29,7 @@ ORDERS = (3, 5, 7, 9, 11, 13, 15)
 FURTHER = (17, 19, 21)  # a second to derive: only where this model is asked for by name
 FARTHEST_APART = 1e-6  # of two axes that count as parallel
 LARGEST = 0.5  # amplitude beyond which the series is of no use
+_DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 _ROUND = 4e-16  # relative, of an angle
 # What exchanging the rotors, half a period later, does to an axis.
 _MIRRORS = np.array([[[1.0, 1.0, 1.0]], [[-1.0, 1.0, 1.0]]])
@@ -140,15 +143,19 @@ def _twice(vector: Array) -> Array:
 
 @lru_cache(maxsize=64)
 def _coefficients(order: int, shape: sp.Rational, ratio: sp.Rational) -> tuple[Waves, Array]:
-    """The series of r_1, c[n, h, i] of r0**n exp(i h Phi) (real part meant), and of Omega/Omega_0, f[n]."""
-    series = paired_series(order, shape, ratio)
+    """The series of r_1, c[n, h, i] of r0**n exp(i h Phi) (real part meant), and of Omega/Omega_0, f[n]; n to `order`."""
+    series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
     waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
     for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
-        for (n, h), value in part.terms.items():
+        for (n, h), value in _through(part, order):
             waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
-    for (n, _), value in series.frequency.terms.items():
+    for (n, _), value in _through(series.frequency, order):
         frequency[n] = float(value)
     return waves, frequency
+
+
+def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int], Any]]:
+    return ((term, value) for term, value in series.terms.items() if term[0] <= order)
 
 
 def _summed(powers: Array, waves: Waves) -> Waves:

@@ -265,7 +265,7 @@ def adams(stretch: Stretch, error: float) -> Run:
     """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it."""
     asked, right, y, t = stretch.asked, stretch.right, stretch.start, stretch.left
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
-    h = min((right - t) / q, stretch.longest, min(limit ** (1 / q) / 10, 0.05) / (stretch.pace + 1e-300))
+    h = min((right - t) / q, stretch.longest, min(limit ** (1 / q) / 5, 0.05) / (stretch.pace + 1e-300))
     found, done, spent, end = np.empty((len(asked), len(y))), 0, 1, y
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), 10_000)

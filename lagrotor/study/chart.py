@@ -1,84 +1,47 @@
 """Speed against accuracy: every rung, solver and tolerance on the same scenes, held to the same reference."""
 
-import time
+import warnings
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from itertools import product
-from statistics import median
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, LagrotorError
-from ..models import minimal
-from ..models.simulate import problem_of, simulate
-from ..numerics.engines import Stretch, adams, dop853
+from ..models.simulate import simulate
+from ..models.spring_run import paper_system, run_steps
 from ..rotors.closed_forms import natural_rate
 from ..rotors.consistent import paired_scene
-from ..rotors.parameters import Scene
-from ..rotors.scenes import HEAVY, SCENES
+from ..rotors.parameters import Link, Scene
+from ..rotors.scenes import DAMPING, HEAVY, SCENES, STIFFNESS
+from .candidates import CANDIDATES
+from .measure import PATIENCE, TOLERANCES, Chart, Course, Failure, chart, seconds_at
+from .method import Method, Prepare, Run
 from .peers import PEERS
-from .reference import reference
+from .solvers import ENGINES, TRAPS
 
 Array = NDArray[np.float64]
-Method = Callable[[float], tuple[Array, int]]
-Prepare = Callable[[Scene, Array], Method]
 
-AMPLITUDE = 0.204
-TOLERANCES = tuple(10.0**-n for n in range(3, 14))
-
-
-@dataclass(frozen=True)
-class Point:
-    """One method at one tolerance: largest error of a tip (m; the reference's floor where it is below), evaluations,
-    median seconds a run."""
-
-    method: str
-    tol: float
-    error: float
-    evaluations: int
-    seconds: float
-
-
-@dataclass(frozen=True)
-class Chart:
-    """A scene's points; what failed or is absent, and why; seconds before each method's first result; the floor (m)."""
-
-    scene: str
-    says: str
-    points: tuple[Point, ...]
-    failures: dict[str, str]
-    setup: dict[str, float]
-    floor: float
-
-
-@dataclass(frozen=True)
-class Course:
-    """A scene to run, its times (s), how often each run is repeated, and a sentence."""
-
-    scene: Scene
-    times: Array
-    repeats: int
-    says: str
+AMPLITUDE, ORDER = 0.204, 21  # the start lies on the periodic orbit to 1e-12
+QUICK_PATIENCE = 0.2
 
 
 def courses(quick: bool = False) -> dict[str, Course]:
     """The four scenes; quick: fewer repeats, and 100 turns for 1,000."""
-    opposite = paired_scene(Scene((10, -10)), AMPLITUDE)
-    ten, repeats, turns = np.linspace(0, 10, 1001), 2 if quick else 3, 100 if quick else 1000
+    opposite, heavy = (paired_scene(Scene((10, -10), link=bar), AMPLITUDE, ORDER) for bar in (Link(), HEAVY))
+    ten, repeats, turns = np.linspace(0, 10, 1001), 1 if quick else 2, 100 if quick else 1000
     period = 2 * np.pi / natural_rate(opposite)
     shocked = SCENES["free-precession"].scene
     return {
         "displaced": Course(opposite, ten, repeats, f"paired precession, r0 = {AMPLITUDE}, 10 s"),
         "shock": Course(shocked, ten, repeats, "shock of 5.2.1 on a light bar, 10 s"),
-        "heavy": Course(paired_scene(Scene((10, -10), link=HEAVY), AMPLITUDE), ten, repeats, "bar of 1 kg, 10 s"),
+        "heavy": Course(heavy, ten, repeats, "bar of 1 kg, 10 s"),
         "long": Course(opposite, np.linspace(0, turns * period, 1001), 1, f"paired precession, {turns:,} turns"),
     }
 
 
 def _rung(model: str, engine: str = "core") -> Prepare:
-    def prepare(scene: Scene, times: Array) -> Method:
+    def prepare(scene: Scene, times: Array) -> Run:
         def run(tol: float) -> tuple[Array, int]:
             found = simulate(scene, times, model, tol, engine)
             return found.tips, found.evaluations
@@ -88,134 +51,91 @@ def _rung(model: str, engine: str = "core") -> Prepare:
     return prepare
 
 
-def _solver(engine: Callable[[Stretch, float], Any]) -> Prepare:
-    def prepare(scene: Scene, times: Array) -> Method:
-        problem = problem_of(minimal.MODEL, scene, float(times[-1]))
-        if problem.driven is not None:
-            raise InputError("takes no pulse")
-        stretch = Stretch(problem.free, problem.start, 0.0, float(times[-1]), times)
+def _springs(stiffer: float) -> Prepare:
+    """The paper's own method, its springs `stiffer` times as stiff at the same ratio of damping."""
 
-        def run(tol: float) -> tuple[Array, int]:
-            found = engine(stretch, tol)
-            axes = minimal.MODEL.observe(scene, found.states).axes
-            return _tips(scene, axes), found.evaluations
+    def prepare(scene: Scene, times: Array) -> Run:
+        system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
+
+        def run(step: float) -> tuple[Array, int]:
+            found = run_steps(system, scene.shock, times, step)
+            return found.tips, found.evaluations
 
         return run
 
     return prepare
 
 
-def _tips(scene: Scene, axes: Array) -> Array:
-    half = (scene.link.length if scene.link else scene.rotor.length) / 2
-    return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
-
-
-METHODS: dict[str, Prepare] = {
-    "closed form": _rung("closed_form"),
-    "normal modes": _rung("linear"),
-    "minimal": _rung("minimal"),
-    "spheres": _rung("spheres"),
-    "euler": _rung("euler"),
-    "minimal, DOP853": _solver(dop853),
-    "minimal, Adams 12": _solver(adams),
-    "minimal, fast": _rung("minimal", "fast"),
-    "spheres, fast": _rung("spheres", "fast"),
+METHODS: dict[str, Method] = {
+    "closed form": Method("closed", _rung("closed_form")),
+    "normal modes": Method("closed", _rung("linear")),
+    "minimal": Method("core", _rung("minimal")),
+    "spheres": Method("core", _rung("spheres")),
+    "euler": Method("core", _rung("euler")),
+    **ENGINES,
+    "minimal, fast": Method("fast", _rung("minimal", "fast")),
+    "spheres, fast": Method("fast", _rung("spheres", "fast")),
+    "springs of the paper": Method("springs", _springs(1), (2e-3, 1e-3, 5e-4)),
+    "springs, 100 times as stiff": Method("springs", _springs(100), (2e-4, 1e-4)),
 }
 
 
-def chart(name: str, course: Course, methods: dict[str, Prepare], tolerances: Iterable[float] = TOLERANCES) -> Chart:
-    """Run every method at every tolerance, all of them once before any of them again; medians of the seconds."""
-    truth = reference(course.scene, course.times)
-    failures, setup, ready = {}, {}, {}
-    tolerances = tuple(tolerances)
-    for method, prepare in methods.items():
-        began = time.perf_counter()
-        try:
-            run = prepare(course.scene, course.times)
-            run(tolerances[0])
-            ready[method] = run
-            setup[method] = time.perf_counter() - began
-        except ImportError as absent:
-            failures[method] = f"not installed ({absent.name}): pip install 'lagrotor[peers]'"
-        except LagrotorError as refusal:
-            failures[method] = str(refusal)
-    errors: dict[tuple[str, float], tuple[float, int]] = {}
-    seconds: dict[tuple[str, float], list[float]] = {}
-    for turn, tol, method in product(range(course.repeats + 1), tolerances, ready):
-        key = method, tol
-        if turn and key not in errors:
-            continue
-        began = time.perf_counter()
-        try:
-            tips, evaluations = ready[method](tol)
-        except (LagrotorError, RuntimeError, ValueError) as refusal:
-            failures[f"{method}, tol {tol:g}"] = str(refusal).split("\n")[0]
-            continue
-        spent = time.perf_counter() - began
-        if turn == 0:  # warms up and compiles; counted only where there is no second run
-            error = max(float(np.linalg.norm(tips - truth.tips, axis=-1).max()), truth.floor)
-            if not np.isfinite(error):
-                failures[f"{method}, tol {tol:g}"] = "a value is not finite"
-                continue
-            errors[key] = error, evaluations
-        else:
-            seconds.setdefault(key, []).append(spent)
-    points = (Point(m, tol, *errors[m, tol], median(seconds[m, tol])) for m, tol in errors if (m, tol) in seconds)
-    return Chart(name, course.says, tuple(points), failures, setup, truth.floor)
-
-
-# What is left out for its time: long set-ups when in a hurry, DOP853 in Python over a thousand turns.
-_SLOW: dict[str, set[str]] = {
-    "quick": {"spheres, fast", "PyDy, lambdify"},
-    "displaced": set(),
-    "shock": set(),
-    "heavy": set(),
-    "long": {"minimal, DOP853"},
+# What is left out, in a hurry and of single scenes, and why; listed with what failed.
+_ELSEWHERE = "takes seconds a run; see the displaced pair"
+_SLOW = {
+    "quick": {
+        "minimal, CyRK": "compiles for six seconds",
+        "minimal, numba": "slower than minimal, CyRK",
+        "PyDy, lambdify": "slower than PyDy, Cython",
+        "Drake, SAP": "gives no digit in less than a second",
+        "Drake, multipliers": "slower than Pinocchio, which is as exact",
+        "euler": "slower than minimal, which goes as far",
+        "springs, 100 times as stiff": "takes two seconds a run",
+    }
+    | {name: "slower than minimal" for name, given in ENGINES.items() if given.family == "scipy"},
+    "heavy": dict.fromkeys(("solve_ivp, Radau", "solve_ivp, BDF"), _ELSEWHERE),
+    "long": dict.fromkeys(
+        (
+            "minimal, DOP853",
+            "solve_ivp, RK45",
+            "solve_ivp, Radau",
+            "solve_ivp, BDF",
+            "ode, DOP853",
+            "ode, Dormand–Prince 5",
+        ),
+        _ELSEWHERE,
+    ),
 }
 
 
 def charts(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Chart]:
-    """All four charts, the peers on the displaced scene."""
-    tolerances = TOLERANCES[::4] + TOLERANCES[-1:] if quick else TOLERANCES
+    """All four charts: candidates and peers on the displaced scene, the plain calls on the shock."""
+    patience = QUICK_PATIENCE if quick else PATIENCE
     found = []
     for name, course in courses(quick).items():
         step(name)
-        left_out = _SLOW[name] | (_SLOW["quick"] if quick else set())
-        offered = METHODS | PEERS if name == "displaced" else METHODS
-        methods = {method: prepare for method, prepare in offered.items() if method not in left_out}
-        found.append(chart(name, course, methods, tolerances[::2] if name == "long" and not quick else tolerances))
+        methods = METHODS | {"displaced": CANDIDATES | PEERS, "shock": TRAPS}.get(name, {})
+        slow = _SLOW.get(name, {}) | (_SLOW["quick"] if quick else {})
+        left_out = {method: why for method, why in slow.items() if method in methods}
+        asked = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
+        with warnings.catch_warnings():  # what a solver warns of, it fails of, or its error shows
+            warnings.simplefilter("ignore")
+            one = chart(name, course, {m: g for m, g in methods.items() if m not in left_out}, asked, patience)
+        omitted = tuple(Failure(method, (), f"left out: {why}") for method, why in left_out.items())
+        found.append(replace(one, failures=one.failures + omitted))
     return found
 
 
-def front(points: Iterable[Point], work: str = "seconds") -> list[Point]:
-    """The points that no other beats both in error and in work, from the cheapest to the most exact."""
-    kept: list[Point] = []
-    for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):
-        if not kept or point.error < kept[-1].error:
-            kept.append(point)
-    return kept
-
-
-def seconds_at(points: Iterable[Point], error: float) -> float | None:
-    """Seconds for an error (m), between the neighbours of the front on logarithmic scales; None where none reaches it."""
-    best = front(points)
-    if not best or best[-1].error > error:
-        return None
-    errors, spent = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", "seconds"))
-    return float(np.exp(np.interp(np.log(error), errors, spent)))
-
-
 def ratios(found: Chart, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of the core's and the fast extra's best integration, and each peer's best as a multiple of them."""
-    core = [p for p in found.points if p.method.startswith(("minimal", "spheres", "euler")) and "fast" not in p.method]
-    fast = [p for p in found.points if p.method.endswith(", fast")]
-    others = {name: [p for p in found.points if p.method == name] for name in (*PEERS, "closed form")}
+    """Error → seconds of the core's and the fast extra's best integration, and the best of others as multiples of them."""
+    core, fast = ([p for p in found.points if p.family == family] for family in ("core", "fast"))
+    others = ["closed form", *CANDIDATES, *PEERS]
     table: dict[str, dict[str, Any]] = {}
     for error in errors:
         ours, extra = seconds_at(core, error), seconds_at(fast, error)
         row: dict[str, Any] = {"core": ours, "fast": extra}
-        for name, points in others.items():
-            theirs = seconds_at(points, error)
+        for name in others:
+            theirs = seconds_at([p for p in found.points if p.method == name], error)
             row[f"{name} / core"] = theirs / ours if theirs and ours else None
             row[f"{name} / fast"] = theirs / extra if theirs and extra else None
         row["core / fast"] = ours / extra if ours and extra else None

@@ -14,6 +14,7 @@ import numpy as np
 from lagrotor import Scene, paired_scene
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.study.chart import AMPLITUDE, ORDER
 
 TARGET = Path(__file__).with_name("reference.json")
 COLUMNS, STEPS_A_SECOND = 13, 20
@@ -50,7 +51,7 @@ def states(module: Any, scene: Scene, seconds: int) -> list[list[Any]]:
 
 def renew() -> None:
     mp.mp.dps = 30
-    scene = paired_scene(Scene((10, -10)), 0.204)
+    scene = paired_scene(Scene((10, -10)), AMPLITUDE, ORDER)
     one = states(minimal, scene, 10)
     axes = minimal.MODEL.observe(scene, np.array(one, dtype=float)).axes
     other = np.array(states(spheres, scene, 10), dtype=float)

@@ -1,4 +1,4 @@
-"""The chart: its reference, its bookkeeping, its error ceilings, and the traps it must not fall into. No times."""
+"""The chart: its reference, its error ceilings, its bookkeeping and its figure. No times."""
 
 import json
 from dataclasses import replace
@@ -7,14 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from lagrotor import Scene, Shock, consistent_scene, simulate
-from lagrotor.errors import InputError, LagrotorError
-from lagrotor.models import minimal, spheres
-from lagrotor.report.chart_command import as_data, draw, in_words
+from lagrotor import Scene, simulate
+from lagrotor.errors import InputError
+from lagrotor.report.chart_command import draw
 from lagrotor.report.command_line import main
-from lagrotor.study.chart import METHODS, Course, Point, chart, courses, front, ratios, seconds_at
+from lagrotor.report.style import paper_style
+from lagrotor.study import chart as module
+from lagrotor.study.chart import METHODS, courses, ratios
+from lagrotor.study.measure import TOLERANCES, Course, Failure, Point, chart
 from lagrotor.study.reference import reference
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())
@@ -75,98 +76,99 @@ def test_an_error_that_is_asked_for_less_gets_smaller_down_to_the_floor() -> Non
     assert found[0] / found[-1] > 1e9
 
 
-# Traps.
-
-
-@pytest.mark.parametrize("method", ["RK45", "RK23", "Radau", "BDF", "LSODA"])
-def test_a_solver_called_once_over_the_run_does_not_see_the_shock(method: str) -> None:
-    scene = Scene((10, -10), shock=Shock((40, -11, 0), at=5.0, width=1 / 200))
-    rate, start = minimal.MODEL.rate(scene, True), minimal.MODEL.start(scene)
-    naive = solve_ivp(lambda t, y: rate(t - 5.0, y), (0, 10), start, method=method)
-    assert np.abs(naive.y[:, -1]).max() < 1e-12
-    assert np.abs(simulate(scene, [10.0], "minimal", 1e-3).axes[:, 0, :2]).max() > 1e-3
-
-
-def test_generated_functions_do_not_reuse_their_output() -> None:
-    for model in (minimal, spheres):
-        rate, y = model.MODEL.rate(displaced(), False), model.MODEL.start(displaced())
-        first = rate(0.0, y)
-        kept = list(first)
-        second = rate(0.0, y * 1.01)
-        assert first is not second
-        assert first == kept
-        assert second != kept
-
-
-def test_a_start_without_its_velocity_of_second_order_drifts() -> None:
-    """The linear orbit has y_1' = −y_2' here; what is missing is of second order in r_0, and turns the pair away."""
-    scene = displaced()
-    across = (scene.rates[0][1] - scene.rates[1][1]) / 2
-    plain = consistent_scene(scene.spins, scene.axes, ((0, across, 0), (0, -across, 0)))
-    times = np.linspace(0, 60, 1201)
-    away = [abs(simulate(s, times, "minimal", 1e-9).axes[:, -400:, 1].mean()) for s in (scene, plain)]
-    assert abs(scene.rates[0][1] - across) < 0.204**2 * 8
-    assert away[0] < 0.01
-    assert away[1] > 10 * away[0]
-
-
-# The chart's own bookkeeping.
+# What is offered, and its ratios.
 
 
 def small() -> Course:
     return Course(displaced(), np.linspace(0, 1, 11), 1, "one second")
 
 
-def broken(scene: Scene, times: Any) -> Any:
-    raise LagrotorError("does not do this")
+def test_springs_end_at_their_finite_stiffness_and_refuse_a_bar_without_mass() -> None:
+    heavy = replace(courses(quick=True)["heavy"], times=np.linspace(0, 1, 11), repeats=0)
+    named = [name for name, method in METHODS.items() if method.family == "springs"]
+    found = chart("heavy", heavy, {name: METHODS[name] for name in named}, patience=np.inf)
+    worst = [max(p.error for p in found.points if p.method == name) for name in named]
+    best = [min(p.error for p in found.points if p.method == name) for name in named]
+    assert not found.failures
+    assert worst[0] < 3 * best[0]  # a finer step does not help: the springs give
+    assert best[1] < best[0] / 10
+    refused = chart("small", small(), {named[0]: METHODS[named[0]]})
+    assert "mass 0 kg" in refused.failures[0].reason and refused.failures[0].knobs == ()
 
 
-def absent(scene: Scene, times: Any) -> Any:
-    raise ImportError("no module", name="pydy")
+def test_what_is_left_out_is_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = small()
+    monkeypatch.setattr(module, "courses", lambda quick: {"displaced": one})
+    monkeypatch.setattr(module, "PEERS", {})
+    monkeypatch.setattr(module, "CANDIDATES", {})
+    monkeypatch.setattr(module, "METHODS", {name: METHODS[name] for name in ("minimal", "euler")})
+    (quick,), (full,) = module.charts(quick=True), module.charts()
+    assert [str(f) for f in quick.failures] == ["euler: left out: slower than minimal, which goes as far"]
+    assert not full.failures
+    assert {p.knob for p in quick.points} == {1e-3, 1e-8, 1e-13}
+    assert {p.knob for p in full.points} == set(TOLERANCES)
 
 
-def halfway(scene: Scene, times: Any) -> Any:
-    def run(tol: float) -> Any:
-        if tol < 1e-4:
-            raise RuntimeError("too tight")
-        return np.zeros((2, len(times), 3)), 1
-
-    return run
+@pytest.mark.parametrize("group", module._SLOW)
+def test_only_what_is_offered_is_left_out(group: str) -> None:
+    assert set(module._SLOW[group]) <= set(METHODS) | set(module.CANDIDATES) | set(module.PEERS)
 
 
-def test_what_fails_is_listed_and_what_is_absent_is_said() -> None:
-    methods = {"minimal": METHODS["minimal"], "broken": broken, "absent": absent, "halfway": halfway}
-    found = chart("small", small(), methods, (1e-3, 1e-6))
-    assert {(p.method, p.tol) for p in found.points} == {("minimal", 1e-3), ("minimal", 1e-6), ("halfway", 1e-3)}
-    assert found.failures["broken"] == "does not do this"
-    assert "lagrotor[peers]" in found.failures["absent"]
-    assert found.failures["halfway, tol 1e-06"] == "too tight"
-    assert set(found.setup) == {"minimal", "halfway"}
-    assert min(p.error for p in found.points) >= found.floor
-    words = in_words([found])
-    assert "not there: broken: does not do this" in words
-    assert json.loads(json.dumps(as_data([found])))["charts"][0]["scene"] == "small"
-    assert len(draw(found).axes) == 2
-
-
-def test_the_front_keeps_what_nothing_beats() -> None:
-    points = [Point("a", 1, e, n, s) for e, n, s in ((1, 10, 1), (0.1, 5, 2), (0.2, 7, 3), (0.01, 20, 4), (2, 9, 9))]
-    assert [p.error for p in front(points)] == [1, 0.1, 0.01]
-    assert [p.error for p in front(points, "evaluations")] == [0.1, 0.01]
-    assert seconds_at(points, 0.1) == pytest.approx(2)
-    assert seconds_at(points, 0.1 / 10**0.5) == pytest.approx(8**0.5)
-    assert seconds_at(points, 1e-3) is None
-    assert seconds_at([], 1) is None
+def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
+    return Point(name, family, 1, error, evaluations, seconds, seconds)
 
 
 def test_ratios_compare_at_equal_error() -> None:
-    points = [Point("minimal", 1, 1e-6, 1, 0.01), Point("minimal, fast", 1, 1e-6, 1, 0.001)]
-    points += [Point("PyDy, Cython", 1, 1e-5, 1, 0.1), Point("PyDy, Cython", 1, 1e-7, 1, 0.4)]
+    points = [point("minimal", 1e-6, 1, 0.01), point("minimal, fast", 1e-6, 1, 0.001, "fast")]
+    points += [point("PyDy, Cython", 1e-5, 1, 0.1, "peer"), point("PyDy, Cython", 1e-7, 1, 0.4, "peer")]
     found = replace(chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,)), points=tuple(points))
     row = ratios(found, [1e-6])["1e-06"]
     assert row["PyDy, Cython / core"] == pytest.approx(20)
     assert row["core / fast"] == pytest.approx(10)
     assert row["CasADi CVODES / core"] is None
+
+
+# The figure.
+
+
+def test_the_figure_tells_families_apart_and_clips_no_failure() -> None:
+    methods = {"minimal": METHODS["minimal"], "solve_ivp, RK45": METHODS["solve_ivp, RK45"]}
+    found = chart("small", small(), methods, (1e-3, 1e-6))
+    reason = "a reason that goes on " * 60
+    trap = replace(found.points[0], method="trap", family="trap")
+    found = replace(found, points=(*found.points, trap), setup=found.setup | {"trap": 0.5})
+    found = replace(found, failures=(Failure("long", (1e-3,), reason), Failure("none", (), "short")))
+    with paper_style():
+        figure = draw(found)
+        figure.draw_without_rendering()
+    left, right = figure.axes
+    lines = {line.get_label().split("  ")[-1]: line for line in left.get_lines()}
+    assert {"minimal", "solve_ivp, RK45", "trap (0.5 s)", "front"} <= set(lines)
+    colours = [lines[name].get_color() for name in ("minimal", "solve_ivp, RK45", "trap (0.5 s)")]
+    assert len(set(colours)) == 3
+    assert len(right.get_lines()) == len(left.get_lines())
+    said = figure._supxlabel
+    assert "".join(said.get_text().split()).count("areasonthatgoeson") == 60
+    box, page = said.get_window_extent(), figure.bbox
+    assert box.x0 >= page.x0 and box.x1 <= page.x1 and box.y0 >= page.y0
+    assert box.y1 < min(axes.get_tightbbox().y0 for axes in figure.axes)
+    (legend,) = figure.legends
+    assert legend.get_window_extent().x0 >= right.get_window_extent().x1
+    assert legend.get_window_extent().x1 <= page.x1
+    assert figure._suptitle.get_window_extent().x1 < legend.get_window_extent().x0
+
+
+def test_the_command_writes_pictures_and_numbers(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    made = chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,))
+    monkeypatch.setattr(module, "charts", lambda quick, step: [made])
+    assert main(["chart", "--quick", "--json", "--out", str(tmp_path)]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["chart-small.png", "chart-small.svg", "chart.json"]
+    data = json.loads(capsys.readouterr().out)
+    assert data == json.loads((tmp_path / "chart.json").read_text())
+    (kept,) = data["charts"][0]["points"]
+    assert kept["method"] == "minimal" and kept["family"] == "core" and kept["knob"] == 1e-3
 
 
 def test_the_command_refuses_a_folder_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,26 +1,16 @@
-"""Other tools on the same pair, each set up as its own documentation would have it; skipped with a word when absent.
+"""sympy.physics.mechanics and PyDy on the pair: two bodies turned about x, y and their axis, one bar between the tips."""
 
-Each takes a scene without shock or bar's mass and times, and gives run(tol) → tips (2, n, 3) and evaluations.
-"""
-
-from collections.abc import Callable
 from math import asin, atan2, cos, sin
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models import minimal
-from ..rotors.parameters import Scene
+from ...errors import IntegrationError
+from ...rotors.parameters import Scene
+from ..method import Method, Prepare, Run, tips
 
 Array = NDArray[np.float64]
-Method = Callable[[float], tuple[Array, int]]
-Peer = Callable[[Scene, Array], Method]
-
-
-def _tips(scene: Scene, axes: Array) -> Array:
-    half = (scene.link.length if scene.link else scene.rotor.length) / 2
-    return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
 
 
 def _bodies(scene: Scene, mass: Any) -> dict[str, Any]:
@@ -31,7 +21,7 @@ def _bodies(scene: Scene, mass: Any) -> dict[str, Any]:
     q, u = me.dynamicsymbols("q:6"), me.dynamicsymbols("u:6")
     ground, origin = me.ReferenceFrame("N"), me.Point("O")
     origin.set_vel(ground, 0)
-    R, rotor, bodies, tips = scene.rotor.length, scene.rotor, [], []
+    R, rotor, bodies, ends = scene.rotor.length, scene.rotor, [], []
     for i, side in enumerate((-1, 1)):
         frame = ground.orientnew(f"B{i}", "Body", q[3 * i : 3 * i + 3], "XYZ")
         joint = origin.locatenew(f"J{i}", side * scene.link.length / 2 * ground.x)
@@ -40,13 +30,13 @@ def _bodies(scene: Scene, mass: Any) -> dict[str, Any]:
         centre.v2pt_theory(joint, ground, frame)
         inertia = me.inertia(frame, rotor.I1, rotor.I1, rotor.I3)
         bodies.append(me.RigidBody(f"rotor{i}", centre, frame, mass, (inertia, centre)))
-        tips.append(tip)
-    apart = tips[1].pos_from(tips[0])
+        ends.append(tip)
+    apart = ends[1].pos_from(ends[0])
     bar = (apart.dot(apart) - scene.link.length**2) / 2
     return {"q": q, "u": u, "N": ground, "bodies": bodies, "bar": bar, "me": me}
 
 
-def _angles(scene: Scene) -> list[float]:
+def angles(scene: Scene) -> list[float]:
     """The bodies' angles and their rates at the start: r = (sin b, −sin a cos b, cos a cos b), spin c' + a' sin b."""
     places, rates = [], []
     for r, v, spin in zip(scene.axes, scene.rates, scene.spins, strict=True):
@@ -57,12 +47,19 @@ def _angles(scene: Scene) -> list[float]:
     return places + rates
 
 
-def _axes(states: Array) -> Array:
+def axes_of(states: Array) -> Array:
+    """Axes (2, n, 3) of states (n, 12) whose first six are these angles."""
     a, b = states[:, [0, 3]].T, states[:, [1, 4]].T
     return np.stack([np.sin(b), -np.sin(a) * np.cos(b), np.cos(a) * np.cos(b)], axis=-1)
 
 
-def lagranges_method(scene: Scene, times: Array) -> Method:
+def check_odeint(log: dict[str, Any]) -> None:
+    """Raise IntegrationError where odeint says that it stopped: it hands on what it has all the same."""
+    if log["message"] != "Integration successful.":
+        raise IntegrationError(log["message"])
+
+
+def lagranges_method(scene: Scene, times: Array) -> Run:
     """sympy.physics.mechanics: LagrangesMethod with a multiplier, lambdify with cse, numpy.linalg.solve, odeint."""
     import sympy as sp
     from scipy.integrate import odeint
@@ -77,7 +74,7 @@ def lagranges_method(scene: Scene, times: Array) -> Method:
     by_name = dict(zip([s.diff(t) for s in q], named[6:], strict=True)) | dict(zip(q, named[:6], strict=True))
     full = [m.xreplace(by_name) for m in (method.mass_matrix_full, method.forcing_full)]
     function = sp.lambdify([named], full, "numpy", cse=True)
-    start, calls = _angles(scene), 0
+    start, calls = angles(scene), 0
 
     def rate(t: float, y: Array) -> Array:
         nonlocal calls
@@ -88,14 +85,15 @@ def lagranges_method(scene: Scene, times: Array) -> Method:
     def run(tol: float) -> tuple[Array, int]:
         nonlocal calls
         calls = 0
-        states = odeint(rate, start, times, tfirst=True, rtol=tol, atol=tol)
-        return _tips(scene, _axes(states)), calls
+        states, log = odeint(rate, start, times, tfirst=True, rtol=tol, atol=tol, full_output=True)
+        check_odeint(log)
+        return tips(scene, axes_of(states)), calls
 
     return run
 
 
-def _pydy(generator: str) -> Peer:
-    def prepare(scene: Scene, times: Array) -> Method:
+def _pydy(generator: str) -> Prepare:
+    def prepare(scene: Scene, times: Array) -> Run:
         import sympy as sp
         from pydy.system import System
 
@@ -122,63 +120,23 @@ def _pydy(generator: str) -> Peer:
         kane.kanes_equations(made["bodies"], [])
         values = {mass: scene.rotor.mass}
         system = System(
-            kane, constants=values, times=times, initial_conditions=dict(zip([*q, *u], _angles(scene), strict=True))
+            kane, constants=values, times=times, initial_conditions=dict(zip([*q, *u], angles(scene), strict=True))
         )
         system.generate_ode_function(generator=generator, linear_sys_solver="numpy")
         order = [list(map(sp.sympify, system.states)).index(s) for s in [*q, *u]]
 
         def run(tol: float) -> tuple[Array, int]:
             states, log = system.integrate(rtol=tol, atol=tol, full_output=True)
-            return _tips(scene, _axes(states[:, order])), int(log["nfe"][-1])
+            check_odeint(log)
+            return tips(scene, axes_of(states[:, order])), int(log["nfe"][-1])
 
         return run
 
     return prepare
 
 
-def casadi_cvodes(scene: Scene, times: Array) -> Method:
-    """CasADi: CVODES on our own minimal right-hand side in its expressions."""
-    import casadi
-    import sympy as sp
-
-    from ..numerics.codegen import reduce_common
-
-    program, parameters = minimal.generated(scene, False)
-    stages, outputs = reduce_common(program)
-    function = sp.lambdify(program.arguments, outputs, modules=[casadi], cse=lambda _: (stages, outputs))
-    y = casadi.SX.sym("y", 6)
-    ode = casadi.vertcat(*function(*casadi.vertsplit(y), *parameters))
-    start = minimal.MODEL.start(scene)
-
-    def run(tol: float) -> tuple[Array, int]:
-        options = {"reltol": tol, "abstol": tol, "max_num_steps": 1_000_000}
-        solver = casadi.integrator("run", "cvodes", {"x": y, "ode": ode}, 0.0, list(times), options)
-        states = np.array(solver(x0=start)["xf"]).T
-        return _tips(scene, minimal.MODEL.observe(scene, states).axes), int(solver.stats().get("nfevals", 0))
-
-    return run
-
-
-def sundae(scene: Scene, times: Array) -> Method:
-    """scikit-sundae: CVODE's Adams methods on our own minimal right-hand side in Python."""
-    from sksundae.cvode import CVODE
-
-    rate, start = minimal.MODEL.rate(scene, False), minimal.MODEL.start(scene)
-
-    def fill(t: float, y: Array, out: Array) -> None:
-        out[:] = rate(t, y)
-
-    def run(tol: float) -> tuple[Array, int]:
-        solution = CVODE(fill, rtol=tol, atol=tol, method="Adams", max_num_steps=1_000_000).solve(times, start)
-        return _tips(scene, minimal.MODEL.observe(scene, solution.y).axes), int(solution.nfev)
-
-    return run
-
-
-PEERS: dict[str, Peer] = {
-    "LagrangesMethod": lagranges_method,
-    "PyDy, lambdify": _pydy("lambdify"),
-    "PyDy, Cython": _pydy("cython"),
-    "CasADi CVODES": casadi_cvodes,
-    "scikit-sundae": sundae,
+SYMPY: dict[str, Method] = {
+    "LagrangesMethod": Method("peer", lagranges_method, extra="peers"),
+    "PyDy, lambdify": Method("peer", _pydy("lambdify"), extra="peers"),
+    "PyDy, Cython": Method("peer", _pydy("cython"), extra="peers"),
 }

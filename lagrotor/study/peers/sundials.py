@@ -1,0 +1,56 @@
+"""SUNDIALS called from Python: its CVODE on our own minimal right-hand side, by CasADi and by scikit-sundae."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...models import minimal
+from ...numerics.codegen import reduce_common
+from ...rotors.parameters import Scene
+from ..method import Method, Run, tips
+
+Array = NDArray[np.float64]
+
+
+def casadi_cvodes(scene: Scene, times: Array) -> Run:
+    """CasADi: CVODES on our own minimal right-hand side in its expressions."""
+    import casadi
+    import sympy as sp
+
+    program, parameters = minimal.generated(scene, False)
+    stages, outputs = reduce_common(program)
+    function = sp.lambdify(program.arguments, outputs, modules=[casadi], cse=lambda _: (stages, outputs))
+    y = casadi.SX.sym("y", 6)
+    ode = casadi.vertcat(*function(*casadi.vertsplit(y), *parameters))
+    start = minimal.MODEL.start(scene)
+
+    def run(tol: float) -> tuple[Array, int]:
+        options: dict[str, Any] = {"reltol": tol, "abstol": tol, "max_num_steps": 1_000_000}
+        solver = casadi.integrator("run", "cvodes", {"x": y, "ode": ode}, 0.0, list(times), options)
+        states = np.array(solver(x0=start)["xf"]).T
+        return tips(scene, minimal.MODEL.observe(scene, states).axes), int(solver.stats().get("nfevals", 0))
+
+    return run
+
+
+def sundae(scene: Scene, times: Array) -> Run:
+    """scikit-sundae: CVODE's Adams methods on our own minimal right-hand side in Python."""
+    from sksundae.cvode import CVODE
+
+    rate, start = minimal.MODEL.rate(scene, False), minimal.MODEL.start(scene)
+
+    def fill(t: float, y: Array, out: Array) -> None:
+        out[:] = rate(t, y)
+
+    def run(tol: float) -> tuple[Array, int]:
+        solution = CVODE(fill, rtol=tol, atol=tol, method="Adams", max_num_steps=1_000_000).solve(times, start)
+        return tips(scene, minimal.MODEL.observe(scene, solution.y).axes), int(solution.nfev)
+
+    return run
+
+
+SUNDIALS: dict[str, Method] = {
+    "CasADi CVODES": Method("peer", casadi_cvodes, extra="peers"),
+    "scikit-sundae": Method("peer", sundae, extra="peers"),
+}
