@@ -56,7 +56,7 @@ def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
     return Observed(axes, rates, constant_momenta(scene, len(t)))
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=64)
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> Answer:
     """The closed form that holds the scene up to t_end (s); a series through the order that `tol` asks for, at most 15.
 

@@ -7,6 +7,7 @@ from math import exp
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.engines import LOST
 from ..numerics.solve import Projection, Rate
 from ..rotors.parameters import Scene
 
@@ -49,7 +50,7 @@ def python_rate(
         def rate(s: float, y: Array) -> list[float]:
             try:
                 return function(*y.tolist(), *parameters)
-            except (ValueError, ZeroDivisionError, OverflowError):
+            except LOST:
                 return lost * len(y)
 
         return rate
@@ -61,7 +62,7 @@ def python_rate(
         pulse = exp(-((s / width) ** 2))
         try:
             return function(*y.tolist(), *parameters, fx * pulse, fy * pulse, fz * pulse)
-        except (ValueError, ZeroDivisionError, OverflowError):
+        except LOST:
             return lost * len(y)
 
     return driven

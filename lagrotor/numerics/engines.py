@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 Rate = Callable[[float, Array], list[float]]
 Projection = Callable[[Array], Array]
 
+LOST = ValueError, ZeroDivisionError, OverflowError  # what a rate in Python meets outside its coordinates' reach
 _BLOCK = 100
 _SWEEPS = 25
 
@@ -102,20 +103,23 @@ def _lsoda(stretch: Stretch, error: float) -> Run:
         return rates
 
     first = min(np.sqrt(error) / (1 + np.abs(stretch.rate(left, stretch.start)).max()), stretch.longest, right - left)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        states, log = odeint(
-            watched,
-            stretch.start,
-            np.concatenate([[left], stretch.asked, [right]]),
-            tfirst=True,
-            rtol=error,
-            atol=error,
-            full_output=True,
-            h0=first,
-            hmax=0.0 if np.isinf(stretch.longest) else stretch.longest,
-            mxstep=int(min(stretch.allowance, 2**30)) + 1,
-        )
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            states, log = odeint(
+                getattr(stretch.rate, "bare", watched),
+                stretch.start,
+                np.concatenate([[left], stretch.asked, [right]]),
+                tfirst=True,
+                rtol=error,
+                atol=error,
+                full_output=True,
+                h0=first,
+                hmax=0.0 if np.isinf(stretch.longest) else stretch.longest,
+                mxstep=int(min(stretch.allowance, 2**30)) + 1,
+            )
+    except LOST:
+        raise StopError(left, "a rate was not finite") from None
     spent = int(log["nfe"][-1]) + 1
     if lost or log["message"] != "Integration successful." or not np.isfinite(states).all():
         raise StopError(left, "a rate was not finite" if lost else log["message"])

@@ -12,11 +12,14 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from .codegen import Program, reduce_common
-from .engines import Rate
+from .engines import LOST, Rate
 
 
 class _Products(PythonCodePrinter):  # type: ignore[misc]
-    """Python in which a small power of a symbol is a product."""
+    """Python in which a small power of a symbol is a product, and no sum begins with a minus sign that it can do without."""
+
+    def _as_ordered_terms(self, expr: sp.Add, order: Any = None) -> list[sp.Expr]:
+        return sorted(super()._as_ordered_terms(expr, order), key=lambda term: term.could_extract_minus_sign())
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> Any:
         if expr.base.is_Symbol and expr.exp in (2, 3):
@@ -27,7 +30,8 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
 def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
     """parameters → rate(s, y), for a program whose first `states` arguments are the state.
 
-    A state outside the coordinates' reach gives NaN, which makes a solver shorten its step.
+    A state outside the coordinates' reach gives NaN, which makes a solver shorten its step; `rate.bare`, for a solver that
+    cannot, raises one of LOST there instead.
     """
     stages, outputs = reduce_common(program)
     show = _Products({"fully_qualified_modules": False}).doprint
@@ -36,21 +40,24 @@ def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
     for name, expression in stages:
         if expression.free_symbols <= known:
             known.add(name)
-            fixed.append(f"    {name} = {show(expression)}")
+            fixed.append(f"{name} = {show(expression)}")
         else:
-            moving.append(f"            {name} = {show(expression)}")
+            moving.append(f"{name} = {show(expression)}")
+    unpack, values = f"{', '.join(map(str, state))} = y.tolist()", f"return [{', '.join(map(show, outputs))}]"
+    body = [unpack, *moving, values]
     source = [
         f"def make({', '.join(map(str, parameters))}):",
-        *fixed,
+        *(f"    {line}" for line in fixed),
+        "    def bare(s, y):",
+        *(f"        {line}" for line in body),
         "    def rate(s, y):",
         "        try:",
-        f"            {', '.join(map(str, state))} = y.tolist()",
-        *moving,
-        f"            return [{', '.join(map(show, outputs))}]",
-        "        except (ValueError, ZeroDivisionError, OverflowError):",
+        *(f"            {line}" for line in body),
+        "        except LOST:",
         f"            return [nan] * {len(outputs)}",
+        "    rate.bare = bare",
         "    return rate",
     ]
-    names = dict(vars(math))
+    names = dict(vars(math)) | {"LOST": LOST}
     exec("\n".join(source), names)
     return names["make"]

@@ -1,9 +1,13 @@
-"""Renew the record that `reproduce`, `audit` and `claims` compare with: `python -m lagrotor.report.record`."""
+"""Renew what is on record: `python -m lagrotor.report.record` the verdicts that `reproduce`, `audit` and `claims` compare
+with, `python -m lagrotor.report.record speed` the seconds that the report tells.
+"""
 
 import json
+import sys
 
 from ..numerics.files import write_text
 from ..paper import audit, trials
+from ..study.recorded import renew_speed
 from .reproduce import RECORDED, outcomes
 
 
@@ -14,4 +18,6 @@ def renew() -> None:
 
 
 if __name__ == "__main__":
-    renew()
+    if sys.argv[1:] not in ([], ["speed"]):
+        sys.exit("usage: python -m lagrotor.report.record [speed]")
+    renew_speed() if sys.argv[1:] else renew()

@@ -1,0 +1,93 @@
+# %% [markdown]
+# # Speed against accuracy, in seconds
+#
+# **Objective.** What an error costs in seconds, with the four core packages, with the fast extra, and with other tools on
+# the same pair; how many trajectories and closed-form points a second gives.
+#
+# **Assumptions.** Seconds differ from machine to machine and from run to run, so they are read off a record, made in one
+# run by `python -m lagrotor.report.record speed`: medians of processor time, methods in turn. What every reader gets
+# alike, errors and evaluations, is in b1_chart.
+
+# %%
+from lagrotor.models.choose import choose
+from lagrotor.paper.tables import Table
+from lagrotor.study.chart import courses
+from lagrotor.study.recorded import recorded_speed
+
+found = recorded_speed()
+machine, at_error = found["machine"], found["at_error"]
+ERRORS = tuple(at_error)
+
+
+def milliseconds(value):
+    """Three digits, or a dash where the error is not reached."""
+    return "—" if value is None else f"{1e3 * value:.3g}"
+
+
+def multiple(name, error, of="best of core"):
+    """Seconds of a method over those of another at the same error, or a dash."""
+    ours, theirs = at_error[error][of], at_error[error][name]
+    return "—" if None in (ours, theirs) else f"{theirs / ours:.3g}"
+
+
+# %% [markdown]
+# ## What `model="auto"` takes
+#
+# On the paired precession the closed form, as long as the terms that it knows of its series foresee an error below `tol`.
+
+# %%
+displaced = courses()["displaced"]
+decades = [
+    n for n in range(3, 14) if choose(displaced.scene, float(displaced.times[-1]), 10.0**-n).model == "closed_form"
+]
+reach = max(decades)
+
+# %% [markdown]
+# ## At equal error
+#
+# Fastest first, by the error that most of them reach.
+
+# %%
+names = [name for name in at_error[ERRORS[0]] if any(at_error[error][name] for error in ERRORS)]
+names.sort(key=lambda name: (at_error[ERRORS[0]][name] or float("inf"), name))
+where = f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
+versions = ", ".join(f"{name} {number}" for name, number in found["versions"].items())
+tables = [
+    Table(
+        "Speed against accuracy: milliseconds for an error of the tips (m), 10 s of the displaced pair",
+        ("method", *ERRORS, "least error (m)", "to get ready (s)"),
+        tuple(
+            (
+                name,
+                *(milliseconds(at_error[error][name]) for error in ERRORS),
+                f"{found['least_error'][name]:.1e}",
+                f"{found['set_up'][name]:.2g}" if name in found["set_up"] else "",
+            )
+            for name in names
+        ),
+        f"On record from one run: {where}; {versions}. Processor time; 1001 output times. The closed form holds on the "
+        f"paired precession, where it is what auto takes down to tol = 1e-{reach}; the others integrate.",
+    ),
+    Table(
+        "Speed against accuracy: other tools as multiples",
+        ("method", *(f"over core, {error}" for error in ERRORS[:2]), *(f"over fast, {error}" for error in ERRORS[:2])),
+        tuple(
+            (
+                name,
+                *(multiple(name, error) for error in ERRORS[:2]),
+                *(multiple(name, error, "best of fast") for error in ERRORS[:2]),
+            )
+            for name in names
+            if at_error[ERRORS[0]][name]
+        ),
+        "Core and fast: the best of their integrated models. From the same run.",
+    ),
+    Table(
+        "Throughput",
+        ("what", "a second", "share", "of"),
+        tuple(
+            (x["what"], f"{x['rate']:.3g} {x['unit']}", f"{x['share']:.2g}", x["against"]) for x in found["throughput"]
+        ),
+        f"From the same run: ensembles in one process a core, the rest in one. {where}.",
+    ),
+]

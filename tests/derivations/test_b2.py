@@ -1,0 +1,49 @@
+"""The seconds on record: whole, told as they are, and the same bytes as often as they are read."""
+
+import json
+
+import pytest
+
+from lagrotor.errors import LagrotorError
+from lagrotor.paper import scripts
+from lagrotor.study import recorded
+
+
+@pytest.fixture(scope="module")
+def made():
+    return scripts.run("derivations", "b2_seconds")
+
+
+def test_the_record_says_what_it_was_made_with(made):
+    found = recorded.recorded_speed()
+    assert {"machine", "versions", "at_error", "least_error", "set_up", "throughput"} <= found.keys()
+    assert found["machine"]["processor"] and found["versions"].keys() >= {"numpy", "scipy", "sympy"}
+    assert all(found["machine"]["processor"] in table.note for table in made["tables"][::2])
+    for seconds in found["at_error"].values():
+        assert all(value is None or 0 < value < 100 for value in seconds.values())
+
+
+def test_the_tables_are_the_record(made):
+    found, (times, multiples, rates) = recorded.recorded_speed(), made["tables"]
+    row = next(row for row in times.rows if row[0] == "minimal")
+    assert row[1] == f"{1e3 * found['at_error']['1e-06']['minimal']:.3g}"
+    assert all(len(row) == len(times.head) for row in times.rows)
+    assert next(row for row in multiples.rows if row[0] == "best of core")[1] == "1"
+    assert len(rates.rows) == len(found["throughput"])
+
+
+def test_an_error_that_is_not_reached_is_a_dash(made):
+    assert made["milliseconds"](None) == "—"
+    assert made["milliseconds"](0.0123) == "12.3"
+
+
+def test_a_broken_record_is_said(tmp_path, monkeypatch):
+    broken = tmp_path / "recorded.json"
+    monkeypatch.setattr(recorded, "RECORDED", broken)
+    with pytest.raises(LagrotorError, match="renew it"):
+        recorded.recorded_speed()
+    broken.write_text("{")
+    with pytest.raises(LagrotorError, match="renew it"):
+        recorded.recorded_speed()
+    broken.write_text(json.dumps({"machine": {}}))
+    assert recorded.recorded_speed() == {"machine": {}}
