@@ -10,10 +10,10 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.models.spring_run import paper_system, run_steps
 from lagrotor.report.diagram import bare, draw_wheel, ground
 from lagrotor.report.wheel import BAR, INK, RADIUS, ROTORS, Camera
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.study.struck import paper_run
 
 SCENE = SCENES["same-spin"].scene
 T_END, SHOWN = 0.628, (0, 157, 314, 471)  # s; steps of the pictures, a quarter of a turn apart
@@ -33,9 +33,8 @@ ALT = (
 @cache
 def data() -> dict[str, np.ndarray]:
     """Times (n,) in s, angle of body 1's marked spoke (n,) in rad, and the bodies in the four pictures."""
-    system = paper_system(SCENE, STIFFNESS, DAMPING)
     t = np.arange(round(T_END / STEP) + 1) * STEP
-    run = run_steps(system, None, t, STEP)
+    run = paper_run(SCENE, t)
     chosen = list(SHOWN)
     spoke = run.rotations[0, :, :, 0]
     return {

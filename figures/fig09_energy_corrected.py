@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.models.spring_run import paper_system, run_steps
 from lagrotor.report.style import EXACT, MODEL
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.study.struck import paper_run
 
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"
@@ -27,7 +27,7 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """t (n,) in s; energies (n,) in J: the paper's method, and the exact model."""
     t = np.arange(1001) * (10 * STEP)
-    run = run_steps(paper_system(SCENE, STIFFNESS, DAMPING), None, t, STEP)
+    run = paper_run(SCENE, t)
     return {"t": t, "kinetic": run.paper_energy, "exact": simulate(SCENE, t).energy}
 
 

@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.models.spring_link import step_limit
-from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor.models.spring_run import paper_system
 from lagrotor.report.style import EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.study.struck import paper_run, pulse
 
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"
@@ -29,14 +30,13 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """t (n,) in s; energies (n,) in J: kinetic and total by the paper's method, exact; force (n,) in N."""
     t = np.arange(round(10 / STEP) + 1) * STEP
-    run = run_steps(paper_system(SCENE, STIFFNESS, DAMPING), SCENE.shock, t, STEP)
-    shock = SCENE.shock
+    run = paper_run(SCENE, t)
     return {
         "t": t,
         "kinetic": run.paper_energy,
         "total": run.energy,
         "exact": simulate(SCENE, t).energy,
-        "force": shock.force[0] * np.exp(-(((t - shock.at) / shock.width) ** 2)),
+        "force": pulse(SCENE, t),
     }
 
 

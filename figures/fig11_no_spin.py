@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.models.spring_run import paper_system, run_steps
-from lagrotor.report.run_figure import shock_figure
+from lagrotor.report.panels import shock_figure
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.study.struck import centre_numbers, centre_off, centre_runs
 
 SCENE = SCENES["no-spin"].scene
 TITLE = "No spin, shock along the bar"
@@ -31,33 +31,13 @@ IN_LINE = 4.8  # s; the exact planar motion is determined until bar and axes are
 def data() -> dict[str, np.ndarray]:
     """t (n,) in s; energy (n,) in J, force (n,) in N, centre of rotor 1 (n, 3) in m; `exact_…`: by the exact model."""
     t = np.arange(2001) * (5 * STEP)
-    shock = SCENE.shock
-    run = run_steps(paper_system(SCENE, STIFFNESS, DAMPING), shock, t, STEP)
     exact = simulate(SCENE, t[t <= IN_LINE], "spheres")
-    return {
-        "t": t,
-        "exact_t": exact.t,
-        "energy": run.paper_energy,
-        "exact_energy": exact.energy,
-        "force": shock.force[0] * np.exp(-(((t - shock.at) / shock.width) ** 2)),
-        "centre": run.centres[0],
-        "exact_centre": (exact.joints[0] + exact.tips[0]) / 2,
-    }
+    return centre_runs(t, exact) | {"exact_t": exact.t}
 
 
 def measure() -> dict[str, float]:
     """Energy after the shock (J), the ranges of the centre's coordinates (m), distance from the exact model (m)."""
-    d = data()
-    after = d["t"] >= 2.2
-    ranges = {f"{letter} of the centre, range (m)": np.ptp(d["centre"][:, k]) for k, letter in enumerate("xyz")}
-    return {
-        "energy after the shock (J)": d["energy"][after][0],
-        "exact energy after the shock (J)": d["exact_energy"][-1],
-        **ranges,
-        "centre, off the exact model at its end (m)": np.linalg.norm(
-            d["centre"][len(d["exact_t"]) - 1] - d["exact_centre"][-1]
-        ),
-    }
+    return centre_numbers(data()) | {"centre, off the exact model at its end (m)": centre_off(data())}
 
 
 _energy, _exact, _x, _y, _z, _off = measure().values()

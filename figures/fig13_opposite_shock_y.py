@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.models.spring_run import paper_system, run_steps
-from lagrotor.report.run_figure import shock_figure
+from lagrotor.report.panels import shock_figure
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.study.struck import centre_numbers, centre_off, centre_runs
 
 SCENE = SCENES["anti-spin-shock-y"].scene
 TITLE = "Opposite spins, shock across the bar"
@@ -28,29 +28,12 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """t (n,) in s; energy (n,) in J, force (n,) in N, centre of rotor 1 (n, 3) in m; `exact_…`: by the exact model."""
     t = np.arange(2001) * (5 * STEP)
-    shock = SCENE.shock
-    run, exact = run_steps(paper_system(SCENE, STIFFNESS, DAMPING), shock, t, STEP), simulate(SCENE, t)
-    return {
-        "t": t,
-        "energy": run.paper_energy,
-        "exact_energy": exact.energy,
-        "force": shock.force[1] * np.exp(-(((t - shock.at) / shock.width) ** 2)),
-        "centre": run.centres[0],
-        "exact_centre": (exact.joints[0] + exact.tips[0]) / 2,
-    }
+    return centre_runs(t, simulate(SCENE, t))
 
 
 def measure() -> dict[str, float]:
     """Energy after the shock (J), the ranges of the centre's coordinates (m), distance from the exact model (m)."""
-    d = data()
-    after = d["t"] >= 2.2
-    ranges = {f"{letter} of the centre, range (m)": np.ptp(d["centre"][:, k]) for k, letter in enumerate("xyz")}
-    return {
-        "energy after the shock (J)": d["energy"][after][0],
-        "exact energy after the shock (J)": d["exact_energy"][-1],
-        **ranges,
-        "centre at 10 s, off the exact model (m)": np.linalg.norm(d["centre"][-1] - d["exact_centre"][-1]),
-    }
+    return centre_numbers(data()) | {"centre at 10 s, off the exact model (m)": centre_off(data())}
 
 
 _energy, _exact, _x, _y, _z, _off = measure().values()

@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
 from lagrotor.models.orbit import exact_orbit
+from lagrotor.report.panels import orbits_from_above, over_one_turn
 from lagrotor.report.style import EXACT, PAPER
+from lagrotor.study.paired_curves import ansatz_axes
 
 R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)
 
@@ -30,10 +32,9 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """Phase (rad), tips (2, n, 3) and bar length (m) by the ansatz and on the exact orbit, distance of tip 1 (m)."""
     phase = np.linspace(0, 2 * np.pi, 181)
-    x, y, z = R0 * np.cos(phase), R0 * np.sin(phase), np.full_like(phase, np.sqrt(1 - R0**2))
-    ansatz = np.array([np.column_stack([x - 0.5, y, z]), np.column_stack([x + 0.5, -y, z])])
     orbit = exact_orbit(Scene(spins=(10, -10)), R0)
     run = simulate(orbit.scene, phase / orbit.frequency, "minimal", TOL)
+    ansatz = run.joints[:, None] + ansatz_axes([R0, R0], phase)
     return {
         "phase": phase,
         "ansatz": ansatz,
@@ -83,9 +84,7 @@ def figure() -> Figure:
         j, k = (33, 40)
         arrow = {"arrowstyle": "-|>", "color": PAPER, "lw": 1.6, "mutation_scale": 20}
         top.annotate("", xy=d["ansatz"][i, k, :2], xytext=d["ansatz"][i, j, :2], arrowprops=arrow)
-    top.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
-    top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 0.85), ylim=(-0.27, 0.27))
-    top.set_aspect("equal")
+    orbits_from_above(top, 0.85, 0.27)
 
     length.plot(d["phase"], d["ansatz_length"], color=PAPER)
     length.plot(d["phase"], d["exact_length"], color=EXACT, ls="--")
@@ -95,7 +94,7 @@ def figure() -> Figure:
     distance.set(ylabel="distance [m]", title="Residual: distance from exact", ylim=(0, None))
     for panel in (length, distance):
         panel.set_xlabel("phase [rad]")
-        panel.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
+        over_one_turn(panel)
     picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

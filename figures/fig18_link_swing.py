@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
 from lagrotor.models.orbit import exact_orbit
+from lagrotor.report.panels import over_one_turn
 from lagrotor.report.style import CORRECTED, EXACT, PAPER, with_residual
-from lagrotor.rotors.closed_forms import corrected_trajectories
+from lagrotor.study.paired_curves import ansatz_axes, paper_axes, series_axes
 
 R0, TOL = 0.204, 1e-11
 
@@ -32,23 +33,16 @@ def length(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.linalg.norm(second - first + [1, 0, 0], axis=-1)
 
 
-def axis(sine: np.ndarray, azimuth: np.ndarray) -> np.ndarray:
-    """Unit vectors (n, 3) of these sines of the inclination and azimuths."""
-    return np.column_stack([sine * np.cos(azimuth), sine * np.sin(azimuth), np.sqrt(1 - sine**2)])
-
-
 @cache
 def data() -> dict[str, np.ndarray]:
     """Angle (rad) and the bar's lengths (m)."""
     phi = np.linspace(0, 2 * np.pi, 241)
-    level, change = np.full_like(phi, R0), R0**2 * np.cos(phi)
     lengths = {
-        "constant": length(axis(level, phi), axis(level, -phi)),
-        "paper": length(axis(level - change, phi), axis(level + change, -phi)),
+        "constant": length(*ansatz_axes([R0, R0], phi)),
+        "paper": length(*paper_axes(R0, phi)),
+        "order_2": length(*series_axes(2, R0, phi)),
+        "order_3": length(*series_axes(3, R0, phi)),
     }
-    for order in (2, 3):
-        both = np.array(corrected_trajectories(order)(R0, phi, 1, 1)).T
-        lengths[f"order_{order}"] = length(both[:, :3], both[:, 3:])
     orbit = exact_orbit(Scene(spins=(10, -10)), R0)
     run = simulate(orbit.scene, phi / orbit.frequency, "minimal", TOL)
     return {"phi": phi, **lengths, "exact": run.link_length}
@@ -96,7 +90,7 @@ def figure() -> Figure:
     main.set(ylabel="length of the bar [m]", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
     residual.set(ylabel="|length − 1 m| [m]", xlabel="angle $\\phi$ [rad]", title="Residual", ylim=(1e-5, 0.3))
     residual.set_yticks([1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
-    residual.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
+    over_one_turn(residual)
     picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=2)
     return picture

@@ -10,10 +10,11 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Scene, simulate
+from lagrotor import Scene
 from lagrotor.models.orbit import exact_orbit
+from lagrotor.report.panels import distance_over_one_turn, orbits_from_above
 from lagrotor.report.style import CORRECTED, EXACT, PAPER
-from lagrotor.rotors.closed_forms import corrected_trajectories
+from lagrotor.study.paired_curves import against_orbit, paper_axes, series_axes
 
 R0, TOL = 0.204, 1e-11
 
@@ -31,18 +32,12 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """Phase (rad), tips (2, n, 3) and distances of tip 1 from the exact orbit (n,), in m."""
     phase = np.linspace(0, 2 * np.pi, 181)
-    joints = np.array([[-0.5, 0, 0], [0.5, 0, 0]])[:, None]
-    change, tips = R0**2 * np.cos(phase), {}
-    sines = np.array([R0 - change, R0 + change])
-    azimuths = np.array([phase, -phase])
-    tips["paper"] = joints + np.stack([sines * np.cos(azimuths), sines * np.sin(azimuths), np.sqrt(1 - sines**2)], -1)
-    for order in (2, 3):
-        axes = np.array(corrected_trajectories(order)(R0, phase, 1, 1)).reshape(2, 3, -1).swapaxes(1, 2)
-        tips[f"order_{order}"] = joints + axes
-    orbit = exact_orbit(Scene(spins=(10, -10)), R0)
-    exact = simulate(orbit.scene, phase / orbit.frequency, "minimal", TOL).tips
-    away = {f"{name}_distance": np.linalg.norm(curve[0] - exact[0], axis=-1) for name, curve in tips.items()}
-    return {"phase": phase, **tips, "exact": exact, **away}
+    curves = {
+        "paper": paper_axes(R0, phase),
+        "order_2": series_axes(2, R0, phase),
+        "order_3": series_axes(3, R0, phase),
+    }
+    return against_orbit(exact_orbit(Scene(spins=(10, -10)), R0), phase, curves, TOL)
 
 
 # %%
@@ -74,15 +69,11 @@ def figure() -> Figure:
             label="corrected series, order 3" if first else None,
         )  # fmt: skip
         top.plot(*d["exact"][i, :, :2].T, color=EXACT, ls="--", lw=1.2, label="exact orbit" if first else None)
-    top.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
-    top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 0.85), ylim=(-0.28, 0.28))
-    top.set_aspect("equal")
+    orbits_from_above(top, 0.85, 0.28)
     residual.semilogy(d["phase"], d["paper_distance"], color=PAPER)
     residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTED, ls=":", label="corrected series, order 2")
     residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTED)
-    residual.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
-    residual.set_ylim(5e-5, 0.2)
-    residual.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
+    distance_over_one_turn(residual, 5e-5, 0.2)
     picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -10,10 +10,12 @@ import numpy as np
 import sympy as sp
 from matplotlib.figure import Figure
 
-from lagrotor import Scene, natural_rate, simulate
+from lagrotor import Scene, natural_rate
 from lagrotor.models.orbit import exact_orbit
+from lagrotor.report.panels import distance_over_one_turn, orbits_from_above
 from lagrotor.report.style import CORRECTED, EXACT, PAPER
 from lagrotor.rotors.orbit import paired_series
+from lagrotor.study.paired_curves import against_orbit, paper_axes
 from lagrotor.symbols import Phi, r0
 
 R0, TOL = 0.5, 1e-11
@@ -32,25 +34,16 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """Phase (rad), tips (2, n, 3), distances of tip 1 from the exact orbit (n,) and the paper's bar length, in m."""
     phase = np.linspace(0, 2 * np.pi, 181)
-    joints = np.array([[-0.5, 0, 0], [0.5, 0, 0]])[:, None]
-    change, tips = R0**2 * np.cos(phase), {}
-    sines = np.array([R0 - change, R0 + change])
-    azimuths = np.array([phase, -phase])
-    tips["paper"] = joints + np.stack([sines * np.cos(azimuths), sines * np.sin(azimuths), np.sqrt(1 - sines**2)], -1)
+    curves = {"paper": paper_axes(R0, phase)}
     for order in (3, 9):
         series = paired_series(order, sp.Integer(1), sp.Integer(1))
         curve = sp.lambdify([r0, Phi], [series.expression(part) for part in (series.x, series.Y, series.z)])
         first, later = (np.array([part + 0 * phase for part in curve(R0, angle)]).T for angle in (phase, phase + np.pi))
-        tips[f"order_{order}"] = joints + np.array([first, later * [-1, 1, 1]])
+        curves[f"order_{order}"] = np.array([first, later * [-1, 1, 1]])
     orbit = exact_orbit(Scene(spins=(10, -10)), R0)
-    exact = simulate(orbit.scene, phase / orbit.frequency, "minimal", TOL).tips
-    away = {f"{name}_distance": np.linalg.norm(curve[0] - exact[0], axis=-1) for name, curve in tips.items()}
-    return {
-        "phase": phase,
-        **tips,
-        "exact": exact,
-        **away,
-        "paper_length": np.linalg.norm(tips["paper"][1] - tips["paper"][0], axis=-1),
+    found = against_orbit(orbit, phase, curves, TOL)
+    return found | {
+        "paper_length": np.linalg.norm(found["paper"][1] - found["paper"][0], axis=-1),
         "exact_rate_ratio": np.array([orbit.frequency / natural_rate(orbit.scene)]),
     }
 
@@ -93,12 +86,8 @@ def figure() -> Figure:
             top.plot(*d[name][i, :, :2].T, color=colour, ls=line, lw=width, label=None if i else label)
         if name != "exact":
             residual.semilogy(d["phase"], d[f"{name}_distance"], color=colour, ls=line, lw=min(width, 1.6))
-    top.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
-    top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-1.35, 1.35), ylim=(-0.68, 0.68))
-    top.set_aspect("equal")
-    residual.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
-    residual.set_ylim(1e-5, 1)
-    residual.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
+    orbits_from_above(top, 1.35, 0.68)
+    distance_over_one_turn(residual, 1e-5, 1)
     picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

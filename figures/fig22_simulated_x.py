@@ -9,15 +9,12 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import simulate
 from lagrotor.report.style import EXACT, MODEL, OKABE_ITO
+from lagrotor.rotors.scenes import SCENES
 
 TOL = 1e-10
-SCENE = Scene(
-    spins=(10, -10),
-    link=Link(length=1, mass=0.01, inertia=0.1),
-    shock=Shock(force=(40, -11, 0), at=2.0, width=1 / 20, body=1),
-)
+SCENE = SCENES["free-precession"].scene
 
 TITLE = "Simulated $x_1$ and $x_2$ over time"
 ALT = (

@@ -10,18 +10,15 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import simulate
 from lagrotor.report.style import CORRECTED, EXACT, PAPER
 from lagrotor.rotors.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.rotors.response import shock_response
+from lagrotor.rotors.scenes import SCENES
 from lagrotor.study.rates import turn_means
 
 TOL = 1e-10
-SCENE = Scene(
-    spins=(10, -10),
-    link=Link(length=1, mass=0.01, inertia=0.1),
-    shock=Shock(force=(40, -11, 0), at=2.0, width=1 / 20, body=1),
-)
+SCENE = SCENES["free-precession"].scene
 
 TITLE = "Oscillation along the skew axis against the prediction"
 ALT = (

@@ -10,13 +10,13 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor import Scene, Shock, simulate
 from lagrotor.report.style import EXACT, MODEL
+from lagrotor.rotors.scenes import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.study.struck import paper_run, pulse
 
 TOL = 1e-10
-STIFFNESS, DAMPING, STEP = 1e4, 250.0, 1e-3
-SCENE = Scene(spins=(20, 20), link=Link(mass=1, inertia=1), shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
+SCENE = Scene(spins=(20, 20), link=HEAVY, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
 
 TITLE = "Pair of equal spins 20 after a shock"
 ALT = (
@@ -33,9 +33,9 @@ def data() -> dict[str, np.ndarray]:
     t = np.linspace(0, 10, 2001)
     return {
         "t": t,
-        "force": 40 * np.exp(-((20 * (t - 2)) ** 2)),
+        "force": pulse(SCENE, t),
         "exact": simulate(SCENE, t, "minimal", TOL).tips[0, :, 0],
-        "springs": run_steps(paper_system(SCENE, STIFFNESS, DAMPING), SCENE.shock, t, STEP).tips[0, :, 0],
+        "springs": paper_run(SCENE, t).tips[0, :, 0],
     }
 
 

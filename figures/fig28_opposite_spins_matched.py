@@ -10,16 +10,15 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor import Scene, natural_rate, simulate
 from lagrotor.report.style import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.rotors.scenes import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
 from lagrotor.study.rates import peak, spectrum
+from lagrotor.study.struck import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
-STIFFNESS, DAMPING, STEP = 1e4, 250.0, 1e-3
-BARS = {"heavy": Link(mass=1, inertia=1), "light": Link(mass=0.01, inertia=0.1)}
-SHOCK = Shock(force=(40, -11, 0), at=2.0, width=1 / 20, body=1)
-SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK) for name, bar in BARS.items()}
+BARS = {"heavy": HEAVY, "light": LIGHT}
+SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK_PAIRED) for name, bar in BARS.items()}
 
 TITLE = "Opposite spins ±10 in the second mode"
 ALT = (
@@ -60,7 +59,7 @@ def data() -> dict[str, np.ndarray]:
             found[f"{name}_{label}"] = waves @ np.linalg.lstsq(waves[early], x[early], rcond=None)[0]
             drift = rate * t[inside] - seen
             found[f"{name}_{label}_drift"] = drift - drift[0]
-    springs = run_steps(paper_system(SCENES["heavy"], STIFFNESS, DAMPING), SHOCK, t, STEP).tips[0, :, 0]
+    springs = paper_run(SCENES["heavy"], t).tips[0, :, 0]
     return {**found, "springs_x": springs, "springs_amplitude": spectrum(t[after], springs[after])[1]}
 
 

@@ -4,6 +4,7 @@ Coordinates, velocities and accelerations are plain symbols: `theta_1`, `theta_1
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import sympy as sp
 
@@ -20,31 +21,62 @@ class Entry:
     unit: str
 
 
-def _positive(name: str) -> sp.Symbol:
-    return sp.Symbol(name, positive=True)
+GLOSSARY: dict[sp.Symbol, Entry] = {}
 
 
-def _real(name: str) -> sp.Symbol:
-    return sp.Symbol(name, real=True)
+def _letter(name: str, meaning: str, unit: str, tex: str = "", **assumptions: bool) -> sp.Symbol:
+    """A symbol that enters the glossary as it is declared; its LaTeX is its name where none is given."""
+    symbol = sp.Symbol(name, **assumptions)
+    GLOSSARY[symbol] = Entry(symbol, tex or name, meaning, unit)
+    return symbol
 
 
-M, R, I1, I3, I = map(_positive, ("M", "R", "I_1", "I_3", "I"))
-ell = _positive("ell")
-m, K = sp.symbols("m K", nonnegative=True)
-J, a, b, k = _positive("J"), _positive("a"), _real("b"), _positive("k")
-sigma = _positive("sigma")
-omega, omega_1, omega_2 = map(_real, ("omega", "omega_1", "omega_2"))
-G, G_1, G_2 = map(_real, ("G", "G_1", "G_2"))
-Omega = _real("Omega")
-r0, Phi, t = _real("r_0"), _real("Phi"), _real("t")
-theta_0 = _real("theta_0")
-A, B, a_const = map(_real, ("A", "B", "a_M"))
-M_z, M_3 = _real("M_z"), _real("M_3")
-nu, rho = _real("nu"), _positive("rho")
-P, P_X, P_1, P_2, p_y = map(_real, ("P", "p_x", "p_1", "p_2", "p_y"))
-att = _positive("A_w")
-X, TWIST, SWING = map(_real, ("X", "Delta_s", "d"))
-a_1, COSINE = _real("a_1"), _real("c")
+_real = partial(_letter, real=True)
+_positive = partial(_letter, positive=True)
+_nonnegative = partial(_letter, nonnegative=True)
+
+M = _positive("M", "mass of a rotor", "kg")
+R = _positive("R", "length of a rotor's axis from the ground joint to the tip", "m")
+I1 = _positive("I_1", "transverse inertia of a rotor about its centre", "kg m²")
+I3 = _positive("I_3", "axial inertia of a rotor", "kg m²")
+I = _positive("I", "the paper's uniform inertia, I_1 = I_3 = I", "kg m²")
+J = _positive("J", "transverse inertia of a rotor about its ground joint, I_1 + M R²/4", "kg m²")
+ell = _positive("ell", "length of the link bar, distance of the ground joints", "m", r"\ell")
+m = _nonnegative("m", "mass of the bar", "kg")
+K = _nonnegative("K", "transverse inertia of the bar about its centre", "kg m²")
+k = _positive("k", "ell / R", "1")
+a = _positive("a", "J + m R²/4 + K R²/ell²: inertia of one axis, its share of the bar included", "kg m²")
+b = _real("b", "m R²/4 − K R²/ell²: inertia by which the bar couples the axes", "kg m²")
+sigma = _positive("sigma", "(a + b)/(a − b): the bar's shape, 1 for no bar or a dumbbell", "1", r"\sigma")
+omega = _real("omega", "axial angular velocity of a rotor", "rad/s", r"\omega")
+omega_1 = _real("omega_1", "axial angular velocity of rotor 1, psi_1' + phi_1' cos theta_1", "rad/s", r"\omega_1")
+omega_2 = _real("omega_2", "axial angular velocity of rotor 2", "rad/s", r"\omega_2")
+G = _real("G", "axial angular momentum I_3 omega", "kg m²/s")
+G_1 = _real("G_1", "axial angular momentum of rotor 1", "kg m²/s")
+G_2 = _real("G_2", "axial angular momentum of rotor 2", "kg m²/s")
+Omega = _real("Omega", "angular frequency of the paired precession", "rad/s", r"\Omega")
+r0 = _real("r_0", "amplitude: sine of the inclination when the two axes are parallel", "1")
+theta_0 = _real("theta_0", "inclination that belongs to r_0 = sin theta_0", "rad", r"\theta_0")
+Phi = _real("Phi", "phase of the paired precession, Omega t", "rad", r"\Phi")
+t = _real("t", "time", "s")
+A = _real("A", "the ansatz integral of phi", "kg m²/s")
+B = _real("B", "the ansatz integral of psi", "kg m²/s")
+a_const = _real("a_M", "the constant M_z / I of one rotor", "rad/s", "a")
+M_z = _real("M_z", "angular momentum of one rotor about the vertical", "kg m²/s")
+M_3 = _real("M_3", "axial angular momentum of one rotor", "kg m²/s")
+nu = _real("nu", "rate of uniform turning about the joint line, alpha'", "rad/s", r"\nu")
+rho = _positive("rho", "sine of the half-angle of the cone of equal spins", "1", r"\rho")
+P = _real("P", "momentum about the joint line", "kg m²/s")
+P_X = _real("p_x", "R times the impulse along x", "kg m²/s")
+P_1 = _real("p_1", "R times the impulse along y on rotor 1", "kg m²/s")
+P_2 = _real("p_2", "R times the impulse along y on rotor 2", "kg m²/s")
+p_y = _real("p_y", "R times the impulse along y on the rotor that is struck", "kg m²/s")
+att = _positive("A_w", "what the pulse's width leaves of the swing, exp(−(Omega_0 w)²/4)", "1")
+X = _real("X", "mean of U over the swing", "1")
+TWIST = _real("Delta_s", "mean of the twist over the swing", "rad", r"\Delta_s")
+SWING = _real("d", "amplitude of the swing in the twist", "rad")
+a_1 = _real("a_1", "amplitude of cos Phi in x_1", "1")
+COSINE = _real("c", "cosine of the phase", "1")
 
 # One rotor, the pair, and the pair under the ansatz: the paper's Euler angles.
 ROTOR: Coordinates = coordinates("theta phi psi")
@@ -56,50 +88,6 @@ MERCATOR: Coordinates = coordinates("u_1 alpha_1 u_2 alpha_2")
 MINIMAL: Coordinates = coordinates("U chi alpha")
 TWISTED: Coordinates = coordinates("U Delta alpha")
 
-_ROWS: tuple[tuple[sp.Symbol, str, str, str], ...] = (
-    (M, "M", "mass of a rotor", "kg"),
-    (R, "R", "length of a rotor's axis from the ground joint to the tip", "m"),
-    (I1, "I_1", "transverse inertia of a rotor about its centre", "kg m²"),
-    (I3, "I_3", "axial inertia of a rotor", "kg m²"),
-    (I, "I", "the paper's uniform inertia, I_1 = I_3 = I", "kg m²"),
-    (J, "J", "transverse inertia of a rotor about its ground joint, I_1 + M R²/4", "kg m²"),
-    (ell, r"\ell", "length of the link bar, distance of the ground joints", "m"),
-    (m, "m", "mass of the bar", "kg"),
-    (K, "K", "transverse inertia of the bar about its centre", "kg m²"),
-    (k, "k", "ell / R", "1"),
-    (a, "a", "J + m R²/4 + K R²/ell²: inertia of one axis, its share of the bar included", "kg m²"),
-    (b, "b", "m R²/4 − K R²/ell²: inertia by which the bar couples the axes", "kg m²"),
-    (sigma, r"\sigma", "(a + b)/(a − b): the bar's shape, 1 for no bar or a dumbbell", "1"),
-    (omega, r"\omega", "axial angular velocity of a rotor", "rad/s"),
-    (omega_1, r"\omega_1", "axial angular velocity of rotor 1, psi_1' + phi_1' cos theta_1", "rad/s"),
-    (omega_2, r"\omega_2", "axial angular velocity of rotor 2", "rad/s"),
-    (G, "G", "axial angular momentum I_3 omega", "kg m²/s"),
-    (G_1, "G_1", "axial angular momentum of rotor 1", "kg m²/s"),
-    (G_2, "G_2", "axial angular momentum of rotor 2", "kg m²/s"),
-    (Omega, r"\Omega", "angular frequency of the paired precession", "rad/s"),
-    (r0, "r_0", "amplitude: sine of the inclination when the two axes are parallel", "1"),
-    (theta_0, r"\theta_0", "inclination that belongs to r_0 = sin theta_0", "rad"),
-    (Phi, r"\Phi", "phase of the paired precession, Omega t", "rad"),
-    (t, "t", "time", "s"),
-    (A, "A", "the ansatz integral of phi", "kg m²/s"),
-    (B, "B", "the ansatz integral of psi", "kg m²/s"),
-    (a_const, "a", "the constant M_z / I of one rotor", "rad/s"),
-    (M_z, "M_z", "angular momentum of one rotor about the vertical", "kg m²/s"),
-    (M_3, "M_3", "axial angular momentum of one rotor", "kg m²/s"),
-    (nu, r"\nu", "rate of uniform turning about the joint line, alpha'", "rad/s"),
-    (rho, r"\rho", "sine of the half-angle of the cone of equal spins", "1"),
-    (P, "P", "momentum about the joint line", "kg m²/s"),
-    (P_X, "p_x", "R times the impulse along x", "kg m²/s"),
-    (P_1, "p_1", "R times the impulse along y on rotor 1", "kg m²/s"),
-    (P_2, "p_2", "R times the impulse along y on rotor 2", "kg m²/s"),
-    (p_y, "p_y", "R times the impulse along y on the rotor that is struck", "kg m²/s"),
-    (att, "A_w", "what the pulse's width leaves of the swing, exp(−(Omega_0 w)²/4)", "1"),
-    (X, "X", "mean of U over the swing", "1"),
-    (TWIST, r"\Delta_s", "mean of the twist over the swing", "rad"),
-    (SWING, "d", "amplitude of the swing in the twist", "rad"),
-    (a_1, "a_1", "amplitude of cos Phi in x_1", "1"),
-    (COSINE, "c", "cosine of the phase", "1"),
-)
 _ANGLES = {
     "theta": (r"\theta", "inclination of the axis"),
     "phi": (r"\phi", "azimuth of the axis"),
@@ -115,8 +103,7 @@ _ANGLES = {
 }
 
 
-def _coordinate_rows() -> list[Entry]:
-    rows = {}
+def _add_coordinates() -> None:
     for c in (ROTOR, PAIR, ANSATZ, AXES, MERCATOR, MINIMAL, TWISTED):
         for q, v, acc in zip(c.q, c.v, c.a, strict=True):
             stem, _, index = q.name.partition("_")
@@ -124,14 +111,12 @@ def _coordinate_rows() -> list[Entry]:
             unit = "1" if stem in "xyzuU" else "rad"
             tail = f"_{{{index}}}" if index else ""
             of = f" of rotor {index}" if index else ""
-            per = "1" if unit == "1" else "rad"
-            rows[q] = Entry(q, tex + tail, meaning + of, unit)
-            rows[v] = Entry(v, rf"\dot{{{tex}}}{tail}", f"rate of {q.name}", f"{per}/s")
-            rows[acc] = Entry(acc, rf"\ddot{{{tex}}}{tail}", f"acceleration of {q.name}", f"{per}/s²")
-    return list(rows.values())
+            GLOSSARY[q] = Entry(q, tex + tail, meaning + of, unit)
+            GLOSSARY[v] = Entry(v, rf"\dot{{{tex}}}{tail}", f"rate of {q.name}", f"{unit}/s")
+            GLOSSARY[acc] = Entry(acc, rf"\ddot{{{tex}}}{tail}", f"acceleration of {q.name}", f"{unit}/s²")
 
 
-GLOSSARY: dict[sp.Symbol, Entry] = {row[0]: Entry(*row) for row in _ROWS} | {e.symbol: e for e in _coordinate_rows()}
+_add_coordinates()
 
 
 def latex(expression: sp.Basic) -> str:

@@ -1,18 +1,15 @@
-"""Runs over time: what `Trajectory.plot()` shows at a prompt, and the panels that figures 11 to 13 share."""
+"""A run over time: what `Trajectory.plot()` shows at a prompt."""
 
 from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..numerics.attitude import Array
-from .style import EXACT, MODEL, OKABE_ITO, paper_style
+from .style import paper_style
 from .wheel import ROTORS
 
 if TYPE_CHECKING:
     from ..numerics.trajectory import Trajectory
-
-COMPONENTS = {"x": OKABE_ITO["blue"], "y": OKABE_ITO["vermillion"], "z": OKABE_ITO["orange"]}
 
 
 def run_figure(run: "Trajectory") -> Figure:
@@ -44,35 +41,3 @@ def run_figure(run: "Trajectory") -> Figure:
 def _over_time(panel: Axes, labelled: bool) -> None:
     panel.set_xlabel("t [s]" if labelled else "")
     panel.tick_params(labelbottom=labelled)
-
-
-def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
-    """Energy, force and centre of rotor 1 over time, as in the paper's figures 11 to 13; dashed, the exact model.
-
-    data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre;
-    exact_t (m,) where the exact model ends before the run.
-    """
-    figure = Figure(figsize=(7.0, 7.0))
-    upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
-    upper.plot(data["t"], data["energy"], color=MODEL, linewidth=3)
-    upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
-    upper.set(ylabel="energy [J]", title="Energy")
-    upper.margins(y=0.12)
-    middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
-    middle.set(ylabel=f"force in {letter} [N]", title="Force on the tip of rotor 1", ylim=(-3, 55))
-    for j, (name, colour) in enumerate(COMPONENTS.items()):
-        lower.plot(data["t"], data["centre"][:, j], color=colour, linewidth=3, label=f"{name}, paper's method")
-        exact = "exact model" if j == 2 else None
-        lower.plot(
-            data.get("exact_t", data["t"]),
-            data["exact_centre"][:, j],
-            color=EXACT,
-            linestyle="--",
-            linewidth=1.0,
-            label=exact,
-        )
-    lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
-    lower.margins(y=0.06)
-    figure.suptitle(title)
-    figure.legend(loc="outside lower center", ncols=4)
-    return figure

@@ -1,0 +1,95 @@
+"""Panels that several of the paper's figures share: runs after a shock (11 to 13, 25, 27), orbits (17 to 20)."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..numerics.attitude import Array
+from .style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+
+COMPONENTS = {"x": OKABE_ITO["blue"], "y": OKABE_ITO["vermillion"], "z": OKABE_ITO["orange"]}
+
+
+def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
+    """Energy, force and centre of rotor 1 over time, as in the paper's figures 11 to 13; dashed, the exact model.
+
+    data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre;
+    exact_t (m,) where the exact model ends before the run.
+    """
+    figure = Figure(figsize=(7.0, 7.0))
+    upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
+    upper.plot(data["t"], data["energy"], color=MODEL, linewidth=3)
+    upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
+    upper.set(ylabel="energy [J]", title="Energy")
+    upper.margins(y=0.12)
+    middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
+    middle.set(ylabel=f"force in {letter} [N]", title="Force on the tip of rotor 1", ylim=(-3, 55))
+    for j, (name, colour) in enumerate(COMPONENTS.items()):
+        lower.plot(data["t"], data["centre"][:, j], color=colour, linewidth=3, label=f"{name}, paper's method")
+        exact = "exact model" if j == 2 else None
+        lower.plot(
+            data.get("exact_t", data["t"]),
+            data["exact_centre"][:, j],
+            color=EXACT,
+            linestyle="--",
+            linewidth=1.0,
+            label=exact,
+        )
+    lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
+    lower.margins(y=0.06)
+    figure.suptitle(title)
+    figure.legend(loc="outside lower center", ncols=4)
+    return figure
+
+
+def rate_figure(data: dict[str, Array], title: str, printed: float) -> Figure:
+    """Force, x of tip 1, its residual and its spectrum, as in figures 25 and 27; `printed`: the paper's rate, rad/s.
+
+    data: t (n,) in s, force (n,) in N; exact, springs, printed, corrected (n,): x of tip 1 from its start in m; rate,
+    exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s.
+    """
+    figure = Figure(figsize=(7.0, 8.4))
+    force, x, residual, heights = figure.subplots(4, 1, height_ratios=(0.8, 1.7, 1.2, 1.4))
+    force.plot(data["t"], data["force"], color=EXACT)
+    force.set(ylabel="force [N]", title="Force on tip 1 along x")
+    x.plot(data["t"], data["exact"], color=EXACT, label="exact model")
+    x.plot(data["t"], data["springs"], color=MODEL, lw=1.2, label="paper's method, stiff springs")
+    x.plot(data["t"], data["printed"], color=PAPER, ls="--", lw=1.2, label=f"sin {printed:g}(t − 2), scaled")
+    x.plot(data["t"], data["corrected"], color=CORRECTED, ls=":", lw=2, label="sine at the closed form's rate")
+    x.set(ylabel="$x - x(0)$ [m]", title="x of tip 1")
+    residual.plot(data["t"], data["printed"] - data["exact"], color=PAPER)
+    residual.plot(data["t"], data["springs"] - data["exact"], color=MODEL, lw=1.2)
+    residual.plot(data["t"], data["corrected"] - data["exact"], color=CORRECTED)
+    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual against the exact model")
+    for panel in (force, x, residual):
+        panel.set_xlim(1.5, 10)
+    for panel in (force, x):
+        panel.tick_params(labelbottom=False)
+    heights.plot(data["rate"], data["exact_amplitude"], color=EXACT)
+    heights.plot(data["rate"], data["springs_amplitude"], color=MODEL, lw=1.2)
+    heights.axvline(printed, color=PAPER, ls="--", lw=1.2)
+    heights.axvline(data["closed_form_rate"][0], color=CORRECTED, ls=":", lw=2)
+    heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", title="Spectrum of x after the shock")
+    heights.set(xlim=(printed - 5, printed + 5), ylim=(0, None))
+    figure.suptitle(title)
+    figure.legend(loc="outside lower center", ncols=2)
+    return figure
+
+
+def orbits_from_above(panel: Axes, wide: float, high: float) -> None:
+    """The frame of a top view of both tips: ground joints at ∓0.5 m, x within ±`wide` and y within ±`high` (m)."""
+    panel.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
+    panel.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-wide, wide), ylim=(-high, high))
+    panel.set_aspect("equal")
+
+
+def over_one_turn(panel: Axes) -> None:
+    """Quarter turns on the axis of the phase."""
+    panel.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
+
+
+def distance_over_one_turn(panel: Axes, least: float, most: float) -> None:
+    """The frame of a panel for the distance of tip 1 from the exact one, from `least` to `most` (m), over the phase."""
+    panel.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
+    panel.set_ylim(least, most)
+    over_one_turn(panel)
