@@ -1,5 +1,6 @@
 """The scope of the audit as data: every equation, claim and figure of the paper, in its order."""
 
+import re
 import tomllib
 from dataclasses import dataclass
 from functools import cache
@@ -24,26 +25,35 @@ class Equation:
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper states in words."""
+    """What the paper states in words: `equations` are the ids of those that it is about."""
 
     id: str
     section: str
     text: str
+    equations: tuple[str, ...] = ()
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Numbers of the figures that the text names."""
+        named = re.findall(r"figures? (\d+(?:, \d+)*)", self.text)
+        return tuple(number for group in named for number in group.split(", "))
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: `kind` is diagram, simulated, analytical or both."""
+    """One figure: `kind` is diagram, simulated, analytical or both; `equations` are the ids of those that it shows."""
 
     number: int
     kind: str
     section: str
     shows: str
+    equations: tuple[str, ...] = ()
 
 
 def _rows(name: str, key: str) -> list[dict[str, Any]]:
     with (_FOLDER / f"{name}.toml").open("rb") as file:
-        return tomllib.load(file)[key]
+        rows = tomllib.load(file)[key]
+    return [{name: tuple(value) if isinstance(value, list) else value for name, value in row.items()} for row in rows]
 
 
 @cache

@@ -11,12 +11,17 @@ from ..errors import LagrotorError
 _PACKAGE = Path(__file__).resolve().parent.parent
 
 
+def beside(name: str) -> Path:
+    """A file or folder that lies beside the package in a checkout, inside it when installed."""
+    for base in (_PACKAGE, _PACKAGE.parent):
+        if (base / name).exists():
+            return base / name
+    raise LagrotorError(f"{name} is missing beside {_PACKAGE}: install lagrotor again")
+
+
 def folder(name: str) -> Path:
     """The folder `derivations` or `figures`."""
-    for base in (_PACKAGE, _PACKAGE.parent):
-        if (base / name).is_dir():
-            return base / name
-    raise LagrotorError(f"the folder {name} is missing beside {_PACKAGE}: install lagrotor again")
+    return beside(name)
 
 
 def names(kind: str, prefix: str = "") -> list[str]:

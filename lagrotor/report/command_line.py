@@ -91,7 +91,9 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
 
     added = command("figure", _figure, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
-    added.add_argument("keys", nargs="+", metavar="N", help="the paper's figure number, or t1 to t10 for those past it")
+    added.add_argument(
+        "keys", nargs="+", metavar="N", help="the paper's figure number, or the name of another: t1 to t10, b1"
+    )
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
     add_chart(command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out ."))
@@ -148,20 +150,24 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _reproduce(given: argparse.Namespace) -> int:
-    from .content import word
-    from .reproduce import check_target, recorded, reproduce, steps
+    from .content import told
+    from .reproduce import recorded, reproduce
     from .terminal import progress
 
-    check_target(given.out)
-    with progress(steps()) as step:
-        report = reproduce(given.out, step)
-    counts = ", ".join(f"{count} {word(answer)}" for answer, count in report.counts.items())
-    print(f"{len(report.verdicts)} equations judged: {counts or 'none'}; {len(report.waiting)} not yet judged")
-    if report.claims:
-        told = Counter(word(result.finding.outcome) for result in report.claims)
-        print(f"{len(report.claims)} claims tried: {', '.join(f'{n} {outcome}' for outcome, n in told.items())}")
-    print(f"{len(report.pictures)} figures drawn; {report.seconds:.1f} s; report: {given.out / 'index.html'}")
-    return _compared(list(report.changes), recorded())
+    made = reproduce(given.out, progress)
+    page = given.out / "index.html"
+    judged = sum(made.equations.values())
+    print(f"{judged} equations judged: {told(made.equations) or 'none'}; {made.waiting} not yet judged")
+    if made.claims:
+        print(f"{sum(made.claims.values())} claims tried: {told(made.claims)}")
+    if made.taken == ["report"]:
+        print("all taken from the last run (same inputs); to run it again, delete the folder")
+    elif made.taken:
+        kinds = Counter(name.split()[0] for name in made.taken)
+        parts = ", ".join(f"{count} {kind}{'s' * (count > 1)}" for kind, count in kinds.items())
+        print(f"{parts} taken from the last run (same inputs)")
+    print(f"{made.figures} figures; {made.seconds:.1f} s; report: {page}")
+    return _compared(made.changes, recorded())
 
 
 def _audit(given: argparse.Namespace) -> int:

@@ -1,21 +1,25 @@
-"""What a report says, before it is put into HTML or Markdown."""
+"""What a report says and in which order, before it is put into HTML or Markdown."""
 
-import platform
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from importlib.metadata import version
 
 import sympy as sp
 
-from ..paper.catalogue import Equation, equation, equations
+from ..paper.catalogue import Equation, claims, equation, equations
+from ..paper.catalogue import figures as papers_figures
 from ..paper.ledger import Relation, Verdict
 from ..paper.tables import Table
 from ..paper.trials import Result
-from .figures import Picture, past
+from .figures import Picture
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
+HOW_TO_READ = (
+    "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
+    "procedure; each claim made in words is put to a run; each figure is drawn again. What stands here as a number was "
+    "computed by the run that wrote this page. An equation goes by its section and place, such as 5.07, a claim as C08."
+)
 
 MEANINGS = {
     "holds": "the printed and the derived expression are the same, decided exactly",
@@ -24,9 +28,12 @@ MEANINGS = {
     "refuted": "they differ; the correction, where there is one, is judged by the same rules",
     "measured": "a number read off a run, beside what it should have been",
     "definition": "the line only gives a name",
-    "confirmed": "a claim that its own run bears out",
-    "confirmed-if": "a claim that holds under the condition that is named",
     "undecided": "outside what can be decided exactly; numbers are given as evidence",
+}
+CLAIM_MEANINGS = {
+    "confirmed": "its own run bears it out",
+    "confirmed-if": "it holds under the condition that is named",
+    "refuted": "its own run says otherwise",
 }
 
 
@@ -35,28 +42,27 @@ class Report:
     """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
 
     claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides;
-    tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings.
+    tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings; speed, stability:
+    tables of accuracy against cost, and of where methods fail; versions: (what, version) the run was made with;
+    inputs: (what, SHA-256) of what it was made from.
     """
 
     verdicts: tuple[Verdict, ...]
     pictures: tuple[Picture, ...]
     changes: tuple[str, ...]
-    seconds: float
     claims: tuple[Result, ...] = ()
     findings: tuple[tuple[str, str], ...] = ()
     tables: tuple[Table, ...] = ()
     past: tuple[Table, ...] = ()
     theory: tuple[tuple[str, str], ...] = ()
+    speed: tuple[Table, ...] = ()
+    stability: tuple[Table, ...] = ()
+    versions: tuple[tuple[str, str], ...] = ()
+    inputs: tuple[tuple[str, str], ...] = ()
 
-    @property
-    def papers_pictures(self) -> list[Picture]:
-        """The paper's figures."""
-        return [picture for picture in self.pictures if not past(picture.key)]
-
-    @property
-    def past_pictures(self) -> list[Picture]:
-        """The figures of the theory past the paper."""
-        return [picture for picture in self.pictures if past(picture.key)]
+    def pictures_of(self, letter: str) -> list[Picture]:
+        """The figures whose keys begin with a letter: none for the paper's, t, b (benchmarks), m (stability)."""
+        return [picture for picture in self.pictures if picture.key.rstrip("0123456789") == letter]
 
     @property
     def waiting(self) -> list[Equation]:
@@ -78,14 +84,29 @@ class Report:
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
+    @property
+    def outcomes(self) -> dict[str, int]:
+        """How many claims have each outcome, in the order of `CLAIM_MEANINGS`, those with none left out."""
+        counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
+        return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
+
     def users(self, identifier: str) -> tuple[str, ...]:
         """Ids of the equations that use this one."""
         return tuple(v.id for v in self.verdicts if identifier in v.statement.depends_on)
 
+    def claims_about(self, identifier: str) -> tuple[str, ...]:
+        """Ids of the claims, among those tried, that are about this equation."""
+        return tuple(r.trial.id for r in self.claims if identifier in claims()[r.trial.id].equations)
+
+    def figures_of(self, identifier: str) -> tuple[str, ...]:
+        """The figures, among those drawn, that show this equation, such as "figure 19"."""
+        shown = {str(number) for number, entry in papers_figures().items() if identifier in entry.equations}
+        return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in shown)
+
 
 @dataclass(frozen=True)
 class Fact:
-    """One labelled line under an equation: sentences, ids of other equations, formulas; a lone symbol ends the text."""
+    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text."""
 
     label: str
     texts: tuple[str, ...] = ()
@@ -93,9 +114,34 @@ class Fact:
     formulas: tuple[sp.Basic, ...] = ()
 
 
-def versions() -> dict[str, str]:
-    """What the run was made with."""
-    return {"Python": platform.python_version()} | {name: version(name) for name in ("sympy", "numpy", "scipy")}
+def anchor(identifier: str) -> str:
+    """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") stands in the page."""
+    if identifier.startswith("figure "):
+        return identifier.replace(" ", "-")
+    return f"claim-{identifier}" if identifier in claims() else f"eq-{identifier}"
+
+
+def contents(report: Report) -> list[tuple[str, str]]:
+    """The sections of a report that have something in them, in their order: (anchor, heading)."""
+    paper = [(f"section-{name}", f"Section {name}", True) for name in report.sections]
+    listed = [
+        ("summary", "In short", True),
+        ("verdicts", "Verdicts", True),
+        ("errata", "Errata", any(v.verdict == "refuted" for v in report.verdicts)),
+        ("model", "The interactive model", True),
+        *paper,
+        ("claims", "Claims", bool(report.claims)),
+        ("findings", "Findings", bool(report.findings)),
+        ("figures", "Figures", bool(report.pictures_of(""))),
+        ("tables", "Tables", bool(report.tables)),
+        ("past", "Past the paper", bool(report.past or report.theory or report.pictures_of("t"))),
+        ("speed", "Speed against accuracy", bool(report.speed or report.pictures_of("b"))),
+        ("stability", "Where methods fail", bool(report.stability or report.pictures_of("m"))),
+        ("waiting", "Not yet judged", bool(report.waiting)),
+        ("cite", "How to cite", True),
+        ("made", "How this was made", True),
+    ]
+    return [(name, heading) for name, heading, there in listed if there]
 
 
 def word(answer: str) -> str:
@@ -103,7 +149,12 @@ def word(answer: str) -> str:
     return answer.replace("-", " ")
 
 
-def sides(relations: tuple[Relation, ...], side: str) -> tuple[sp.Basic, ...]:
+def told(counts: dict[str, int]) -> str:
+    """Counts as people read them: 9 confirmed, 3 refuted."""
+    return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
+
+
+def sides(relations: Iterable[Relation], side: str) -> tuple[sp.Basic, ...]:
     """The printed or derived expressions of some relations, each once."""
     return tuple(dict.fromkeys(getattr(relation, side) for relation in relations))
 
@@ -122,19 +173,43 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Correction", (answer,), formulas=sides(statement.correction, "printed"))
     if verdict.reaches_result is not None:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
-    if statement.depends_on:
-        yield Fact("Uses", ids=statement.depends_on)
-    if users := report.users(verdict.id):
-        yield Fact("Used by", ids=users)
     if verdict.evidence:
         yield Fact("Evidence", verdict.evidence)
-    yield Fact("Time", (f"{verdict.seconds:.2f} s",))
+    linked = {
+        "Uses": statement.depends_on,
+        "Used by": report.users(verdict.id),
+        "Claims": report.claims_about(verdict.id),
+        "Figures": report.figures_of(verdict.id),
+    }
+    for label, ids in linked.items():
+        if ids:
+            yield Fact(label, ids=ids)
 
 
 _REACHES = {
     True: "yes: a result of the paper that rests on it is refuted too",
     False: "no: every result of the paper that rests on it stands",
 }
+
+
+def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
+    """The equations and figures that a claim is about, as far as they are in the report."""
+    entry, judged = claims()[result.trial.id], {verdict.id for verdict in report.verdicts}
+    drawn = {picture.key for picture in report.pictures}
+    if ids := tuple(i for i in entry.equations if i in judged):
+        yield Fact("Equations", ids=ids)
+    if ids := tuple(f"figure {number}" for number in entry.figures if number in drawn):
+        yield Fact("Figures", ids=ids)
+
+
+def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
+    """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
+    entry = papers_figures().get(int(picture.key)) if picture.key.isdigit() else None
+    judged = {verdict.id for verdict in report.verdicts}
+    if entry and (ids := tuple(i for i in entry.equations if i in judged)):
+        yield Fact("Equations", ids=ids)
+    if ids := tuple(r.trial.id for r in report.claims if picture.key in claims()[r.trial.id].figures):
+        yield Fact("Claims", ids=ids)
 
 
 def note(verdict: Verdict) -> str:

@@ -1,6 +1,5 @@
 """The errata sheet: for each refuted equation what is printed, what is right, what was wrong, and how far it reaches."""
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -9,6 +8,7 @@ import sympy as sp
 from ..paper.catalogue import equation
 from ..paper.ledger import Relation, Verdict
 from ..symbols import latex
+from .latex import END, HEAD, printed, prose
 
 
 @dataclass(frozen=True)
@@ -61,52 +61,21 @@ def _line(quantity: str, relation: Relation) -> str:
     return f"{quantity} = {latex(relation.printed)}{rest}"
 
 
-_HEAD = r"""\documentclass[11pt]{article}
-\usepackage[a4paper,margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,graphicx}
-\setlength{\parindent}{0pt}
-\setlength{\parskip}{4pt}
-% A formula wider than the line is shrunk to it.
-\newsavebox{\formula}
-\newcommand{\fit}[1]{\savebox{\formula}{$\displaystyle #1$}%
-  \ifdim\wd\formula>\linewidth\resizebox{\linewidth}{!}{\usebox{\formula}}\else\usebox{\formula}\fi}
-\begin{document}
-\section*{Errata to \emph{Dynamics of Axially Coupled Rotor Pairs}}
-"""
-
-
 def latex_document(verdicts: Iterable[Verdict]) -> str:
-    """The sheet as a LaTeX document in ASCII that compiles with amsmath and graphicx."""
-    blocks = [_HEAD]
-    for e in errata(verdicts):
-        corrected = "\n\n".join(rf"\fit{{{part}}}" for part in e.corrected)
-        used = ", ".join(e.used_by) or "none"
-        blocks.append(
-            rf"\subsection*{{{e.id}\quad {prose(e.title)}}}" + "\n"
-            rf"\textbf{{Printed.}}\par\fit{{{_formula(e.printed)}}}" + "\n\n"
-            rf"\textbf{{Correct}} ({e.verdict_of_correction}).\par {_ascii(corrected)}" + "\n\n"
-            rf"\textbf{{What was wrong.}} {prose(e.wrong)}" + "\n\n"
-            rf"Used by: {used}. {prose(e.reach).capitalize()}." + "\n"
-        )
-    return "\n".join([*blocks, r"\end{document}", ""])
+    """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref."""
+    title = r"\section*{Errata to \emph{Dynamics of Axially Coupled Rotor Pairs}}"
+    return "\n".join([HEAD + title, *map(latex_block, errata(verdicts)), END])
 
 
-_LETTERS = {
-    "−": "$-$", "–": "--", "²": "$^2$", "³": "$^3$", "⁴": "$^4$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$",
-    "×": r"$\times$", "θ": r"$\theta$", "Ω": r"$\Omega$", "→": r"$\to$", "≠": r"$\neq$", "…": r"\ldots{}", "°": r"$^\circ$",
-}  # fmt: skip
-
-
-def prose(text: str) -> str:
-    """Plain text for LaTeX: special characters escaped, signs outside ASCII as mathematics."""
-    escaped = re.sub(r"([&%$#_{}])", r"\\\1", text.replace("\\", "/")).replace("^", r"\^{}").replace("~", r"\~{}")
-    return "".join(_LETTERS.get(character, character) for character in escaped)
-
-
-def _formula(source: str) -> str:
-    """A printed formula for one line: the source's last comma or full stop belongs to its sentence."""
-    return _ascii(re.sub(r"[.,;]\s*$", "", source.strip()))
-
-
-def _ascii(source: str) -> str:
-    return "".join(_LETTERS.get(character, character).strip("$") for character in source)
+def latex_block(e: Erratum) -> str:
+    """One row as a LaTeX subsection."""
+    used = ", ".join(e.used_by) or "none"
+    return "\n\n".join(
+        [
+            rf"\subsection*{{{e.id}\quad {prose(e.title)}}}",
+            rf"\textbf{{Printed.}} {printed(e.printed)}",
+            rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(printed, e.corrected)),
+            rf"\textbf{{What was wrong.}} {prose(e.wrong)}",
+            rf"Used by: {used}. {prose(e.reach).capitalize()}.",
+        ]
+    )

@@ -1,12 +1,11 @@
 """Run a figure's script and keep its picture.
 
-A script `figures/figNN_*.py` (one of the paper's figures) or `figures/tN_*.py` (one past the paper) defines
-`figure() -> matplotlib.figure.Figure`, the strings TITLE, CAPTION and ALT, and may define
-`measure() -> dict[str, float]`, the numbers read off it.
+A script `figures/figNN_*.py` (one of the paper's figures), `figures/tN_*.py` (past the paper), `figures/bN_*.py` (speed
+against accuracy) or `figures/mN_*.py` (where methods fail) defines `figure() -> matplotlib.figure.Figure`, the strings
+TITLE, CAPTION and ALT, and may define `measure() -> dict[str, float]`, the numbers read off it.
 """
 
 import re
-import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +19,7 @@ from ..paper import scripts
 class Picture:
     """A figure as saved: `svg` and `png` are the two files, `measured` the numbers its script reads off it.
 
-    key: the paper's number, such as "17", or the name of a figure past the paper, such as "t6".
+    key: the paper's number, such as "17", or the name of another figure, such as "t6".
     """
 
     stem: str
@@ -31,18 +30,12 @@ class Picture:
     svg: Path
     png: Path
     measured: dict[str, float]
-    seconds: float
 
 
 def stems() -> dict[str, str]:
-    """The scripts that draw figures: key → stem; the paper's, "1" to "28", then those past it, "t1" to "t10"."""
-    found = [(re.match(r"(?:fig0*|(?=t))(t?\d+)_", stem), stem) for stem in scripts.names("figures")]
-    return {match[1]: stem for match, stem in found if match}
-
-
-def past(key: str) -> bool:
-    """Whether the figure with this key shows the theory past the paper."""
-    return key.startswith("t")
+    """The scripts that draw figures: key → stem; the paper's, "1" to "28", then "b1" …, "m1" …, "t1" …."""
+    found = [(re.match(r"(?:fig0*|(?=[bmt]))([bmt]?\d+)_", stem), stem) for stem in scripts.names("figures")]
+    return dict(sorted(((match[1], stem) for match, stem in found if match), key=lambda row: not row[0].isdigit()))
 
 
 def check_keys(keys: Iterable[str]) -> list[str]:
@@ -62,7 +55,6 @@ def draw(key: str, folder: Path) -> Picture:
     """
     from .style import paper_style
 
-    began = time.perf_counter()
     stem = stems()[key]
     with paper_style():
         script = scripts.run("figures", stem)
@@ -83,5 +75,4 @@ def draw(key: str, folder: Path) -> Picture:
         svg=svg,
         png=png,
         measured={name: float(value) for name, value in measured.items()},
-        seconds=time.perf_counter() - began,
     )

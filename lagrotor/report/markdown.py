@@ -1,7 +1,7 @@
 """The report as Markdown with LaTeX between dollar signs, as code hosts draw it."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 import sympy as sp
 
@@ -10,63 +10,102 @@ from ..paper.ledger import Verdict
 from ..paper.tables import Cell, FigureLink, Table
 from ..paper.trials import Result
 from ..symbols import latex
-from .content import MEANINGS, SUBTITLE, TITLE, Fact, Report, facts, note, sides, versions, word
+from .cite import citation
+from .content import (
+    CLAIM_MEANINGS,
+    HOW_TO_READ,
+    MEANINGS,
+    SUBTITLE,
+    TITLE,
+    Fact,
+    Report,
+    anchor,
+    contents,
+    facts,
+    figure_facts,
+    linked_facts,
+    note,
+    sides,
+    word,
+)
 from .errata import errata
 from .figures import Picture
+from .readable import readable
+from .results import balance, headlines
 
 
 def markdown(report: Report) -> str:
     """The whole report; figures are linked as `figures/<stem>.svg`."""
-    blocks = [f"# {TITLE}", f"{SUBTITLE}.", _summary(report), _table(report)]
-    for section, verdicts in report.sections.items():
-        blocks.append(f"## Section {section}")
-        blocks += [_equation(verdict, report) for verdict in verdicts]
-    blocks += errata_blocks(report.verdicts)
-    if report.claims:
-        blocks.append("## Claims")
-        blocks += [_claim(result) for result in report.claims]
-    if report.findings:
-        blocks.append("## Findings")
-        blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.findings]
-    for table in report.tables:
-        blocks += _side_by_side(table)
-    if report.papers_pictures:
-        blocks.append("## Figures")
-        blocks += [_picture(picture) for picture in report.papers_pictures]
-    if report.past or report.theory or report.past_pictures:
-        blocks.append("## Past the paper")
-        for table in report.past:
-            blocks += _side_by_side(table, "###")
-        blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in report.theory]
-        blocks += [_picture(picture) for picture in report.past_pictures]
-    if report.waiting:
-        rows = [(entry.id, _prose(entry.title)) for entry in report.waiting]
-        blocks += ["## Not yet judged", _rows(("Equation", "Title"), rows)]
-    made = ", ".join(f"{name} {number}" for name, number in versions().items())
-    blocks += ["## How this was made", f"{made}; {report.seconds:.1f} s in all."]
+    listed = contents(report)
+    blocks = [
+        f"# {TITLE}",
+        f"{SUBTITLE}.",
+        _prose(HOW_TO_READ),
+        "\n".join(f"- [{heading}](#{name})" for name, heading in listed),
+    ]
+    for name, heading in listed:
+        blocks += [_place(name), f"## {heading}", *_section(name, report)]
     return "\n\n".join(blocks) + "\n"
 
 
-def _summary(report: Report) -> str:
-    lines = [f"- {word(answer)}: {count} ({MEANINGS[answer]})" for answer, count in report.counts.items()]
-    lines.append(f"- not yet judged: {len(report.waiting)}")
+def _section(name: str, report: Report) -> list[str]:
+    if name.startswith("section-"):
+        return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
+    return list(_PARTS[name](report))
+
+
+def _summary(report: Report) -> Iterator[str]:
     if report.changes:
-        lines += ["", "**Changed against the record:**", "", *(f"- {_prose(change)}" for change in report.changes)]
-    return "\n".join(lines)
+        yield "**Changed against the record:**"
+        yield "\n".join(f"- {_prose(change)}" for change in report.changes)
+    yield balance(report)
+    if fallen := [v.id for v in report.verdicts if v.verdict == "refuted"]:
+        yield f"Those that fall: {_links(fallen)}"
+    for number, headline in enumerate(headlines(report), 1):
+        yield f"### {number}. {_prose(headline.title)}"
+        yield _prose(headline.text)
+        if headline.formula is not None:
+            yield _formula(headline.formula)
+        if headline.ids:
+            yield f"Shown in {_links(headline.ids)}"
+    yield "### Equations"
+    yield "\n".join(f"- {count} {word(answer)}: {MEANINGS[answer]}" for answer, count in report.counts.items())
+    if report.claims:
+        yield "### Claims"
+        tried = report.outcomes.items()
+        yield "\n".join(f"- {count} {word(answer)}: {CLAIM_MEANINGS[answer]}" for answer, count in tried)
+
+
+def _shown(
+    tables: Iterable[Table], found: Iterable[tuple[str, str]], pictures: Iterable[Picture], r: Report
+) -> list[str]:
+    blocks = [block for table in tables for block in _side_by_side(table)]
+    blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in found]
+    return blocks + [_picture(picture, r) for picture in pictures]
+
+
+def _cite(report: Report) -> list[str]:
+    sentences, entry = citation()
+    return [*map(_prose, sentences), f"```bibtex\n{entry}\n```"]
+
+
+def _made(report: Report) -> list[str]:
+    return [
+        "The same inputs give the same file, byte for byte; how long each part took is in times.json.",
+        _rows(("What", "Version"), report.versions),
+        _rows(("Input", "SHA-256"), ((name, f"`{digest}`") for name, digest in report.inputs)),
+    ]
 
 
 def _table(report: Report) -> str:
-    rows = [
-        (f"[{v.id}](#{_anchor(v.id)})", _prose(equation(v.id).title), word(v.verdict), _prose(note(v)))
-        for v in report.verdicts
-    ]
+    rows = [(_links([v.id]), _prose(equation(v.id).title), word(v.verdict), _prose(note(v))) for v in report.verdicts]
     return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
 
 
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
     parts = [
-        f'<a id="{_anchor(verdict.id)}"></a>',
+        _place(anchor(verdict.id)),
         f"### {verdict.id} {_prose(entry.title)}: {word(verdict.verdict)}",
         "As printed:",
         _display(entry.latex),
@@ -80,18 +119,19 @@ def _equation(verdict: Verdict, report: Report) -> str:
 
 
 def _fact(fact: Fact) -> str:
-    words = [_prose(text) for text in fact.texts] + [", ".join(f"[{i}](#{_anchor(i)})" for i in fact.ids)]
+    words = [_prose(text) for text in fact.texts] + [_links(fact.ids)]
     words += [f"${latex(letter)}$" for letter in fact.formulas if letter.is_Symbol]
     line = f"**{fact.label}:** " + " ".join(filter(None, words))
     return "\n\n".join([line.rstrip(), *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol)])
 
 
 def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
-    """The errata sheet as Markdown blocks; none when nothing is refuted."""
-    blocks = []
+    """The errata sheet as Markdown blocks, without a heading of its own; none when nothing is refuted."""
+    blocks: list[str] = []
     for e in errata(verdicts):
-        used = ", ".join(f"[{i}](#{_anchor(i)})" for i in e.used_by) or "none"
+        used = ", ".join(f"[{i}](report.md#{anchor(i)})" for i in e.used_by) or "none"
         blocks += [
+            _place(f"erratum-{e.id}"),
             f"### Erratum {e.id} {_prose(e.title)}",
             _prose(e.wrong),
             "Printed:",
@@ -100,21 +140,23 @@ def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
             *map(_display, e.corrected),
             f"Used by: {used}; {e.reach}.",
         ]
-    return ["## Errata", *blocks] if blocks else []
+    return blocks
 
 
-def _claim(result: Result) -> str:
+def _claim(result: Result, report: Report) -> str:
     entry, finding = claims()[result.trial.id], result.finding
-    parts = [f"### {entry.id}: {word(finding.outcome)}", f"> {_prose(entry.text)}", _prose(finding.explanation)]
+    parts = [_place(anchor(entry.id)), f"### {entry.id} section {entry.section}: {word(finding.outcome)}"]
+    parts += [f"> {_prose(entry.text)}", _prose(finding.explanation)]
     if finding.condition:
         parts.append(f"**If:** {_prose(finding.condition)}")
+    parts += map(_fact, linked_facts(result, report))
     rows = [(_prose(name.replace("_", " ")), f"{value:.6g}") for name, value in result.measured.items()]
     return "\n\n".join([*parts, _rows((f"Measured ({_prose(result.trial.model)})", "Value"), rows)])
 
 
-def _side_by_side(table: Table, level: str = "##") -> list[str]:
+def _side_by_side(table: Table) -> list[str]:
     rows = [tuple(_cell(cell) for cell in row) for row in table.rows]
-    return [f"{level} {_prose(table.title)}", _rows(table.head, rows), _prose(table.note)]
+    return [f"### {_prose(table.title)}", _rows(table.head, rows), *filter(None, [_prose(table.note)])]
 
 
 def _cell(cell: Cell) -> str:
@@ -122,13 +164,16 @@ def _cell(cell: Cell) -> str:
         return "<br>".join(map(_cell, cell))
     if isinstance(cell, FigureLink):
         return f"[figure {cell.key}](#figure-{cell.key})"
-    return f"${latex(cell)}$" if isinstance(cell, sp.Basic) else _prose(cell)
+    if isinstance(cell, sp.Basic):  # a bar would end the cell
+        return "$" + latex(cell).replace(r"\left|", r"\left\lvert ").replace(r"\right|", r"\right\rvert ") + "$"
+    return _prose(cell)
 
 
-def _picture(picture: Picture) -> str:
+def _picture(picture: Picture, report: Report) -> str:
     image = f"![{_prose(picture.alt)}](figures/{picture.svg.name})"
-    heading = f'<a id="figure-{picture.key}"></a>\n\n### Figure {picture.key}: {_prose(picture.title)}'
-    parts = [heading, image, _prose(picture.caption)]
+    heading = f"### Figure {picture.key}: {_prose(picture.title)}"
+    parts = [_place(f"figure-{picture.key}"), heading, image, _prose(picture.caption)]
+    parts += map(_fact, figure_facts(picture, report))
     if picture.measured:
         parts.append(_rows(("Measured", "Value"), [(_prose(n), f"{v:.6g}") for n, v in picture.measured.items()]))
     return "\n\n".join(parts)
@@ -147,10 +192,32 @@ def _display(source: str) -> str:
     return f"$$\n{source}\n$$"
 
 
-def _anchor(identifier: str) -> str:
-    return f"eq-{identifier}"
+def _place(name: str) -> str:
+    return f'<a id="{name}"></a>'
+
+
+def _links(identifiers: Iterable[str]) -> str:
+    return ", ".join(f"[{identifier}](#{anchor(identifier)})" for identifier in identifiers)
 
 
 def _prose(text: str) -> str:
     """Text on one line in which nothing is read as Markdown, HTML or a table's edge."""
-    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(text.split()))
+    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
+
+
+_PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
+    "summary": _summary,
+    "verdicts": lambda report: [_table(report)],
+    "errata": lambda report: errata_blocks(report.verdicts),
+    "model": lambda report: ["Sliders and both tips in motion, in a browser: [index.html](index.html#model)."],
+    "claims": lambda report: [_claim(result, report) for result in report.claims],
+    "findings": lambda report: _shown((), report.findings, (), report),
+    "figures": lambda report: _shown((), (), report.pictures_of(""), report),
+    "tables": lambda report: _shown(report.tables, (), (), report),
+    "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
+    "speed": lambda report: _shown(report.speed, (), report.pictures_of("b"), report),
+    "stability": lambda report: _shown(report.stability, (), report.pictures_of("m"), report),
+    "waiting": lambda report: [_rows(("Equation", "Title"), [(e.id, _prose(e.title)) for e in report.waiting])],
+    "cite": _cite,
+    "made": _made,
+}

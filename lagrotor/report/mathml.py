@@ -2,26 +2,28 @@
 
 import re
 from html import unescape
-from typing import Any
-from xml.dom.minidom import Element, Node
+from xml.dom import minidom
+from xml.etree.ElementTree import Element
 
 import sympy as sp
 from sympy.printing.mathml import MathMLPresentationPrinter
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from ..symbols import GLOSSARY
+from .mathml_break import math
+from .mathml_layout import join, laid_out, leaf
 
 # A glossary letter: \dot{\theta}_{1} is an accent, a stem and an index.
 _LETTER = re.compile(r"(?:\\(d?dot)\{)?\\?([A-Za-z]+)\}?(?:_\{?(\w+)\}?)?$")
-_TALL = ("mfrac", "mtable", "msqrt", "mroot")
 _ACCENTS = {"dot": "˙", "ddot": "¨"}
-_LETTERS = greek_unicode | {"ell": "ℓ"}
+# As LaTeX draws \phi and \varphi, \epsilon and \varepsilon.
+_LETTERS = greek_unicode | {"ell": "ℓ", "phi": "ϕ", "varphi": "φ", "epsilon": "ϵ", "varepsilon": "ε"}
 
 
 class _Printer(MathMLPresentationPrinter):  # type: ignore[misc]
-    """sympy's printer, but with accents and indices as the glossary writes them, and sin²(x) for sin(x)²."""
+    """sympy's printer, but with accents and indices as the glossary writes them, sin x, and sin² x for (sin x)²."""
 
-    def _print_Symbol(self, symbol: sp.Symbol, style: str = "plain") -> Element:
+    def _print_Symbol(self, symbol: sp.Symbol, style: str = "plain") -> minidom.Element:
         match = _LETTER.match(_letter(symbol))
         if not match:
             return super()._print_Symbol(symbol, style)
@@ -29,32 +31,39 @@ class _Printer(MathMLPresentationPrinter):  # type: ignore[misc]
         node = self._leaf("mi", _LETTERS.get(stem, stem))
         if accent:
             node = self._join("mover", node, self._leaf("mo", _ACCENTS[accent]))
-            node.setAttribute("accent", "true")
         if index:
-            node = self._join("msub", node, self._leaf("mn" if index.isdigit() else "mi", index.replace("_", " ")))
+            parts = [self._leaf("mn" if part.isdigit() else "mi", part) for part in index.split("_")]
+            node = self._join("msub", node, self._join("mrow", *parts))
         return node
 
-    def _print_Pow(self, power: sp.Pow) -> Element:
+    def _print_Function(self, function: sp.Function) -> minidom.Element:
+        if not isinstance(function, sp.sin | sp.cos | sp.tan):
+            return super()._print_Function(function)
+        return self._applied(self._leaf("mi", function.func.__name__), function.args[0])
+
+    def _print_Pow(self, power: sp.Pow) -> minidom.Element:
         function, exponent = power.args
-        if not (isinstance(function, sp.sin | sp.cos) and exponent.is_Integer and exponent > 1):
+        if not (isinstance(function, sp.sin | sp.cos | sp.tan) and exponent.is_Integer and exponent > 1):
             return super()._print_Pow(power)
         name = self._join("msup", self._leaf("mi", function.func.__name__), self._print(exponent))
-        argument = (self._leaf("mo", "("), self._print(function.args[0]), self._leaf("mo", ")"))
-        return self._join("mrow", name, self._leaf("mo", "\u2061"), self._join("mrow", *argument))
+        return self._applied(name, function.args[0])
 
-    def _leaf(self, tag: str, text: str) -> Element:
+    def _applied(self, name: minidom.Element, argument: sp.Basic) -> minidom.Element:
+        inside = self._print(argument)
+        if argument.is_Symbol:
+            return self._join("mrow", name, inside)
+        return self._join("mrow", name, self._leaf("mo", "("), inside, self._leaf("mo", ")"))
+
+    def _leaf(self, tag: str, text: str) -> minidom.Element:
         node = self.dom.createElement(tag)
         node.appendChild(self.dom.createTextNode(text))
         return node
 
-    def _join(self, tag: str, *children: Node) -> Element:
+    def _join(self, tag: str, *children: minidom.Node) -> minidom.Element:
         node = self.dom.createElement(tag)
         for child in children:
             node.appendChild(child)
         return node
-
-    def drawn(self, expression: sp.Basic) -> str:
-        return str(_plain(self._join("mrow", self._print(expression)), self).toxml())
 
 
 def _letter(symbol: sp.Symbol) -> str:
@@ -68,30 +77,17 @@ def _letter(symbol: sp.Symbol) -> str:
     return rf"\{accent}{{{stem}}}" + (f"_{{{index}}}" if index else "")
 
 
-def _plain(node: Any, printer: _Printer) -> Any:
-    """The tree without what browsers no longer draw (`mfenced`, entities by name), low brackets not stretched."""
-    for child in list(node.childNodes):
-        if child.nodeType == Node.TEXT_NODE:
-            child.data = unescape(child.data)
-        else:
-            node.replaceChild(_plain(child, printer), child)
-    if node.nodeName == "mfenced":
-        node = _unfenced(node, printer)
-    if not any(node.getElementsByTagName(tag) for tag in _TALL):
-        for bracket in node.getElementsByTagName("mo"):
-            bracket.setAttribute("stretchy", "false")
-    return node
-
-
-def _unfenced(node: Any, printer: _Printer) -> Element:
-    inside = list(node.childNodes)
-    row = [printer._leaf("mo", node.getAttribute("open") or "(")]
-    for i, child in enumerate(inside):
-        row += [printer._leaf("mo", ",")] * bool(i) + [child]
-    return printer._join("mrow", *row, printer._leaf("mo", node.getAttribute("close") or ")"))
+def _element(node: minidom.Element) -> Element:
+    """The printer's node as the layout takes it: characters for entities, brackets for `mfenced`."""
+    texts = [unescape(child.data) for child in node.childNodes if isinstance(child, minidom.Text)]
+    children = [_element(child) for child in node.childNodes if isinstance(child, minidom.Element)]
+    if node.tagName == "mfenced":
+        ends = [leaf("mo", node.getAttribute(name) or mark) for name, mark in (("open", "("), ("close", ")"))]
+        inside = [part for child in children for part in (leaf("mo", ","), child)][1:]
+        return join("mrow", (ends[0], *inside, ends[1]))
+    return join(node.tagName, children) if children else leaf(node.tagName, "".join(texts))
 
 
 def mathml(expression: sp.Basic, display: bool = True) -> str:
-    """An expression as a `<math>` element, on its own line or within one."""
-    kind = ' display="block"' if display else ""
-    return f"<math{kind}>{_Printer().drawn(expression)}</math>"
+    """An expression as a `<math>` element, on its own line, broken where it is long, or within a line."""
+    return math(laid_out([_element(_Printer()._print(expression))]), display)

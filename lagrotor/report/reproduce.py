@@ -1,87 +1,174 @@
 """The main job: judge every equation, draw every figure, write the report, and only then replace the last one."""
 
 import json
-import os
-import shutil
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
+from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
-from ..errors import InputError, LagrotorError
+from ..errors import LagrotorError
 from ..numerics.files import write_text
 from ..paper import audit, catalogue, scripts, tables, trials
 from ..paper.ledger import Verdict
+from ..paper.scripts import beside
 from ..paper.trials import Result
-from . import figures
+from . import figures, reuse
 from .content import Report
 from .errata import latex_document
+from .figures import Picture
+from .folder import TIMES, check_target, replaced
+from .interactive import interactive
 from .markdown import errata_blocks, markdown
 from .page import page
+from .reuse import Kept, digest
+from .supplement import supplement
 
 RECORDED = Path(catalogue.__file__).with_name("recorded.json")
-CONTENTS = {
-    "index.html",
-    "report.md",
-    "verdicts.json",
-    "claims.json",
-    "measured.json",
-    "errata.md",
-    "errata.tex",
-    "figures",
-}
+# Derivations that state no equation: tables, benchmarks, theory past the paper, the table of it.
+_BESIDES = "mbtp"
+Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 
-def reproduce(target: Path, step: Callable[[str], None]) -> Report:
-    """Judge, draw and write everything into the folder `target`; `step` is told what begins.
+@dataclass(frozen=True)
+class Outcome:
+    """What a run found, in numbers: verdict → how many, claims likewise; a sentence for each change; what was taken.
 
-    Raises InputError when `target` cannot be written or is no report. Until all is done the old report stays.
+    taken: names of the parts that are those of the last run; ["report"] when all of it is.
     """
-    began = time.perf_counter()
-    with replaced(target) as folder:
-        verdicts = audit.audit(step)
-        heard = trials.hear_all(step)
-        findings = audit.findings("s")
-        step("tables")
-        side_by_side = tables.tables()
-        pictures = []
-        (folder / "figures").mkdir()
-        for stem in scripts.names("derivations", "t"):
-            step(stem)
+
+    equations: dict[str, int]
+    waiting: int
+    claims: dict[str, int]
+    figures: int
+    changes: list[str]
+    taken: list[str]
+    seconds: float
+
+
+def reproduce(target: Path, progress: Progress) -> Outcome:
+    """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
+
+    `progress(total)` gives the function that is told what begins. Raises InputError when `target` cannot be written or
+    is no report. Until all is done the old report stays.
+    """
+    began, on_record, old = time.perf_counter(), recorded(), check_target(target)
+    whole = digest(reuse.foundation(), json.dumps([reuse.inputs(), on_record]), beside("CITATION.cff").read_bytes())
+    if found := Kept(old, old).last("report", whole):
+        return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
+    with replaced(target) as new:
+        kept, marks = Kept(old, new), list[tuple[str, float]]()
+        (new / "figures").mkdir()
+        with progress(_steps(kept)) as told:
+
+            def step(name: str) -> None:
+                marks.append((name, time.perf_counter()))
+                told(name)
+
+            report = _find(kept, on_record, step)
+            step("interactive model")
+            interactive()
+            step("report")
+            _write(new, report)
+        found = {
+            "equations": report.counts,
+            "waiting": len(report.waiting),
+            "claims": report.outcomes,
+            "figures": len(report.pictures),
+            "changes": list(report.changes),
+        }
+        kept.keep("report", whole, found, (path for path in new.rglob("*") if path.is_file()))
+        kept.write()
+        ends = pairwise([*marks, ("", time.perf_counter())])
+        seconds = {name: round(end - start, 3) for (name, start), (_, end) in ends}
+        _write_json(new / TIMES, {"seconds": seconds, "taken from the last run": kept.taken})
+    return Outcome(**found, taken=kept.taken, seconds=time.perf_counter() - began)
+
+
+def _steps(kept: Kept) -> int:
+    """How many times `step` will be called."""
+    claims = sum(kept.last(f"claim {i}", reuse.foundation()) is None for i in trials.listed())
+    drawn = sum(kept.last(f"figure {key}", _figure_from(stem)) is None for key, stem in figures.stems().items())
+    return sum(len(scripts.names("derivations", prefix)) for prefix in f"s{_BESIDES}") + claims + drawn + 2
+
+
+def _find(kept: Kept, on_record: dict[str, str] | None, step: Callable[[str], None]) -> Report:
+    """Everything that the report tells."""
+    verdicts = audit.audit(lambda stem: step(f"derivation {stem}"))
+    heard = _hear(kept, step)
+    for prefix in _BESIDES:
+        for stem in scripts.names("derivations", prefix):
+            step(f"derivation {stem}")
             scripts.run("derivations", stem)
-        for key in figures.stems():
-            step(f"figure {key}")
-            pictures.append(figures.draw(key, folder / "figures"))
-        step("report")
-        found = outcomes(verdicts, heard)
-        changed = changes(found, recorded())
-        seconds = time.perf_counter() - began
-        report = Report(
-            tuple(verdicts),
-            tuple(pictures),
-            tuple(changed),
-            seconds,
-            tuple(heard),
-            tuple(findings),
-            tuple(side_by_side),
-            tuple(tables.tables("p")),
-            tuple(audit.findings("t")),
-        )
-        write_text(folder / "index.html", page(report))
-        write_text(folder / "report.md", markdown(report))
-        write_text(folder / "verdicts.json", audit.to_json(verdicts) + "\n")
-        write_text(folder / "claims.json", trials.to_json(heard) + "\n")
-        write_text(folder / "errata.md", "\n\n".join(errata_blocks(verdicts)) + "\n")
-        write_text(folder / "errata.tex", latex_document(verdicts))
-        measured = {picture.stem: picture.measured for picture in pictures}
-        write_text(folder / "measured.json", json.dumps(measured, indent=1) + "\n")
-    return report
+    return Report(
+        verdicts=tuple(verdicts),
+        pictures=tuple(_draw(kept, step)),
+        changes=tuple(changes(outcomes(verdicts, heard), on_record)),
+        claims=tuple(heard),
+        findings=tuple(audit.findings("s")),
+        tables=tuple(tables.tables("m1")),
+        past=tuple(tables.tables("p")),
+        theory=tuple(audit.findings("t")),
+        speed=tuple(tables.tables("b")),
+        stability=tuple(tables.tables("m3")),
+        versions=tuple(reuse.versions().items()),
+        inputs=tuple(reuse.inputs().items()),
+    )
 
 
-def steps() -> int:
-    """How many times `reproduce` calls its `step`."""
-    run = sum(len(scripts.names("derivations", prefix)) for prefix in "st")
-    return run + len(trials.listed()) + len(figures.stems()) + 2
+def _hear(kept: Kept, step: Callable[[str], None]) -> list[Result]:
+    """Every claim, its measured numbers those of the last run where they can be taken; they are decided anew."""
+    heard = []
+    for identifier, trial in trials.listed().items():
+        name = f"claim {identifier}"
+        measured = kept.take(name, reuse.foundation())
+        if measured is None:
+            step(name)
+            heard.append(trials.hear(trial))
+            kept.keep(name, reuse.foundation(), dict(heard[-1].measured))
+        else:
+            heard.append(Result(trial, measured, trial.decide(measured), 0.0))
+    return heard
+
+
+def _figure_from(stem: str) -> str:
+    return digest(reuse.foundation(), (scripts.folder("figures") / f"{stem}.py").read_bytes())
+
+
+def _draw(kept: Kept, step: Callable[[str], None]) -> Iterator[Picture]:
+    """Every figure, the last run's where it can be taken."""
+    folder = kept.new / "figures"
+    for key, stem in figures.stems().items():
+        name = f"figure {key}"
+        told = kept.take(name, _figure_from(stem))
+        if told is None:
+            step(name)
+            picture = figures.draw(key, folder)
+            told = {field: value for field, value in asdict(picture).items() if field not in ("svg", "png")}
+            kept.keep(name, _figure_from(stem), told, (picture.svg, picture.png))
+        yield Picture(**told, svg=folder / f"{stem}.svg", png=folder / f"{stem}.png")
+
+
+def _write(folder: Path, report: Report) -> None:
+    write_text(folder / "index.html", page(report))
+    write_text(folder / "report.md", markdown(report))
+    write_text(folder / "report.tex", supplement(report))
+    write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts)]) + "\n")
+    write_text(folder / "errata.tex", latex_document(report.verdicts))
+    _write_json(folder / "verdicts.json", [_timeless(audit.record(verdict)) for verdict in report.verdicts])
+    _write_json(folder / "claims.json", [_timeless(trials.record(result)) for result in report.claims])
+    _write_json(folder / "measured.json", {picture.stem: picture.measured for picture in report.pictures})
+
+
+def _timeless(record: dict[str, Any]) -> dict[str, Any]:
+    """A record without its duration, which is another on each run."""
+    return {name: value for name, value in record.items() if name != "seconds"}
+
+
+def _write_json(file: Path, found: Any) -> None:
+    write_text(file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
 
 
 def recorded() -> dict[str, str] | None:
@@ -110,58 +197,3 @@ def changes(found: dict[str, str], on_record: dict[str, str] | None, only: Itera
         for i in (*catalogue.equations(), *catalogue.claims())
         if i in asked and on_record.get(i) != found.get(i)
     ]
-
-
-def check_target(target: Path) -> Path:
-    """The folder with its links followed; raises InputError unless it can be made, or is empty, or is a report."""
-    folder = target.resolve()
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f"{target} is a file: choose a folder")
-    if not folder.parent.is_dir():
-        raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
-    if not os.access(folder.parent, os.W_OK):
-        raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
-    if folder.is_dir() and {entry.name for entry in folder.iterdir()} not in (set(), CONTENTS):
-        raise InputError(f"{target} holds other files than a report: choose a new or an empty folder")
-    return folder
-
-
-def _alive(process: str) -> bool:
-    """Whether a process of that number is running."""
-    try:
-        os.kill(int(process), 0)
-    except (ValueError, OverflowError, ProcessLookupError):
-        return False
-    except PermissionError:
-        return True
-    return True
-
-
-@contextmanager
-def replaced(target: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not."""
-    target = check_target(target)
-    # Two runs at once each fill a folder of their own; the last to end is the one that stays.
-    new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
-    for left in target.parent.glob(f".{target.name}.new-*"):
-        if not _alive(left.name.rpartition("-")[2]):
-            shutil.rmtree(left, ignore_errors=True)
-    if old.exists() and not target.exists():  # a run that was killed between the two renames below
-        old.rename(target)
-    shutil.rmtree(new, ignore_errors=True)
-    try:
-        new.mkdir()
-        yield new
-        if target.exists():
-            shutil.rmtree(old, ignore_errors=True)
-            target.rename(old)
-        try:
-            new.rename(target)
-        except BaseException:
-            if old.exists() and not target.exists():
-                old.rename(target)
-            raise
-    finally:
-        shutil.rmtree(new, ignore_errors=True)
-        if target.exists():
-            shutil.rmtree(old, ignore_errors=True)

@@ -13,7 +13,7 @@ import pytest
 import lagrotor
 from lagrotor.models import simulate as simulate_module
 from lagrotor.paper import audit, scripts
-from lagrotor.report import figures, reproduce, terminal
+from lagrotor.report import figures, folder, page, reproduce, reuse, terminal
 from lagrotor.report.command_line import main
 
 ROOT = Path(lagrotor.__file__).parent.parent
@@ -35,8 +35,8 @@ def measure():
 def small_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """One derivation, one figure, nothing on record; the working folder is empty."""
     drawn, work = tmp_path / "drawn", tmp_path / "work"
-    for folder in (drawn, work):
-        folder.mkdir()
+    for made in (drawn, work):
+        made.mkdir()
     (drawn / "fig17_stub.py").write_text(FIGURE, encoding="utf-8")
     real = scripts.folder
     monkeypatch.setattr(scripts, "folder", lambda name: drawn if name == "figures" else real(name))
@@ -46,6 +46,9 @@ def small_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         scripts, "names", lambda kind, prefix="": only.get(prefix, []) if kind == "derivations" else names(kind, prefix)
     )
     monkeypatch.setattr(reproduce, "RECORDED", tmp_path / "recorded.json")
+    for module in (page, reproduce):
+        monkeypatch.setattr(module, "interactive", lambda: '<section id="model"><h2>The model</h2></section>')
+    reuse.inputs.cache_clear()
     monkeypatch.chdir(work)
     return work
 
@@ -318,11 +321,10 @@ def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str
     assert main(["reproduce"]) == 0
     report = small_paper / "report"
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
-    assert kept == reproduce.CONTENTS - {"figures"} | {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
+    assert kept == folder.CONTENTS - {"figures"} | {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
     assert {entry["id"] for entry in json.loads((report / "verdicts.json").read_text())} == set(found())
     assert json.loads((report / "measured.json").read_text()) == {"fig17_stub": {"slope": 1.0}}
     assert "no verdicts are on record" in capsys.readouterr().err
-    assert main(["reproduce"]) == 0, "a report may be replaced"
 
 
 @pytest.mark.parametrize("stop", [KeyboardInterrupt, RuntimeError])
@@ -330,8 +332,9 @@ def test_interrupted_report_leaves_the_last_good_one(
     stop: type[BaseException], small_paper: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["reproduce"]) == 0
-    page = small_paper / "report" / "index.html"
-    good = page.read_text()
+    last = small_paper / "report" / "index.html"
+    good = last.read_text()
+    (small_paper / "report" / "figures" / "fig17_stub.svg").unlink()  # so that there is something to do
     capsys.readouterr()
 
     def interrupted(*_: object) -> None:
@@ -344,15 +347,36 @@ def test_interrupted_report_leaves_the_last_good_one(
     else:
         with pytest.raises(stop):
             main(["reproduce"])
-    assert page.read_text() == good
+    assert last.read_text() == good
     assert [path.name for path in small_paper.iterdir()] == ["report"]
+
+
+def test_report_of_an_older_version_may_be_replaced(small_paper: Path) -> None:
+    """It holds fewer files; but only what is a report."""
+    assert main(["reproduce"]) == 0
+    (small_paper / "report" / "report.tex").unlink()
+    (small_paper / "report" / folder.MADE).unlink()
+    assert main(["reproduce"]) == 0
+    assert (small_paper / "report" / "report.tex").exists()
+    (small_paper / "report" / "verdicts.json").unlink()
+    assert main(["reproduce"]) == 2
+
+
+def test_second_run_says_what_it_takes(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reproduce"]) == 0
+    assert "taken" not in capsys.readouterr().out
+    assert main(["reproduce"]) == 0
+    assert "all taken from the last run (same inputs)" in capsys.readouterr().out
+    (small_paper / "report" / "index.html").write_text("edited")
+    assert main(["reproduce"]) == 0
+    assert "\n1 figure taken from the last run (same inputs)\n" in capsys.readouterr().out
 
 
 def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = small_paper / "report"
-    with reproduce.replaced(target) as folder:
-        (folder / "index.html").write_text("good")
-    for name in reproduce.CONTENTS - {"index.html"}:
+    with folder.replaced(target) as made:
+        (made / "index.html").write_text("good")
+    for name in folder.CONTENTS - {"index.html"}:
         (target / name).touch()
     rename = Path.rename
 
@@ -362,8 +386,8 @@ def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatc
         return rename(path, to)
 
     monkeypatch.setattr(Path, "rename", failing)
-    with pytest.raises(KeyboardInterrupt), reproduce.replaced(target) as folder:
-        (folder / "index.html").write_text("new")
+    with pytest.raises(KeyboardInterrupt), folder.replaced(target) as made:
+        (made / "index.html").write_text("new")
     assert (target / "index.html").read_text() == "good"
     assert [path.name for path in small_paper.iterdir()] == ["report"]
 
@@ -372,9 +396,9 @@ def test_two_runs_at_once_do_not_touch_each_other(small_paper: Path) -> None:
     """The folder of a run that lives is left alone: here that of the process that runs the tests' parent."""
     other = small_paper / f".report.new-{os.getppid()}"
     other.mkdir()
-    with reproduce.replaced(small_paper / "report") as folder:
-        assert folder != other
-        (folder / "index.html").write_text("mine")
+    with folder.replaced(small_paper / "report") as made:
+        assert made != other
+        (made / "index.html").write_text("mine")
     assert other.is_dir()
     assert (small_paper / "report" / "index.html").read_text() == "mine"
 
@@ -390,7 +414,7 @@ def test_killed_swap_is_mended_by_the_next_run(small_paper: Path) -> None:
     (small_paper / ".report.old").mkdir()
     (small_paper / ".report.old" / "index.html").write_text("good")
     (small_paper / ".report.new-999999999").mkdir()
-    with pytest.raises(RuntimeError), reproduce.replaced(small_paper / "report"):
+    with pytest.raises(RuntimeError), folder.replaced(small_paper / "report"):
         raise RuntimeError
     assert (small_paper / "report" / "index.html").read_text() == "good"
     assert [path.name for path in small_paper.iterdir()] == ["report"]
@@ -403,15 +427,17 @@ def test_progress_is_shown_in_a_terminal_only(
     assert main(["reproduce"]) == 0
     assert not capsys.readouterr().err
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--out", "another"]) == 0
     steps = capsys.readouterr().err.splitlines()
     names = (
-        "[1/4] s5_2a_single_rotor …",
-        "[2/4] tables …",
-        "[3/4] figure 17 …",
+        "[1/4] derivation s5_2a_single_rotor …",
+        "[2/4] figure 17 …",
+        "[3/4] interactive model …",
         "[4/4] report …",
     )
     assert [line.rsplit(" ", 2)[0] for line in steps] == list(names)
+    assert main(["reproduce", "--out", "another"]) == 0
+    assert not capsys.readouterr().err, "nothing to do"
 
 
 def test_table_wraps_at_the_edge_of_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,18 +1,26 @@
 """The report as HTML and Markdown: complete, escaped, alone in the world, and readable without seeing."""
 
+import json
 import re
+import shutil
+import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 import sympy as sp
 
+from lagrotor.paper import catalogue, scripts, trials
 from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equation, equations
+from lagrotor.paper.catalogue import claims, equation, equations
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
-from lagrotor.report.content import Report
+from lagrotor.paper.trials import Finding, Result
+from lagrotor.report import page as page_module
+from lagrotor.report import page_pieces
+from lagrotor.report.content import Report, contents
 from lagrotor.report.figures import Picture
 from lagrotor.report.markdown import markdown
 from lagrotor.report.mathml import mathml
@@ -21,24 +29,30 @@ from lagrotor.symbols import ANSATZ, ROTOR, M, r0
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}
+SVG = '<svg viewBox="0 0 40 30" xmlns="http://www.w3.org/2000/svg"><path d="M 0 0 L 40 30"/></svg>'
 
 
 class Reader(HTMLParser):
-    """Follows the open elements; keeps every id, link, image and text."""
+    """Follows the open elements; keeps every id, link, image and text, headings by their rank."""
 
     def __init__(self) -> None:
         super().__init__()
         self.open: list[str] = []
         self.seen: list[tuple[str, dict[str, str | None]]] = []
         self.text = ""
+        self.crossed: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.seen.append((tag, dict(attrs)))
         if tag not in VOID:
             self.open.append(tag)
 
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+
     def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
+        if not self.open or self.open.pop() != tag:
+            self.crossed.append(tag)
 
     def handle_data(self, data: str) -> None:
         self.text += data
@@ -46,12 +60,26 @@ class Reader(HTMLParser):
     def all(self, tag: str, attribute: str) -> Iterator[str]:
         return (attrs[attribute] or "" for name, attrs in self.seen if name == tag and attribute in attrs)
 
+    @property
+    def ids(self) -> list[str]:
+        return [identifier for _, attrs in self.seen if (identifier := attrs.get("id"))]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def small_model() -> Iterator[None]:
+    """The live model has tests of its own; here a heading stands for it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            page_module, "interactive", lambda: '<section id="model"><h2>The interactive model</h2></section>'
+        )
+        yield
+
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     folder = tmp_path_factory.mktemp("figures")
     svg, png = folder / "fig17_stub.svg", folder / "fig17_stub.png"
-    svg.write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    svg.write_text(SVG)
     png.write_bytes(b"not looked at")
     judged = [judge(statement) for statement in statements("s5_2a_single_rotor")]
     corrected = Statement(
@@ -63,17 +91,33 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
         steps=(HOSTILE,),
     )
     judged.append(replace(judge(corrected), reaches_result=True))
-    picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25}, 0.5)
-    return Report(tuple(judged), (picture,), (HOSTILE,), 1.5)
+    picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25})
+    return Report(
+        tuple(judged), (picture,), (HOSTILE,), versions=(("Python", "3"), ("sympy", "1")), inputs=(("package", "0a"),)
+    )
 
 
 @pytest.fixture(scope="module")
 def longer(report: Report) -> Report:
-    """The same with a section past the paper."""
-    beyond = replace(report.pictures[0], stem="t6_stub", key="t6", measured={})
-    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2)), FigureLink("t6"), FigureLink("t7"))
+    """The same with a claim, and with what stands past the paper."""
+    pictures = [
+        replace(report.pictures[0], stem=f"{key}_stub", key=key, measured={}) for key in ("19", "t6", "b1", "m3")
+    ]
+    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Abs(r0)), FigureLink("t6"), FigureLink("t7"))
     table = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
-    return replace(report, pictures=(*report.pictures, beyond), past=(table,), theory=((HOSTILE, HOSTILE),))
+    trial = trials.Trial("C16", (10, -10), (10, 10), HOSTILE, lambda spins: {}, lambda measured: Finding("refuted", ""))
+    result = Result(trial, {"what_is_read": 1.5}, Finding("confirmed-if", HOSTILE, HOSTILE), 0.25)
+    return replace(
+        report,
+        pictures=(*report.pictures, *pictures),
+        claims=(result,),
+        findings=((HOSTILE, HOSTILE),),
+        tables=(table,),
+        past=(table,),
+        theory=((HOSTILE, HOSTILE),),
+        speed=(table,),
+        stability=(table,),
+    )
 
 
 def read(text: str) -> Reader:
@@ -83,41 +127,83 @@ def read(text: str) -> Reader:
     return reader
 
 
-def test_page_is_well_formed_and_its_links_lead_somewhere(report: Report) -> None:
-    reader = read(page(report))
-    assert reader.open == []
-    ids = [identifier for _, attrs in reader.seen if (identifier := attrs.get("id"))]
-    assert len(ids) == len(set(ids))
-    targets = set(reader.all("a", "href"))
-    assert targets <= {f"#{identifier}" for identifier in ids}
-    assert {f"#eq-{verdict.id}" for verdict in report.verdicts} <= targets
+def faults(text: str) -> list[str]:
+    """What a reader, a screen reader or a keyboard would stumble over."""
+    reader = read(text)
+    found = [f"left open: {tag}" for tag in (*reader.open, *reader.crossed)]
+    found += [f"id twice: {i}" for i in set(reader.ids) if reader.ids.count(i) > 1]
+    found += [f"leads nowhere: {link}" for link in reader.all("a", "href") if link[1:] not in reader.ids]
+    named = [attrs for _, attrs in reader.seen if "aria-labelledby" in attrs or "for" in attrs]
+    found += [f"no such name: {i}" for a in named if (i := a.get("aria-labelledby") or a.get("for")) not in reader.ids]
+    ranks = [int(tag[1]) for tag, _ in reader.seen if re.fullmatch("h[1-6]", tag)]
+    found += [f"h{b} after h{a}" for a, b in zip([0, *ranks], ranks, strict=False) if b > a + 1]
+    found += ["not one h1"] * (ranks.count(1) != 1)
+    found += ["picture without alternative"] * sum(t == "img" and not a.get("alt") for t, a in reader.seen)
+    found += ["th without scope"] * sum(t == "th" and not a.get("scope") for t, a in reader.seen)
+    tags = [tag for tag, _ in reader.seen]
+    found += [f"not one {tag}" for tag in ("main", "header", "nav", "footer") if tags.count(tag) != 1]
+    found += ["no language"] * (("html", {"lang": "en"}) not in reader.seen)
+    return found
+
+
+def reached(text: str) -> list[str]:
+    """What the page would fetch from elsewhere."""
+    addresses = [
+        (attrs[name] or "")
+        for _, attrs in read(text).seen
+        for name in ("src", "href", "srcset", "poster", "action", "data")
+        if name in attrs
+    ]
+    found = [address for address in addresses if not address.startswith(("#", "data:"))]
+    alone = re.sub(r"([\"(])data:[^\")]*", r"\1data:", text)
+    return found + re.findall(r"https?:|url\((?!data:)|@import|\bfetch\(|XMLHttpRequest|\bimport\b[ (]", alone)
+
+
+def test_page_has_no_faults(longer: Report) -> None:
+    text = page(longer)
+    assert faults(text) == []
+    assert {f"#eq-{verdict.id}" for verdict in longer.verdicts} <= set(read(text).all("a", "href"))
+
+
+@pytest.mark.parametrize(
+    ("whole", "broken", "says"),
+    [
+        ('id="eq-5.02"', 'id="eq-5.2"', "leads nowhere: #eq-5.02"),
+        ('id="eq-5.02"', 'id="eq-5.01"', "id twice: eq-5.01"),
+        ("</article>", "", "left open"),
+        ("<h2", "<h4", "h4 after h1"),
+        ("<h1", "<h2", "not one h1"),
+        ("alt=", "title=", "picture without alternative"),
+        ('scope="row"', "", "th without scope"),
+        ('lang="en"', "", "no language"),
+        ("<main", '<main id="second"></main><main', "not one main"),
+    ],
+)
+def test_faults_are_seen(whole: str, broken: str, says: str, longer: Report) -> None:
+    text = page(longer)
+    assert whole in text
+    assert any(fault.startswith(says) for fault in faults(text.replace(whole, broken, 1)))
 
 
 def test_page_is_escaped(report: Report) -> None:
     text = page(report)
-    assert "<script" not in text
-    assert read(text).text.count(HOSTILE) == 6  # change, evidence, step, figure's title, caption, measured name
+    assert text.count("<script") == 1, "the page's own"
+    assert read(text).text.count(HOSTILE) == 5  # change, evidence, step, figure's title, caption
+    assert read(text).text.count(HOSTILE.replace("_", " ")) == 1  # measured name
 
 
-def test_page_needs_no_network(report: Report) -> None:
-    text = page(report)
-    assert not re.search(r"https?:|//[a-z]|@import|url\(", text)
-    assert not {tag for tag, _ in read(text).seen} & {"script", "link", "iframe"}
+def test_page_needs_no_network(longer: Report) -> None:
+    text = page(longer)
+    assert reached(text) == []
+    for fetched in ('<img src="figures/a.png" alt="">', "<style>@import 'a.css'</style>", "<style>a{b:url(c)}</style>"):
+        assert reached(text.replace("</main>", f"{fetched}</main>"))
 
 
 def test_pictures_have_alternatives(report: Report) -> None:
     reader = read(page(report))
     assert list(reader.all("img", "alt")) == [HOSTILE]
-    assert next(reader.all("img", "src")).startswith("data:image/svg+xml;base64,")
-
-
-def test_large_pictures_go_in_as_png(report: Report) -> None:
-    picture = report.pictures[0]
-    small = picture.svg.read_text()
-    picture.svg.write_text(small + " " * 200_000)
-    text = page(report)
-    picture.svg.write_text(small)
-    assert next(read(text).all("img", "src")).startswith("data:image/png;base64,")
+    assert next(reader.all("img", "src")).startswith("data:image/svg+xml,")
+    assert (next(reader.all("img", "width")), next(reader.all("img", "height"))) == ("40", "30")
 
 
 @pytest.mark.parametrize("write", [page, markdown])
@@ -127,11 +213,61 @@ def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> 
         assert identifier in text
     for verdict in report.verdicts:
         assert f'id="eq-{verdict.id}"' in text
-    for part in ("sympy", "Python", "numpy", "scipy", "holds if", "refuted", "judged by the same rules: holds"):
+    for part in ("sympy", "Python", "holds if", "refuted", "judged by the same rules: holds", "0a", "version = {"):
         assert part in text
     assert "Reaches the result" in text
     assert "Used by" in text
     assert "agrees through order 0 in" in text
+
+
+@pytest.mark.parametrize("write", [page, markdown])
+def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], str], longer: Report) -> None:
+    text = write(longer)
+    listed = contents(longer)
+    places = [text.index(f'id="{anchor}"') for anchor, _ in listed]
+    assert places == sorted(places)
+    assert [name for name, _ in listed if not name.startswith("section")] == [
+        *(
+            "summary",
+            "verdicts",
+            "errata",
+            "model",
+            "claims",
+            "findings",
+            "figures",
+            "tables",
+            "past",
+            "speed",
+            "stability",
+        ),
+        *("waiting", "cite", "made"),
+    ]
+    ends = [*places[1:], len(text)]
+    within = {name: text[a:b] for (name, _), a, b in zip(listed, places, ends, strict=True)}
+    for name, key in {"figures": "19", "past": "t6", "speed": "b1", "stability": "m3"}.items():
+        assert f'id="figure-{key}"' in within[name]
+
+
+@pytest.mark.parametrize("write", [page, markdown])
+def test_what_belongs_together_is_linked(write: Callable[[Report], str], longer: Report) -> None:
+    text = write(longer)
+    assert {"5.19", "5.20"} == set(claims()["C16"].equations)
+    assert "5.20" in catalogue.figures()[19].equations
+    entry = text[text.index('id="eq-5.20"') : text.index('id="claim-C16"')]
+    claim = text[text.index('id="claim-C16"') : text.index('id="findings"')]
+    figure = text[text.index('id="figure-19"') :]
+    assert "#claim-C16" in entry and "#figure-19" in entry
+    assert "#eq-5.20" in claim and "#eq-5.19" not in claim, "5.19 is not in this report"
+    assert "#eq-5.20" in figure
+
+
+def test_catalogue_names_equations_that_exist() -> None:
+    for entry in (*claims().values(), *catalogue.figures().values()):
+        for identifier in entry.equations:
+            assert identifier in equations()
+    for claim in claims().values():
+        assert {int(number) for number in claim.figures} <= set(catalogue.figures())
+    assert claims()["C18"].figures == ("21", "22")
 
 
 def test_page_shows_the_source_as_printed(report: Report) -> None:
@@ -140,9 +276,15 @@ def test_page_shows_the_source_as_printed(report: Report) -> None:
         assert equation(verdict.id).latex in text
 
 
-def test_markdown_tables_keep_their_columns(report: Report) -> None:
+def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(page_pieces, "from_latex", lambda source: None)
+    assert "install latex2mathml" in page(report)
+    assert faults(page(report)) == []
+
+
+def test_markdown_tables_keep_their_columns(longer: Report) -> None:
     columns = 0
-    for line in markdown(report).splitlines():
+    for line in markdown(longer).splitlines():
         if line.startswith("| "):
             found = len(re.findall(r"(?<!\\)\|", line))
             assert columns in (0, found)
@@ -151,51 +293,87 @@ def test_markdown_tables_keep_their_columns(report: Report) -> None:
             columns = 0
 
 
-def test_markdown_reads_no_text_as_markup(report: Report) -> None:
-    text = markdown(report)
+def test_markdown_reads_no_text_as_markup(longer: Report) -> None:
+    text = markdown(longer)
     assert r"\<script\>" in text
     assert "<script" not in text.replace(r"\<script", "")
     assert text.count("$$") % 2 == 0
+
+
+def test_markdown_links_lead_somewhere(longer: Report) -> None:
+    text = markdown(longer)
+    places = set(re.findall(r'<a id="([^"]+)"></a>', text))
+    assert {name for name, _ in contents(longer)} <= places
+    drawn = {f"figure-{picture.key}" for picture in longer.pictures}
+    judged = {f"eq-{verdict.id}" for verdict in longer.verdicts} | drawn | {"figure-t7"}
+    for link in re.findall(r"\]\(#([^)]+)\)", text):
+        assert link in places or link == "figure-t7", link
+    assert judged - {"figure-t7"} <= places
 
 
 def test_past_the_paper_is_a_section_of_its_own(report: Report, longer: Report) -> None:
     assert 'id="past"' not in page(report)
     assert "Past the paper" not in markdown(report)
     text = page(longer)
-    reader = read(text)
-    assert reader.open == []
-    ids = {identifier for _, attrs in reader.seen if (identifier := attrs.get("id"))}
-    assert set(reader.all("a", "href")) <= {f"#{identifier}" for identifier in ids}
-    assert "#figure-t6" in set(reader.all("a", "href"))
-    assert "#figure-t7" not in set(reader.all("a", "href"))
-    assert text.index('id="figure-17"') < text.index('id="past"') < text.index('id="figure-t6"')
+    assert "#figure-t6" in set(read(text).all("a", "href"))
+    assert "#figure-t7" not in set(read(text).all("a", "href"))
     assert "<msub><mi>r</mi><mn>0</mn></msub>" in text[text.index('id="past"') :]
-    assert "<script" not in text
     written = markdown(longer)
-    assert written.index("## Figures") < written.index("## Past the paper") < written.index("### Figure t6")
     assert "$r_0 = M^{2}$" in written
     assert "[figure t6](#figure-t6)" in written
-    assert '<a id="figure-t6"></a>' in written
 
 
 def test_not_yet_judged_are_listed(report: Report) -> None:
     assert {entry.id for entry in report.waiting} == set(equations()) - {verdict.id for verdict in report.verdicts}
 
 
+def test_every_table_of_the_derivations_is_shown() -> None:
+    """`reproduce` asks for tables by the beginnings of their scripts' names: none may be forgotten."""
+    asked = {stem for prefix in ("m1", "m3", "b", "p") for stem in scripts.names("derivations", prefix)}
+    there = {path.stem for path in scripts.folder("derivations").glob("*.py") if path.stem[0] in "mbp"}
+    assert asked == there
+
+
+SEARCHED = """
+const entries = ENTRIES.map(([id, text]) => ({ id, text }));
+const found = (query) => search(query, entries).map((entry) => entry.id).join(" ");
+console.log(JSON.stringify(QUERIES.map(found)));
+"""
+ENTRIES = [
+    ("5.10", "the bar's length"),
+    ("5.1", "bar"),
+    ("c08", "energy by 5.10"),
+    ("figure-1", "pair"),
+    ("figure-19", "trajectories"),
+    ("figure-t6", "drift"),
+]
+QUERIES = {
+    "5.1": "5.1 5.10 c08",
+    "eq. 5.10": "5.10 c08",
+    "C8": "c08",
+    "claim 8": "c08",
+    "fig 19": "figure-19",
+    "Figure 1": "figure-1 figure-19",
+    "fig. t6": "figure-t6",
+    "bar length": "5.10",
+    "5.10 energy": "c08",
+    "none": "",
+    "  ": "",
+}
+
+
+def test_search() -> None:
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not installed")
+    script = Path(page_module.__file__).with_name("page.js").read_text(encoding="utf-8")
+    asked = SEARCHED.replace("ENTRIES", json.dumps(ENTRIES)).replace("QUERIES", json.dumps(list(QUERIES)))
+    done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
+    assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES
+
+
 def test_rates_are_dotted_and_indices_low() -> None:
-    dot = '<mo stretchy="false">˙</mo></mover>'
-    assert f'<mover accent="true"><mi>φ</mi>{dot}' in mathml(ROTOR.v[1])
-    assert f'<msub><mover accent="true"><mi>θ</mi>{dot}<mn>1</mn></msub>' in mathml(ANSATZ.v[0] + M)
+    assert "˙" in mathml(ROTOR.v[1])
     assert "¨" in mathml(ROTOR.a[0])
-    assert f'<msub><mover accent="true"><mi>φ</mi>{dot}<mn>0</mn></msub>' in mathml(sp.Symbol("phi_0_dot"))
     assert "<msub><mi>r</mi><mn>0</mn></msub>" in mathml(r0, display=False)
-    assert "<msub><mi>F</mi><mi>A x</mi></msub>" in mathml(sp.Symbol("F_A_x"))
-
-
-def test_mathml_is_what_browsers_draw() -> None:
-    theta = ROTOR.q[0]
-    text = mathml(sp.Matrix([sp.sin(theta) ** 2 / M, sp.Ne(theta, 0, evaluate=False).lhs * M]))
-    assert "mfenced" not in text
-    assert "&amp;" not in text
-    assert "<msup><mi>sin</mi><mn>2</mn></msup>" in text
-    assert read(text).open == []
+    assert "θ" in mathml(ANSATZ.v[0] + M)

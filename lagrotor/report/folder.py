@@ -1,0 +1,81 @@
+"""The folder of a report: what it may hold, and how a new one takes the place of the last only when it is whole."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import InputError
+
+# How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
+TIMES, MADE = "times.json", "made.json"
+CONTENTS = {
+    "index.html",
+    "report.md",
+    "report.tex",
+    "verdicts.json",
+    "claims.json",
+    "measured.json",
+    "errata.md",
+    "errata.tex",
+    "figures",
+    TIMES,
+    MADE,
+}
+
+
+def check_target(target: Path) -> Path:
+    """The folder with its links followed; raises InputError unless it can be made, or is empty, or is a report."""
+    folder = target.resolve()
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{target} is a file: choose a folder")
+    if not folder.parent.is_dir():
+        raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
+    if not os.access(folder.parent, os.W_OK):
+        raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
+    held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
+    if held and not {"index.html", "verdicts.json"} <= held <= CONTENTS:
+        raise InputError(f"{target} holds other files than a report: choose a new or an empty folder")
+    return folder
+
+
+def _alive(process: str) -> bool:
+    """Whether a process of that number is running."""
+    try:
+        os.kill(int(process), 0)
+    except (ValueError, OverflowError, ProcessLookupError):
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+@contextmanager
+def replaced(target: Path) -> Iterator[Path]:
+    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not."""
+    target = check_target(target)
+    # Two runs at once each fill a folder of their own; the last to end is the one that stays.
+    new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
+    for left in target.parent.glob(f".{target.name}.new-*"):
+        if not _alive(left.name.rpartition("-")[2]):
+            shutil.rmtree(left, ignore_errors=True)
+    if old.exists() and not target.exists():  # a run that was killed between the two renames below
+        old.rename(target)
+    shutil.rmtree(new, ignore_errors=True)
+    try:
+        new.mkdir()
+        yield new
+        if target.exists():
+            shutil.rmtree(old, ignore_errors=True)
+            target.rename(old)
+        try:
+            new.rename(target)
+        except BaseException:
+            if old.exists() and not target.exists():
+                old.rename(target)
+            raise
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+        if target.exists():
+            shutil.rmtree(old, ignore_errors=True)

@@ -1,0 +1,162 @@
+"""What the LaTeX files of the report share: one head, text and formulas in ASCII, tables, and long formulas in lines."""
+
+import re
+import unicodedata
+from collections.abc import Iterable
+
+import sympy as sp
+from sympy.printing.latex import tex_greek_dictionary
+from sympy.printing.pretty.pretty_symbology import greek_unicode
+
+from ..symbols import latex
+from .readable import readable
+
+HEAD = r"""\documentclass[11pt]{article}
+\usepackage[a4paper,margin=22mm]{geometry}
+\usepackage{amsmath,amssymb,graphicx,array,longtable}
+\usepackage[hidelinks]{hyperref}
+\setlength{\parindent}{0pt}
+\setlength{\parskip}{4pt}
+\setlength{\emergencystretch}{5em}\tolerance=2000
+\setlength{\lineskiplimit}{2pt}
+\setlength{\lineskip}{5pt}
+\setlength{\LTleft}{0pt}
+\setlength{\tabcolsep}{4pt}
+\allowdisplaybreaks
+\newcommand{\one}{\mathrm{1\mkern-4.5mu l}}
+\newsavebox{\formula}
+% A formula on its own line; where it is wider than that, the second form, which TeX breaks at signs and relations.
+\newcommand{\fit}[2]{\par\nobreak\savebox{\formula}{$\displaystyle #1$}%
+  \ifdim\wd\formula>\linewidth #2\else\noindent\usebox{\formula}\par\fi}
+% Within it a fraction or a root wider than the line is written with a slash or a power.
+\newcommand{\slashed}[2]{\setbox0\hbox{$\displaystyle\built{#1}{#2}$}%
+  \ifdim\wd0>.85\linewidth\bigl(#1\bigr)\big/\bigl(#2\bigr)\else\built{#1}{#2}\fi}
+\newcommand{\rooted}[2][]{\setbox0\hbox{$\displaystyle\radix[#1]{#2}$}%
+  \ifdim\wd0>.95\linewidth\bigl(#2\bigr)^{1/\ifx\relax#1\relax 2\else #1\fi}\else\radix[#1]{#2}\fi}
+\newcommand{\broken}[1]{{\small\let\built\frac\let\frac\slashed\let\radix\sqrt\let\sqrt\rooted\raggedright\relpenalty=50\binoppenalty=100
+  \hangindent=2em\hangafter=1\noindent$\displaystyle #1$\par}}
+% A picture of the folder beside this file.
+\newcommand{\drawn}[1]{\IfFileExists{#1}{\includegraphics[width=.8\linewidth]{#1}}%
+  {\emph{(\texttt{\detokenize{#1}})}}}
+\begin{document}
+"""
+END = "\\end{document}\n"
+
+_LETTERS = {
+    "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
+    "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
+    "§": r"$\mathsection$", "é": r"\'e", "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
+    "~": r"\~{}", '"': "''",
+} | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
+_GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in greek_unicode.items()} | {
+    "ℓ": r"\ell"
+}
+_DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
+_LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
+# A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
+_LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
+# sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
+_LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
+_LONG_WORD = 18
+# Characters of a formula beyond which nobody reads it on paper.
+_LONGEST = 2_500
+
+
+def prose(text: str) -> str:
+    """Plain text for LaTeX, its formulas as people read them: special characters escaped, long words breakable."""
+    return " ".join(_word(word) for word in readable(text).split(" "))
+
+
+def _word(word: str) -> str:
+    if len(word) <= _LONG_WORD:
+        return _LETTER.sub(_letter, "".join(map(_character, word)))
+    parts = re.findall(rf"(?:[^*/+=(),._-][\u0307\u0308₀-₉]*){{1,{_LONG_WORD // 2}}}|[*/+=(),._-]+", word)
+    return r"\allowbreak{}".join(map(_word, parts))
+
+
+def _character(character: str) -> str:
+    if character in "&%$#_{}":
+        return f"\\{character}"
+    if character in _LETTERS:
+        return _LETTERS[character]
+    if character.isascii() or character in _GREEK or character in _DOTS or character in _LOW:
+        return character
+    return unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode() or "?"
+
+
+def _letter(match: re.Match[str]) -> str:
+    stem, dot, index = match.groups()
+    if stem.isascii() and not dot and not index:
+        return stem
+    drawn = _GREEK.get(stem, stem)
+    drawn = f"{_DOTS[dot]}{{{drawn}}}" if dot else drawn
+    return f"${drawn}_{{{''.join(_LOW[digit] for digit in index)}}}$" if index else f"${drawn}$"
+
+
+def printed(source: str) -> str:
+    """A printed formula on its own line: the source's last comma or full stop belongs to its sentence."""
+    tidy = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
+    tidy = "".join(c if c.isascii() else _GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in tidy)
+    tidy = _LONE.sub(r" \1 ", tidy)
+    return rf"\fit{{{tidy}}}{{\broken{{{_loose(tidy)}}}}}"
+
+
+def derived(expression: sp.Basic) -> str:
+    """An expression on its own line; a matrix that is too wide as a list of its elements; the longest are only named."""
+    source = latex(expression)
+    if len(source) > _LONGEST:
+        return f"An expression of {len(source)} characters: it stands in full in verdicts.json."
+    if not isinstance(expression, sp.MatrixBase):
+        return printed(source)
+    rows, columns = expression.shape
+    elements = []
+    for i, j in ((i, j) for i in range(rows) for j in range(columns)):
+        index = f"{i + 1}" if columns == 1 else f"{i + 1}{j + 1}"
+        elements.append(rf"\broken{{[\,\cdot\,]_{{{index}}} = {_loose(inline(expression[i, j]))}}}")
+    return rf"\fit{{{inline(expression)}}}{{{' '.join(elements)}}}"
+
+
+def inline(expression: sp.Basic) -> str:
+    """An expression in the glossary's letters, without dollar signs; a matrix has room for its fractions."""
+    source = _LONE.sub(r" \1 ", latex(expression))
+    tall = r"\begin{matrix}" in source and r"\frac" in source
+    return source.replace(r"\frac", r"\dfrac").replace(r"\\", r"\\\noalign{\vskip 6pt}") if tall else source
+
+
+def _loose(source: str) -> str:
+    """A formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after every space."""
+    parts: list[str] = []
+    opened: list[int] = []
+    for piece in re.split(r"(\\left(?![a-z])|\\right(?![a-z]))", source):
+        if piece == r"\left":
+            opened.append(len(parts))
+            parts.append("")
+        elif piece == r"\right" and opened:
+            start = opened.pop()
+            big = r"\Big" if r"\frac" in "".join(parts[start:]) else ""
+            parts[start] = f"{big}l" if big else ""
+            parts.append(f"{big}r" if big else "")
+        else:
+            parts.append(piece)
+    return "".join(parts).replace(r"\quad", r"\quad\allowbreak ")
+
+
+def _length(cell: str) -> int:
+    """About how many characters a cell shows."""
+    return len(re.sub(r"\\hyperlink\{.*?\}|\\\w+|[{}$\\]", "", cell))
+
+
+def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """A table over as many pages as it needs, of cells that are LaTeX already, its columns as wide as they need."""
+    lines = list(rows)
+    most = 130 // len(head)
+    need = [6 + min(most, max(map(_length, column))) for column in zip(head, *lines, strict=True)]
+    columns = "".join(
+        rf">{{\raggedright\arraybackslash}}p{{\dimexpr {width / sum(need):.4f}\linewidth-2\tabcolsep\relax}}"
+        for width in need
+    )
+    top = " & ".join(rf"\textbf{{{cell}}}" for cell in head)
+    body = "\n".join(" & ".join(line) + r" \\" for line in lines)
+    size, gap = r"\small" if len(head) < 5 else r"\footnotesize", r"\hline\noalign{\vskip 2pt}"
+    begin, end = rf"{{{size}\begin{{longtable}}{{{columns}}}", r"\hline\end{longtable}}"
+    return "\n".join([begin, gap, rf"{top} \\ {gap}\endhead", body, end])

@@ -1,0 +1,93 @@
+// The page reads without this script; with it there is a search, open contents on a wide screen, and whole folds on paper.
+
+// A query as the words that an entry must hold: "Fig. 7" and "figure 7" are one, "c8" is C08, "5.1" begins 5.10 too.
+function words(query) {
+  return query
+    .toLowerCase()
+    .replace(/\b(?:fig(?:ure)?s?\.?)\s*(?=[btm]?\d)/g, "figure-")
+    .replace(/\b(?:eqs?\.?|equations?)\s*(?=\d)/g, "")
+    .replace(/\b(?:claims?\s*c?|c)0*(\d{1,2})\b/g, (_, number) => "c" + number.padStart(2, "0"))
+    .split(/\s+/)
+    .filter(Boolean);
+}
+
+// Whether an entry is meant: an id (or a figure's name) from its beginning, any other word anywhere.
+function matches(asked, id, text) {
+  return asked.every((word) => (/\d/.test(word) && id.startsWith(word)) || (!/^figure-/.test(word) && text.includes(word)));
+}
+
+// Those of the entries that are meant, an id that is met exactly first.
+function search(query, entries) {
+  const asked = words(query);
+  const found = asked.length ? entries.filter((entry) => matches(asked, entry.id, entry.text)) : [];
+  const exact = (entry) => Number(asked.includes(entry.id));
+  return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
+}
+
+function setUpSearch() {
+  const form = document.getElementById("search");
+  const [input, said, elsewhere] = ["query", "found", "elsewhere"].map((id) => document.getElementById(id));
+  const rows = [...document.querySelectorAll(".verdicts tbody tr")].map((row) => ({
+    id: row.cells[0].textContent,
+    text: row.textContent.toLowerCase(),
+    target: row.querySelector("a").hash,
+    row,
+  }));
+  const others = [...document.querySelectorAll("main article[id^=claim-], main article[id^=erratum-], main figure[id]")];
+  const entries = others.map((entry) => ({
+    id: entry.id.replace("claim-", "").toLowerCase(),
+    text: entry.textContent.toLowerCase(),
+    target: "#" + entry.id,
+    name: (entry.id.startsWith("erratum") ? "Erratum " : "") + entry.querySelector("h3").textContent,
+  }));
+  let first = null;
+  function show() {
+    const asked = input.value.trim();
+    const [inTable, outside] = [search(asked, rows), search(asked, entries)];
+    for (const { row } of rows) row.hidden = asked !== "" && !inTable.some((entry) => entry.row === row);
+    elsewhere.replaceChildren(
+      ...outside.slice(0, 12).map(({ target, name }) => {
+        const [item, anchor] = [document.createElement("li"), document.createElement("a")];
+        anchor.href = target;
+        anchor.textContent = name;
+        item.append(anchor);
+        return item;
+      }),
+    );
+    const more = outside.length > 12 ? ", of which 12 are listed" : "";
+    said.textContent = asked && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures and errata${more}`;
+    first = search(asked, [...inTable, ...outside])[0] ?? null;
+  }
+  form.hidden = false;
+  form.addEventListener("input", show);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    if (first) location.hash = first.target;
+  });
+}
+
+function setUpPage() {
+  const contents = document.getElementById("contents");
+  const wide = matchMedia("(min-width: 75rem)");
+  const unfold = () => (contents.open = wide.matches);
+  wide.addEventListener("change", unfold);
+  unfold();
+  contents.addEventListener("click", (event) => {
+    if (event.target.closest("a") && !wide.matches) contents.open = false;
+  });
+  // What is too wide scrolls, and then the keyboard must reach it.
+  for (const box of document.querySelectorAll(".wide")) {
+    if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
+  }
+  let opened = [];
+  addEventListener("beforeprint", () => {
+    opened = [...document.querySelectorAll("details.fold:not([open])")];
+    for (const fold of opened) fold.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const fold of opened) fold.open = false;
+  });
+  setUpSearch();
+}
+
+if (typeof document !== "undefined") setUpPage();

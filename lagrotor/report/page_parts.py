@@ -1,0 +1,93 @@
+"""The entries of the page: an equation, an erratum, a claim, a figure, a result."""
+
+from html import escape
+
+from ..paper.catalogue import claims, equation
+from ..paper.ledger import Verdict
+from ..paper.trials import Result
+from .content import Report, anchor, facts, figure_facts, linked_facts, sides
+from .embed import embedded, size
+from .errata import Erratum
+from .figures import Picture
+from .page_pieces import badge, code, fact_list, fold, formulas, heading, link, links, numbers, prose, typeset
+from .results import Headline
+
+# Characters of MathML beyond which the derived form stands below the printed one, not beside it.
+_WIDEST = 2_000
+
+
+def equation_entry(verdict: Verdict, report: Report) -> str:
+    """As printed beside as derived; what is said of it; folds with the source and the steps."""
+    entry, statement = equation(verdict.id), verdict.statement
+    printed = typeset(entry.latex)
+    derived = formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
+    read = formulas(sides(statement.relations, "printed"))
+    source = code(entry.latex) + (f"<p>As read, to be judged:</p>{read}" if read else "")
+    steps = "".join(f"<li>{prose(step)}</li>" for step in statement.steps)
+    number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
+    return (
+        f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
+        f"{_beside(f'As printed{number}', printed, 'As derived', derived)}"
+        f"{fact_list(facts(verdict, report))}"
+        f"{fold('Steps', f'<ol>{steps}</ol>') if steps else ''}"
+        f"{fold('LaTeX, and how it was read', source, 'source')}</article>"
+    )
+
+
+def erratum_entry(e: Erratum) -> str:
+    """Printed, correct, what was wrong, how far it reaches."""
+    correct = "".join(map(typeset, e.corrected))
+    return (
+        f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
+        f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
+        f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
+        "</small></p></article>"
+    )
+
+
+def _beside(left: str, printed: str, right: str, derived: str) -> str:
+    """Two formulas under their headings, one below the other where either is wide."""
+    layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
+    return f'<div class="{layout}"><div><h4>{left}</h4>{printed}</div><div><h4>{right}</h4>{derived}</div></div>'
+
+
+def claim_entry(result: Result, report: Report) -> str:
+    """The claim in the paper's words, its outcome, what was measured."""
+    entry, finding = claims()[result.trial.id], result.finding
+    condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
+    place = anchor(entry.id)
+    return (
+        f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
+        f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
+        f"{fact_list(linked_facts(result, report))}"
+        f"{fold(f'Measured ({result.trial.model})', numbers('What', result.measured.items()))}</article>"
+    )
+
+
+def picture_entry(picture: Picture, report: Report) -> str:
+    """The figure with its caption, what it belongs to, and the numbers read off it."""
+    width, height = size(picture)
+    place = anchor(f"figure {picture.key}")
+    measured = fold("Measured", numbers("What", picture.measured.items())) if picture.measured else ""
+    return (
+        f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
+        f'<img src="{embedded(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
+        f"<figcaption>{prose(picture.caption)}</figcaption>{fact_list(figure_facts(picture, report))}{measured}</figure>"
+    )
+
+
+def headline_entry(headline: Headline) -> str:
+    """One of the results that matter."""
+    formula = formulas([headline.formula]) if headline.formula is not None else ""
+    shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
+    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
+
+
+def finding_entry(title: str, text: str) -> str:
+    """A sentence that a derivation found besides."""
+    return f"<h3>{prose(title)}</h3><p>{prose(text)}</p>"
+
+
+def count_entry(answer: str, count: int, meaning: str) -> str:
+    """How often a verdict was given, and what it means."""
+    return f"<li><b>{count}</b> {badge(answer)} <span>{escape(meaning)}</span></li>"

@@ -1,0 +1,110 @@
+"""The small pieces of HTML that the page is put together from: tables, formulas, links, badges."""
+
+from collections.abc import Iterable
+from html import escape
+
+import sympy as sp
+
+from ..paper.tables import Cell, FigureLink, Table
+from .content import Fact, Report, anchor, word
+from .mathml import mathml
+from .mathml_latex import from_latex
+from .readable import readable
+
+# Characters of MathML that fill a page.
+_LONGEST = 15_000
+
+
+def prose(text: str) -> str:
+    """Plain text for HTML, its formulas as people read them."""
+    return escape(readable(text))
+
+
+def rows(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
+    """A table of cells that are HTML already; the first of each line names it."""
+    top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
+    body = "".join(
+        f'<tr><th scope="row">{first}</th>' + "".join(f"<td>{cell}</td>" for cell in rest) + "</tr>"
+        for first, *rest in lines
+    )
+    return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+
+
+def numbers(what: str, measured: Iterable[tuple[str, float]]) -> str:
+    """Measured numbers by name, six digits of each."""
+    return rows((what, "Value"), ((escape(name.replace("_", " ")), f"{value:.6g}") for name, value in measured))
+
+
+def side_by_side(table: Table, report: Report) -> str:
+    """A table of the derivations under its title, with its note."""
+    lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
+    told = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
+    return f'<div class="table"><h3>{prose(table.title)}</h3>{rows(table.head, lines)}{told}</div>'
+
+
+def _cell(cell: Cell, report: Report) -> str:
+    if isinstance(cell, tuple):
+        return "<br>".join(_cell(part, report) for part in cell)
+    if isinstance(cell, FigureLink):
+        drawn = any(picture.key == cell.key for picture in report.pictures)
+        return links([f"figure {cell.key}"]) if drawn else f"figure {escape(cell.key)}"
+    return mathml(cell, display=False) if isinstance(cell, sp.Basic) else prose(cell)
+
+
+def fact_list(found: Iterable[Fact]) -> str:
+    """Facts as a list of labels and what is said of them; nothing for none."""
+    said = "".join(map(_fact, found))
+    return f"<dl>{said}</dl>" if said else ""
+
+
+def _fact(fact: Fact) -> str:
+    symbols = "".join(f" {mathml(letter, display=False)}" for letter in fact.formulas if letter.is_Symbol)
+    parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
+    parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
+    parts.append(formulas(formula for formula in fact.formulas if not formula.is_Symbol))
+    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
+
+
+def formulas(expressions: Iterable[sp.Basic]) -> str:
+    """Each expression on a line of its own, which scrolls when it is too wide; folded when they would fill a page."""
+    drawn = "".join(f'<div class="wide">{mathml(expression)}</div>' for expression in expressions)
+    return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
+
+
+def typeset(source: str) -> str:
+    """LaTeX as a formula; as it stands, with a word, where the converter is not installed."""
+    formula = from_latex(source)
+    if formula is None:
+        return f"{code(source)}<p><small>LaTeX: install latex2mathml to have it typeset.</small></p>"
+    return f'<div class="wide">{formula}</div>'
+
+
+def code(source: str) -> str:
+    """Source text in lines that break."""
+    return f"<pre><code>{escape(source)}</code></pre>"
+
+
+def fold(summary: str, inside: str, kind: str = "fold") -> str:
+    """What opens when it is asked for."""
+    return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
+
+
+def badge(answer: str) -> str:
+    """A verdict or an outcome, in its colour."""
+    return f'<span class="badge {answer}">{escape(word(answer))}</span>'
+
+
+def link(identifier: str) -> str:
+    """A link to an equation, a claim or a figure."""
+    return f'<a href="#{anchor(identifier)}">{escape(identifier)}</a>'
+
+
+def links(identifiers: Iterable[str]) -> str:
+    """Links one after the other."""
+    return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)
+
+
+def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
+    """The heading of an entry: its name, which is the link to the entry itself, its title and its verdict."""
+    mark = f" {badge(answer)}" if answer else ""
+    return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'

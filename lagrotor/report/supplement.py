@@ -1,0 +1,193 @@
+"""The report as one LaTeX file, a supplement to a paper: ASCII, compiled by pdflatex, its pictures in `figures/`."""
+
+from collections.abc import Callable, Iterable
+
+import sympy as sp
+
+from ..paper.catalogue import claims, equation
+from ..paper.ledger import Verdict
+from ..paper.tables import Cell, FigureLink, Table
+from ..paper.trials import Result
+from .cite import citation
+from .content import (
+    CLAIM_MEANINGS,
+    HOW_TO_READ,
+    MEANINGS,
+    SUBTITLE,
+    TITLE,
+    Fact,
+    Report,
+    anchor,
+    contents,
+    facts,
+    figure_facts,
+    linked_facts,
+    note,
+    sides,
+    word,
+)
+from .errata import errata, latex_block
+from .figures import Picture
+from .latex import END, HEAD, derived, inline, printed, prose, table
+from .results import Headline, balance, headlines
+
+
+def supplement(report: Report) -> str:
+    """The whole report, its sections in the order of the page; the live model is the page's alone."""
+    blocks = [
+        rf"\title{{{prose(TITLE)}\\ \large {prose(SUBTITLE)}}}",
+        r"\author{}\date{}\maketitle",
+        prose(HOW_TO_READ),
+    ]
+    blocks += [r"\setcounter{tocdepth}{2}\tableofcontents"]
+    for name, heading in contents(report):
+        if name != "model":
+            blocks.append(rf"\section*{{{prose(heading)}}}\addcontentsline{{toc}}{{subsection}}{{{prose(heading)}}}")
+            blocks += _paper(report, name) if name.startswith("section-") else _PARTS[name](report)
+    return "\n\n".join([HEAD, *filter(None, blocks), END])
+
+
+def _summary(report: Report) -> list[str]:
+    rows = [(word(answer), str(count), prose(MEANINGS[answer])) for answer, count in report.counts.items()]
+    tried = [(word(answer), str(count), prose(CLAIM_MEANINGS[answer])) for answer, count in report.outcomes.items()]
+    changes = "Changed against the record: " + "; ".join(map(prose, report.changes)) if report.changes else ""
+    blocks = [changes, prose(balance(report)), *map(_headline, headlines(report))]
+    blocks.append(table(("Equations", "How many", "What it means"), rows))
+    return [*blocks, table(("Claims", "How many", "What it means"), tried) if tried else ""]
+
+
+def _headline(headline: Headline) -> str:
+    formula = derived(headline.formula) if headline.formula is not None else ""
+    shown = f"Shown in {_links(headline.ids)}." if headline.ids else ""
+    return f"{_titled(headline.title, headline.text)} {formula} {shown}"
+
+
+def _verdicts(report: Report) -> list[str]:
+    rows = [(_link(v.id), prose(equation(v.id).title), word(v.verdict), prose(note(v))) for v in report.verdicts]
+    return [table(("Equation", "Title", "Verdict", "Order or condition"), rows)]
+
+
+def _paper(report: Report, name: str) -> list[str]:
+    return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
+
+
+def _equation(verdict: Verdict, report: Report) -> str:
+    entry, statement = equation(verdict.id), verdict.statement
+    found = sides(statement.relations, "derived")
+    steps = "\n".join(rf"\item {prose(step)}" for step in statement.steps)
+    parts = [
+        _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
+        rf"\textbf{{As printed.}} {printed(entry.latex)}",
+        rf"\textbf{{As derived.}} {' '.join(map(derived, found)) or 'nothing to derive'}",
+        *(_fact(fact) for fact in facts(verdict, report)),
+        rf"\textbf{{Steps.}}\begin{{enumerate}}\setlength{{\itemsep}}{{0pt}}{steps}\end{{enumerate}}" if steps else "",
+    ]
+    return "\n\n".join(filter(None, parts))
+
+
+def _fact(fact: Fact) -> str:
+    words = [*map(prose, fact.texts), _links(fact.ids)]
+    words += [f"${inline(letter)}$" for letter in fact.formulas if letter.is_Symbol]
+    shown = (derived(formula) for formula in fact.formulas if not formula.is_Symbol)
+    return " ".join([rf"\textbf{{{fact.label}.}}", *filter(None, words), *shown])
+
+
+def _claim(result: Result, report: Report) -> str:
+    entry, finding = claims()[result.trial.id], result.finding
+    parts = [
+        _heading(entry.id, f"{word(finding.outcome)} (section {entry.section})", entry.id),
+        rf"\begin{{quote}}{prose(entry.text)}\end{{quote}}",
+        prose(finding.explanation),
+        rf"\textbf{{If:}} {prose(finding.condition)}" if finding.condition else "",
+        *(_fact(fact) for fact in linked_facts(result, report)),
+        _numbers(f"Measured ({result.trial.model})", ((n.replace("_", " "), v) for n, v in result.measured.items())),
+    ]
+    return "\n\n".join(filter(None, parts))
+
+
+def _shown(
+    tables: Iterable[Table], found: Iterable[tuple[str, str]], pictures: Iterable[Picture], report: Report
+) -> list[str]:
+    drawn = [_picture(picture, report) for picture in pictures]
+    return [*(_side_by_side(each, report) for each in tables), *(_titled(*finding) for finding in found), *drawn]
+
+
+def _side_by_side(shown: Table, report: Report) -> str:
+    rows = [tuple(_cell(cell, report) for cell in row) for row in shown.rows]
+    return f"{_titled(shown.title, '')}\n\n{table(tuple(map(prose, shown.head)), rows)}\n\n{prose(shown.note)}"
+
+
+def _cell(cell: Cell, report: Report) -> str:
+    if isinstance(cell, tuple):
+        return r"\par ".join(_cell(part, report) for part in cell)
+    if isinstance(cell, FigureLink):
+        drawn = any(picture.key == cell.key for picture in report.pictures)
+        return _link(f"figure {cell.key}") if drawn else prose(f"figure {cell.key}")
+    return derived(cell) if isinstance(cell, sp.Basic) else prose(cell)
+
+
+def _picture(picture: Picture, report: Report) -> str:
+    key = f"figure {picture.key}"
+    parts = [
+        _heading(f"Figure {picture.key}", picture.title, key),
+        rf"\drawn{{figures/{picture.png.name}}}",
+        prose(picture.caption),
+        *(_fact(fact) for fact in figure_facts(picture, report)),
+        _numbers("Measured", picture.measured.items()),
+    ]
+    return "\n\n".join(filter(None, parts))
+
+
+def _numbers(title: str, measured: Iterable[tuple[str, float]]) -> str:
+    rows = [(prose(name), f"{value:.6g}") for name, value in measured]
+    return table((prose(title), "Value"), rows) if rows else ""
+
+
+def _cite(report: Report) -> list[str]:
+    sentences, entry = citation()
+    return [*map(prose, sentences), f"{{\\scriptsize\\begin{{verbatim}}\n{entry}\n\\end{{verbatim}}}}"]
+
+
+def _made(report: Report) -> list[str]:
+    versions = [(prose(name), prose(number)) for name, number in report.versions]
+    inputs = [(prose(name), prose(digest)) for name, digest in report.inputs]
+    blocks = [table(("What", "Version"), versions) if versions else ""]
+    return [*blocks, table(("Input", "SHA-256"), inputs) if inputs else ""]
+
+
+def _waiting(report: Report) -> list[str]:
+    return [table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])]
+
+
+def _titled(title: str, text: str) -> str:
+    return rf"\textbf{{{prose(title)}.}} {prose(text)}"
+
+
+def _heading(name: str, title: str, identifier: str) -> str:
+    target = rf"\hypertarget{{{anchor(identifier)}}}{{{prose(name)}}}"
+    return rf"\subsection*{{{target}\quad {prose(title)}}}"
+
+
+def _link(identifier: str) -> str:
+    return rf"\hyperlink{{{anchor(identifier)}}}{{{prose(identifier)}}}"
+
+
+def _links(identifiers: Iterable[str]) -> str:
+    return ", ".join(map(_link, identifiers))
+
+
+_PARTS: dict[str, Callable[[Report], list[str]]] = {
+    "summary": _summary,
+    "verdicts": _verdicts,
+    "errata": lambda report: [latex_block(e) for e in errata(report.verdicts)],
+    "claims": lambda report: [_claim(result, report) for result in report.claims],
+    "findings": lambda report: _shown((), report.findings, (), report),
+    "figures": lambda report: _shown((), (), report.pictures_of(""), report),
+    "tables": lambda report: _shown(report.tables, (), (), report),
+    "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
+    "speed": lambda report: _shown(report.speed, (), report.pictures_of("b"), report),
+    "stability": lambda report: _shown(report.stability, (), report.pictures_of("m"), report),
+    "waiting": _waiting,
+    "cite": _cite,
+    "made": _made,
+}

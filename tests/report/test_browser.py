@@ -1,0 +1,139 @@
+"""The page in a real browser: no formula leaves its box, no page is wider than a phone, no script fails.
+
+Needs a Chromium; without one these tests say so and are skipped.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from html import escape, unescape
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from lagrotor.paper import scripts
+from lagrotor.paper.audit import statements
+from lagrotor.paper.catalogue import equations
+from lagrotor.paper.ledger import judge
+from lagrotor.report.content import Report, sides
+from lagrotor.report.font import FAMILY, font_face
+from lagrotor.report.mathml import mathml
+from lagrotor.report.mathml_latex import from_latex
+from lagrotor.report.page import page
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+WIDTHS = (1200, 390)
+
+# Runs before anything else of the page, so that no failure of its scripts is missed.
+LISTENER = """<script>
+window.failures = [];
+window.addEventListener("error", event => failures.push(String(event.message)));
+window.addEventListener("unhandledrejection", event => failures.push(String(event.reason)));
+console.error = (...words) => failures.push(words.join(" "));
+</script>"""
+# A formula is too wide when its block is wider inside than outside; a block that scrolls by itself is told apart.
+MEASURE = """
+function measure(view) {
+  const page = view.document, tooWide = [], scrolled = [];
+  for (const fold of page.querySelectorAll("details")) fold.open = true;
+  for (const formula of page.querySelectorAll("math")) {
+    let box = formula.parentElement;
+    while (view.getComputedStyle(box).display.startsWith("inline")) box = box.parentElement;
+    if (box.scrollWidth <= box.clientWidth + 1) continue;
+    const scrolls = ["auto", "scroll"].includes(view.getComputedStyle(box).overflowX);
+    (scrolls ? scrolled : tooWide).push(formula.textContent.slice(0, 60));
+  }
+  return {formulas: page.querySelectorAll("math").length, tooWide, scrolled,
+          width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
+          font: page.fonts.check("16px 'FAMILY'")};
+}
+window.onload = async () => {
+  const views = [...document.querySelectorAll("iframe")].map(frame => frame.contentWindow);
+  for (const view of views) await view.document.fonts.ready;
+  const found = views.map(measure);
+  document.body.innerHTML = "<pre id=found></pre>";
+  document.getElementById("found").textContent = JSON.stringify(found);
+};
+""".replace("FAMILY", FAMILY)
+
+
+def looked_at(html: str, folder: Path) -> list[dict[str, Any]]:
+    """What the browser finds of a page at each of `WIDTHS`: a frame of that width, measured after it is drawn."""
+    source = escape(html.replace("<head>", "<head>" + LISTENER, 1), quote=True)
+    frames = "".join(f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in WIDTHS)
+    (folder / "frames.html").write_text(f"<!DOCTYPE html>{frames}<script>{MEASURE}</script>", encoding="utf-8")
+    options = [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--virtual-time-budget=3000",
+        "--window-size=1300,1000",
+    ]
+    command = [
+        str(BROWSER),
+        *options,
+        f"--user-data-dir={folder / 'profile'}",
+        "--dump-dom",
+        str(folder / "frames.html"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    match = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
+    assert match, done.stderr[-2000:]
+    return list(json.loads(unescape(match[1])))
+
+
+def sheet(formulas: Iterator[str]) -> str:
+    """The formulas alone, each in a box as wide as the page's text, with the page's font."""
+    style = f"{font_face()} math {{ font: 1.1rem '{FAMILY}' }} main {{ max-width: 46rem }} div {{ overflow-x: auto }}"
+    boxes = "".join(f"<div>{formula}</div>" for formula in formulas)
+    view = '<meta name="viewport" content="width=device-width">'
+    return f'<!DOCTYPE html><html><head><meta charset="utf-8">{view}<style>{style}</style></head><main>{boxes}</main></html>'
+
+
+def every_formula() -> Iterator[str]:
+    """The printed equations, and every expression that the derivations state, which the page shows as read and derived."""
+    for entry in equations().values():
+        yield from filter(None, [from_latex(entry.latex)])
+    for stem in scripts.names("derivations", "s"):
+        for statement in statements(stem):
+            for relations in (statement.relations, statement.correction):
+                for side in ("printed", "derived"):
+                    yield from map(mathml, sides(relations, side))
+
+
+def test_the_page_fits_a_desk_and_a_phone(tmp_path: Path) -> None:
+    report = Report(tuple(map(judge, statements("s5_2a_single_rotor"))), (), ())
+    desk, phone = looked_at(page(report), tmp_path)
+    for found in (desk, phone):
+        assert found["formulas"] > 20
+        assert found["font"]
+        assert found["tooWide"] == []
+        assert found["width"] <= found["room"]
+        assert found["failures"] == []
+
+
+def test_no_formula_scrolls_on_a_page_of_46_rem(tmp_path: Path) -> None:
+    pytest.importorskip("latex2mathml", reason="latex2mathml reads the printed formulas")
+    desk, phone = looked_at(sheet(every_formula()), tmp_path)
+    assert desk["formulas"] == phone["formulas"] > 300
+    assert desk["scrolled"] == []
+    assert phone["width"] <= phone["room"]
+    assert desk["font"], "the font inside the page is the one that draws"
+
+
+def test_what_is_wrong_is_found(tmp_path: Path) -> None:
+    """A formula too wide for a box that does not scroll, one that does, and a script that fails."""
+    long = mathml(sp.Add(*sp.symbols("alpha:99")), display=False)
+    fails = "<script>console.error('said'); undefined_name()</script>"
+    wrong = f"<!DOCTYPE html><html><head></head><p>{long}</p><div style='overflow-x: auto'>{long}</div>{fails}</html>"
+    desk, phone = looked_at(wrong, tmp_path)
+    for found in (desk, phone):
+        assert len(found["tooWide"]) == len(found["scrolled"]) == 1
+        assert found["width"] > found["room"]
+        assert len(found["failures"]) == 2
+        assert found["failures"][0] == "said"

@@ -1,0 +1,121 @@
+"""The font inside the page: every character of every formula is in it, and what makes roots and brackets grow."""
+
+import re
+import unicodedata
+from base64 import b64decode
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from importlib.resources import files
+
+import pytest
+
+from lagrotor.paper import scripts
+from lagrotor.paper.audit import statements
+from lagrotor.paper.catalogue import equations
+from lagrotor.report.font import FAMILY, FILE, characters, font_face
+from lagrotor.report.mathml import mathml
+from lagrotor.report.mathml_latex import from_latex
+from lagrotor.symbols import GLOSSARY
+
+ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
+pytest.importorskip("brotli", reason="brotli unpacks WOFF2")
+
+
+class Letters(HTMLParser):
+    """The characters that a browser draws: a letter alone in its `mi` is drawn italic, from the block for it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.upright = True
+        self.drawn: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.upright = tag != "mi" or ("mathvariant", "normal") in attrs
+
+    def handle_data(self, data: str) -> None:
+        self.drawn |= {data if self.upright or len(data) > 1 else italic(data)} if len(data) == 1 else set(data)
+
+
+def italic(letter: str) -> str:
+    """The mathematical italic of a letter, as MathML Core maps it."""
+    name = unicodedata.name(letter).replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
+    name = {"PHI SYMBOL": "SMALL PHI SYMBOL"}.get(name, name)
+    candidates = (f"MATHEMATICAL ITALIC {name}", f"MATHEMATICAL ITALIC {name.replace('SMALL ', '', 1)}")
+    for candidate in candidates:
+        try:
+            return unicodedata.lookup(candidate)
+        except KeyError:
+            continue
+    return "ℎ" if letter == "h" else letter
+
+
+def drawn(formula: str) -> set[str]:
+    reader = Letters()
+    reader.feed(formula)
+    return reader.drawn
+
+
+def formulas() -> Iterator[str]:
+    """Everything that the page sets as mathematics."""
+    for entry in equations().values():
+        yield from filter(None, [from_latex(entry.latex)])
+    for stem in scripts.names("derivations", "s"):
+        for statement in statements(stem):
+            for relation in (*statement.relations, *statement.correction):
+                yield mathml(relation.printed, display=False)
+                yield mathml(relation.derived, display=False)
+            yield from filter(None, (from_latex(name) for name in statement.quantities))
+    yield from map(mathml, GLOSSARY)
+
+
+@pytest.fixture(scope="module")
+def covered() -> set[str]:
+    return set(map(chr, ttlib.TTFont(FILE).getBestCmap()))
+
+
+def test_every_character_of_every_formula_is_in_the_font(covered: set[str]) -> None:
+    used = set().union(*map(drawn, formulas()))
+    assert set("𝜃𝜙𝜑ℒ∑→˙𝟙Ω−") <= used
+    assert used <= covered, sorted(map(unicodedata.name, used - covered))
+
+
+def test_a_character_that_is_missing_is_seen(covered: set[str]) -> None:
+    assert drawn("<math><mi>θ</mi><mo>⨀</mo></math>") - covered == {"⨀"}
+
+
+def test_letters_are_read_as_they_are_drawn() -> None:
+    assert drawn("<mi>h</mi>") == {"ℎ"}
+    assert drawn('<mi mathvariant="normal">Ω</mi><mn>2</mn><mi>sin</mi>') == set("Ω2sin")
+    assert drawn("<mi>∂</mi><mi>ϕ</mi><mi>φ</mi>") == set("𝜕𝜙𝜑")
+
+
+def test_the_font_is_what_it_says(covered: set[str]) -> None:
+    assert characters() <= covered
+    font = ttlib.TTFont(FILE)
+    assert font["name"].getDebugName(1) == FAMILY
+    assert "SIL Open Font License" in font["name"].getDebugName(13)
+    assert "STIX" not in FAMILY, "the subset does not go by the trademark"
+
+
+def test_roots_brackets_and_sums_grow() -> None:
+    variants = ttlib.TTFont(FILE)["MATH"].table.MathVariants
+    upward = variants.VertGlyphCoverage.glyphs
+    font = ttlib.TTFont(FILE).getBestCmap()
+    for sign in "()[]{}|‖√∑∫":
+        assert font[ord(sign)] in upward, sign
+    assert font[ord("x")] not in upward
+    assert "ssty" in {r.FeatureTag for r in ttlib.TTFont(FILE)["GSUB"].table.FeatureList.FeatureRecord}
+
+
+def test_the_page_carries_the_whole_file() -> None:
+    match = re.search(r"url\(data:font/woff2;base64,([A-Za-z0-9+/=]+)\)", font_face())
+    assert match
+    assert b64decode(match[1]) == FILE.read_bytes()
+    assert len(match[1]) < 200_000
+    assert f'math {{ font-family: "{FAMILY}"' in font_face()
+
+
+def test_the_licence_lies_beside_it() -> None:
+    text = files("lagrotor.report").joinpath("fonts/OFL.txt").read_text(encoding="utf-8")
+    assert "SIL OPEN FONT LICENSE Version 1.1" in text
+    assert "The STIX Fonts Project Authors" in text

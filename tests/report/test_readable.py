@@ -1,0 +1,40 @@
+"""Formulas in sentences as people read them."""
+
+import pytest
+
+from lagrotor.report.readable import readable
+
+
+@pytest.mark.parametrize(
+    ("typed", "read"),
+    [
+        ("J = I_1 (I_1 read)", "J = I₁ (I₁ read)"),
+        ("cos(Phi)**3/2 - 3*cos(Phi)/2", "cos(Φ)³/2 − 3·cos(Φ)/2"),
+        ("M*R**2*(phi_dot**2 + theta_1_dot**2)", "M·R²·(φ̇² + θ̇₁²)"),
+        ("4 r_0⁴ cos⁴ Phi", "4 r₀⁴ cos⁴ Φ"),
+        ("phi_1 = -phi_2 at -0.363", "φ₁ = −φ₂ at −0.363"),
+        ("(a+b)**nu", "(a+b)^ν"),
+        ("Omega**12", "Ω¹²"),
+    ],
+)
+def test_formulas_are_set(typed: str, read: str) -> None:
+    assert readable(typed) == read
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "U_3_x",
+        "1e-11",
+        "figures 13-14",
+        "x-y",
+        "lagrotor chart --quick",
+        "*b* _c_ `a`",
+        "trial_1",
+        r"\theta_1",
+        "-x",
+        "M_z",
+    ],
+)
+def test_words_are_left_alone(text: str) -> None:
+    assert readable(text) == text

@@ -1,0 +1,108 @@
+"""The main job: the same bytes from the same inputs, and a second run that takes what has not changed."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import lagrotor
+from lagrotor.report.folder import CONTENTS, TIMES
+
+ROOT = Path(lagrotor.__file__).parent.parent
+LARGEST = 5_000_000  # bytes of the page
+# One section, the claims of another, a figure; `lines` may change anything before the run.
+SUBSET = """
+import sys
+from pathlib import Path
+from lagrotor.paper import scripts
+from lagrotor.report import content, figures, page, reproduce, results, terminal
+kept = {"s5_2e_bar_length", "s5_3_natural_rates", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
+names = scripts.names
+scripts.names = lambda kind, prefix="": [name for name in names(kind, prefix) if name in kept]
+page.interactive = reproduce.interactive = lambda: '<section id="model"><h2>The model</h2></section>'
+LINES
+made = reproduce.reproduce(Path(sys.argv[1]), terminal.progress)
+print(len(made.taken), *made.taken)
+"""
+
+
+def run(target: Path, seed: int, lines: str = "", source: str = SUBSET) -> str:
+    """Run the job in a process of its own; what it prints."""
+    done = subprocess.run(
+        [sys.executable, "-c", source.replace("LINES", lines), str(target)],
+        env=os.environ | {"PYTHONHASHSEED": str(seed), "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert not done.stderr, "quiet when piped"
+    return done.stdout
+
+
+def held(target: Path) -> dict[str, bytes]:
+    """What must be the same on every run."""
+    files = {str(path.relative_to(target)): path.read_bytes() for path in target.rglob("*") if path.is_file()}
+    assert {name.split("/")[0] for name in files} == CONTENTS
+    return {name: data for name, data in files.items() if name != TIMES}
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    target = tmp_path_factory.mktemp("first") / "report"
+    assert run(target, 1).startswith("0")
+    return target
+
+
+def test_the_same_inputs_give_the_same_bytes(first: Path, tmp_path: Path) -> None:
+    run(tmp_path / "report", 2)
+    assert held(tmp_path / "report") == held(first)
+
+
+def test_what_hangs_on_the_hash_seed_is_seen(first: Path, tmp_path: Path) -> None:
+    run(tmp_path / "report", 2, 'page.balance = lambda report: " ".join({"one", "two", "three", "four", "five"})')
+    other, same = held(tmp_path / "report"), held(first)
+    assert {name for name in same if other[name] != same[name]} == {"index.html", "made.json"}
+
+
+def test_durations_are_in_one_file(first: Path) -> None:
+    times = json.loads((first / TIMES).read_text())
+    assert set(times["seconds"]) >= {"derivation s5_3_natural_rates", "claim C01", "figure 14", "report"}
+    for name in ("verdicts.json", "claims.json"):
+        assert all("seconds" not in entry for entry in json.loads((first / name).read_text()))
+
+
+def test_a_second_run_takes_everything_and_touches_nothing(first: Path) -> None:
+    before = {path: path.stat().st_mtime_ns for path in first.rglob("*")}
+    assert run(first, 3) == "1 report\n"
+    assert {path: path.stat().st_mtime_ns for path in first.rglob("*")} == before
+
+
+def test_what_is_damaged_is_made_anew(first: Path) -> None:
+    good = held(first)
+    (first / "figures" / "fig14_euler_angles.svg").write_text("<svg/>")
+    assert run(first, 4) == "3 claim C01 claim C02 figure 16\n"
+    assert held(first) == good
+    (first / "index.html").write_text("edited")
+    assert run(first, 5) == "4 claim C01 claim C02 figure 14 figure 16\n"
+    assert held(first) == good
+
+
+def test_other_versions_make_everything_anew(first: Path) -> None:
+    good = held(first)
+    lines = 'reproduce.reuse.versions = lambda: {"Python": "another"}'
+    assert run(first, 6, lines).startswith("0")
+    assert held(first) != good
+    assert b"another" in held(first)["index.html"]
+
+
+@pytest.mark.slow
+def test_the_whole_report_is_the_same_twice_and_small(tmp_path: Path) -> None:
+    whole = SUBSET[: SUBSET.index("kept =")] + SUBSET[SUBSET.index("made =") :]
+    for seed in (1, 2):
+        run(tmp_path / f"report{seed}", seed, source=whole)
+    assert held(tmp_path / "report1") == held(tmp_path / "report2")
+    assert len(held(tmp_path / "report1")["index.html"]) <= LARGEST

@@ -1,0 +1,102 @@
+"""What the page begins with is taken from the run: other numbers give other sentences, missing ones none."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+from lagrotor.paper.audit import statements
+from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.trials import Finding, Result, Trial
+from lagrotor.report.cite import citation
+from lagrotor.report.content import Report
+from lagrotor.report.figures import Picture
+from lagrotor.report.results import balance, headlines
+from lagrotor.symbols import J, M, R, m
+
+MEASURED = {
+    "C16": {"corrected_shortest": 1.0811, "corrected_longest": 1.0822},
+    "C18": {"turned_about_joint_line_rad": 0.0712, "turned_about_joint_line_without_y_shock_rad": 3.333},
+    "C21": {
+        "J_over_J_plus_half_m": 0.71421,
+        "constant": 0.71432,
+        "constant_at_half_the_spins": 0.71443,
+        "constant_bar_K_0.1": 0.71454,
+        "constant_light_bar": 0.99123,
+    },
+}
+READ_OFF = {
+    "19": {
+        "paper, largest distance (m)": 0.04712,
+        "order_2, largest distance (m)": 0.0077,
+        "order_3, largest distance (m)": 0.0013,
+    },
+    "t6": {
+        "cancelling force, second order (N)": -10.61,
+        "cancelling force, exact runs (N)": -10.97,
+        "exact rate without a force along y (rad/s)": -0.3631,
+    },
+}
+SAID = (
+    ("5/7 = 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
+    ("8.1 to 8.2% too long", "up to 47 mm", "7.7 mm at second", "1.3 mm at third"),
+    ("-0.363 rad/s", "-10.61 N", "-10.97 N", "0.07 rad in 8 s", "by 3.33"),
+)
+
+
+@pytest.fixture(scope="module")
+def report() -> Report:
+    rates = {s.id: s for s in statements("s5_3_natural_rates")}
+    wrong = Statement("5.22", chain(M, R), correction=chain(M, M))
+    claims = tuple(
+        Result(
+            Trial(i, (1, 1), (1, 2), "", lambda s: {}, lambda v: Finding("confirmed", "")),
+            v,
+            Finding("confirmed", ""),
+            0,
+        )
+        for i, v in MEASURED.items()
+    )
+    pictures = tuple(Picture(key, key, "", "", "", Path(), Path(), read) for key, read in READ_OFF.items())
+    return Report((judge(wrong), judge(rates["5.25"])), pictures, (), claims=claims)
+
+
+def test_numbers_are_those_of_the_run(report: Report) -> None:
+    found = headlines(report)
+    assert len(found) == len(SAID)
+    for headline, parts in zip(found, SAID, strict=True):
+        for part in parts:
+            assert part in headline.text
+    assert found[0].formula == sp.Eq(sp.Symbol("c"), J / (J + m * R**2 / 2), evaluate=False)
+    assert [headline.ids for headline in found] == [("5.25", "C21"), ("5.22", "C16", "figure 19"), ("C18", "figure t6")]
+
+
+def test_another_number_is_another_sentence(report: Report) -> None:
+    texts = [headline.text for headline in headlines(report)]
+    for i, result in enumerate(report.claims):
+        for name, value in result.measured.items():
+            other = replace(result, measured={**result.measured, name: value * 1.1})
+            changed = replace(report, claims=(*report.claims[:i], other, *report.claims[i + 1 :]))
+            assert [headline.text for headline in headlines(changed)] != texts, name
+
+
+def test_what_was_not_found_is_not_told(report: Report) -> None:
+    assert len(headlines(replace(report, claims=()))) == 0
+    assert len(headlines(replace(report, pictures=()))) == 1
+    assert len(headlines(replace(report, verdicts=()))) == 1
+
+
+def test_balance_counts_what_was_judged(report: Report) -> None:
+    text = balance(report)
+    assert text.startswith("Of 2 equations 0 hold")
+    assert "1 fall; for 1 of these a correction is given that itself holds, and 0 take a result" in text
+    assert text.endswith("The other 1 give a name or a measured number.")
+
+
+def test_citation_is_that_of_the_file() -> None:
+    sentences, entry = citation()
+    assert sentences[0].startswith("If you use lagrotor")
+    assert "V. I. Arnold: Mathematical Methods of Classical Mechanics, 1978." in sentences
+    assert entry.startswith("@software{lagrotor,")
+    assert entry.count("{") == entry.count("}") and '"' not in entry

@@ -1,0 +1,168 @@
+"""The LaTeX supplement: the whole report in ASCII, and a compiler that has nothing to say against it."""
+
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.paper import trials
+from lagrotor.paper.audit import statements
+from lagrotor.paper.catalogue import claims, equations
+from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.tables import FigureLink, Table
+from lagrotor.report.content import Report, contents
+from lagrotor.report.figures import Picture
+from lagrotor.report.latex import END, HEAD, derived, printed, prose, table
+from lagrotor.report.supplement import supplement
+from lagrotor.symbols import M, r0
+
+HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
+LONG = sp.Add(*sp.symbols("x_1:60"))
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
+    folder = tmp_path_factory.mktemp("supplement")
+    (folder / "figures").mkdir()
+    png = folder / "figures" / "fig17_stub.png"
+    matplotlib.image.imsave(png, np.zeros((40, 60)))
+    judged = [judge(statement) for statement in statements("s5_2a_single_rotor")]
+    corrected = Statement(
+        "5.20",
+        chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
+        correction=chain(sp.cos(r0), sp.cos(r0)),
+        wrong=HOSTILE,
+        quantities=("x",),
+        depends_on=("5.06",),
+        evidence=(HOSTILE,),
+        steps=(HOSTILE,),
+    )
+    judged.append(replace(judge(corrected), reaches_result=True))
+    paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})
+    past = replace(paper, key="t6", measured={}, png=png.with_name("missing_one.png"))
+    finding = trials.Finding("confirmed-if", HOSTILE, HOSTILE)
+    trial = trials.Trial("C08", (1.0, 1.0), (1.0, -1.0), "minimal", dict, lambda numbers: finding)
+    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Eq(r0, LONG / M)), FigureLink("t6"), FigureLink("t7"))
+    side = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
+    return Report(
+        tuple(judged),
+        (paper, past),
+        (HOSTILE,),
+        claims=(trials.Result(trial, {"a_name": 1 / 3}, finding, 1.0),),
+        findings=((HOSTILE, HOSTILE),),
+        tables=(side,),
+        past=(side,),
+        theory=((HOSTILE, HOSTILE),),
+        versions=(("sympy", "1.14"),),
+        inputs=(("equations.toml", "0123456789abcdef" * 4),),
+    )
+
+
+def compiled(source: str, folder: Path) -> str:
+    """The log of pdflatex, its lines put together again."""
+    compiler = shutil.which("pdflatex")
+    if compiler is None:
+        pytest.skip("no pdflatex on this machine: install a LaTeX distribution to check that the supplement compiles")
+    (folder / "report.tex").write_text(source, encoding="ascii")
+    command = [compiler, "-interaction=nonstopmode", "report.tex"]
+    for _ in range(2):  # the second time with the table of contents
+        subprocess.run(command, cwd=folder, capture_output=True, check=False)
+    return (folder / "report.log").read_text(encoding="latin-1")
+
+
+def complaints(log: str, points: float = 20.0) -> list[str]:
+    """Errors, references to nothing, and lines wider than the page by more than so many points."""
+    wide = re.findall(r"^Overfull \\hbox \(([0-9.]+)pt.*$", log, re.MULTILINE)
+    found = re.findall(r"^!.*$|^.*(?:undefined|has been referenced but).*$", log, re.MULTILINE)
+    return found + [f"{width} pt too wide" for width in wide if float(width) > points]
+
+
+def test_it_is_ascii_with_balanced_braces(report: Report) -> None:
+    text = supplement(report)
+    assert text.isascii()
+    bare = re.sub(r"\\[{}\\]", "", text)
+    assert bare.count("{") == bare.count("}")
+    assert text.startswith(HEAD) and text.endswith(END)
+    assert text.count(r"\end{document}") == 1, "no text ends the document"
+
+
+def test_nothing_is_left_out(report: Report) -> None:
+    text = supplement(report)
+    for name, heading in contents(report):
+        assert (rf"\section*{{{heading}}}" in text) == (name != "model")
+    for verdict in report.verdicts:
+        assert text.count(rf"\hypertarget{{eq-{verdict.id}}}") == 1
+    for entry in report.waiting:
+        assert entry.id in text
+    for part in (
+        claims()["C08"].text.split()[0],
+        "holds if",
+        "judged by the same rules: holds",
+        "Reaches the result",
+        "agrees through order 0 in",
+        r"\drawn{figures/fig17_stub.png}",
+        r"\hyperlink{figure-t6}{figure t6}",
+        "0.333333",
+        "sympy",
+        "012345678",
+        "@software",
+    ):
+        assert part in text, part
+    assert r"\hyperlink{figure-t7}" not in text, "what is not drawn is not linked"
+
+
+def test_it_compiles(report: Report) -> None:
+    folder = report.pictures[0].png.parent.parent
+    log = compiled(supplement(report), folder)
+    assert complaints(log) == []
+    assert "fig17_stub.png" in log
+    assert (folder / "report.pdf").stat().st_size > 20_000
+
+
+def test_every_printed_equation_compiles(tmp_path: Path) -> None:
+    pages = "\n\n".join(printed(entry.latex) for entry in equations().values())
+    assert complaints(compiled(HEAD + pages + END, tmp_path)) == []
+
+
+def test_long_expressions_fit_the_page(tmp_path: Path) -> None:
+    wide = [LONG, M / LONG, sp.sqrt(LONG), sp.Matrix([LONG, 1]), sp.Matrix([[LONG, 1], [1, LONG]]), M * (LONG + 1) ** 2]
+    log = compiled(HEAD + "\n\n".join(map(derived, wide)) + END, tmp_path)
+    assert complaints(log) == []
+
+
+def test_what_is_wrong_is_found(tmp_path: Path) -> None:
+    wrong = r"\undefinedword \ref{nowhere} \hbox{" + "x" * 200 + "}" + END
+    found = " ".join(complaints(compiled(HEAD + wrong, tmp_path)))
+    assert "Undefined control sequence" in found and "nowhere" in found and "too wide" in found
+
+
+def test_text_is_text() -> None:
+    assert prose("50 % of r_0² & more") == r"50 \% of $r_{0}$$^2$ \& more"
+    assert prose("a\\b^c~d") == r"a\textbackslash{}b\^{}c\~{}d"
+    assert prose("phi_dot, theta_1_dot and Omega") == r"$\dot{\phi}$, $\dot{\theta}_{1}$ and $\Omega$"
+    assert prose("☃é") == r"?\'e", "a sign without a word of its own is marked"
+    assert r"\allowbreak" in prose("G_1**2*a-2*G_1*G_2*b+G_2**2*a") and r"\allowbreak" not in prose("a short word")
+
+
+def test_brackets_of_a_broken_formula_keep_their_size() -> None:
+    short, broken = re.fullmatch(
+        r"\\fit\{(.*)\}\{\\broken\{(.*)\}\}", printed(r"\left(\frac{a}{b}\right)+\left(c\right).")
+    ).groups()
+    assert short == r"\left(\frac{a}{b}\right)+\left(c\right)", "the sentence's full stop is gone"
+    assert broken == r"\Bigl(\frac{a}{b}\Bigr)+(c)"
+
+
+def test_the_longest_expressions_are_named_not_printed() -> None:
+    assert "verdicts.json" in derived(sp.Add(*sp.symbols("x_1:900")))
+
+
+def test_columns_share_the_width() -> None:
+    shares = re.findall(r"\\dimexpr ([0-9.]+)\\linewidth", table(("a", "b"), [("x", "y" * 60)]))
+    assert sum(map(float, shares)) == pytest.approx(1, abs=1e-3)
+    assert float(shares[0]) < float(shares[1])
