@@ -5,10 +5,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import lagrotor
+
+from .page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
@@ -20,6 +24,10 @@ _BESIDE = {
     "corrected_trajectories": "lagrotor.rotors.closed_forms",
     "paired_frequency": "lagrotor.rotors.closed_forms",
 }
+
+
+_TITLE = "lagrotor from Python"
+_UNITS = "Angles in rad, lengths in m, masses in kg, times in s, unless a line says otherwise."
 
 
 @dataclass(frozen=True)
@@ -81,16 +89,26 @@ def _short(default: Any) -> str:
     return "…" if re.search(r" at 0x|<factory>", repr(default)) else repr(default)
 
 
-def api_markdown() -> str:
-    """The page as Markdown."""
-    blocks = [
-        "# lagrotor from Python",
-        "Angles in rad, lengths in m, masses in kg, times in s, unless a line says otherwise.",
-    ]
+def api_page() -> str:
+    """The page as HTML, in the report's style."""
+    style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
+    blocks = []
     for entry in entries():
-        blocks.append(
-            f"## {entry.name}\n\n```python\nfrom {entry.module} import {entry.name}\n{entry.call}\n```\n\n{entry.text}"
-        )
-        if entry.members:
-            blocks.append("\n".join(f"- `{call}`: {line}" for call, line in entry.members))
-    return "\n\n".join(blocks) + "\n"
+        told = "".join(f"<p>{prose(part)}</p>" for part in entry.text.split("\n\n"))
+        members = "".join(f"<li><code>{escape(call)}</code>: {prose(line)}</li>" for call, line in entry.members)
+        how = code(f"from {entry.module} import {entry.name}\n{entry.call}")
+        listed = f"<ul>{members}</ul>" if members else ""
+        blocks.append(f'<article id="{entry.name}"><h2>{entry.name}</h2>{how}{told}{listed}</article>')
+    names = "".join(f'<li><a href="#{entry.name}">{entry.name}</a></li>' for entry in entries())
+    return "\n".join(
+        [
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">',
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f"<title>{_TITLE}</title>\n<style>\n{style}</style></head>",
+            f'<body id="top"><header><h1>{_TITLE}</h1><p>{_UNITS}</p></header>',
+            f'<nav aria-label="Contents"><details id="contents" open><summary>Contents</summary><ul>{names}</ul></details></nav>',
+            '<main id="content">',
+            *blocks,
+            "</main></body></html>\n",
+        ]
+    )

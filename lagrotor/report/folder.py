@@ -12,6 +12,7 @@ from ..errors import InputError
 TIMES, MADE = "times.json", "made.json"
 CONTENTS = {
     "index.html",
+    "api.html",
     "report.md",
     "report.tex",
     "verdicts.json",

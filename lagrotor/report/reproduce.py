@@ -16,6 +16,7 @@ from ..paper.ledger import Verdict
 from ..paper.scripts import beside
 from ..paper.trials import Result
 from . import figures, reuse
+from .api import api_page
 from .content import Report
 from .errata import latex_document
 from .figures import Picture
@@ -153,6 +154,7 @@ def _draw(kept: Kept, step: Callable[[str], None]) -> Iterator[Picture]:
 
 def _write(folder: Path, report: Report) -> None:
     write_text(folder / "index.html", page(report))
+    write_text(folder / "api.html", api_page())
     write_text(folder / "report.md", markdown(report))
     write_text(folder / "report.tex", supplement(report))
     write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts)]) + "\n")

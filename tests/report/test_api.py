@@ -26,11 +26,13 @@ def test_a_call_names_every_argument_of_the_code() -> None:
 
 
 def test_the_page_can_be_run_and_does_not_change() -> None:
-    text = api.api_markdown()
-    for line in re.findall(r"^from .* import \w+$", text, re.M):
+    text = api.api_page()
+    for line in re.findall(r"<code>(from .* import \w+)$", text, re.M):
         exec(line, {})
-    assert text == api.api_markdown()
-    assert "0x" not in text and len(text) < 15_000
+    assert text == api.api_page()
+    assert "0x" not in text and text.count("<article") == len(list(api.entries())) == text.count("<h2>")
+    assert set(re.findall(r'href="#(\w+)"', text)) <= set(re.findall(r'id="(\w+)"', text))
+    assert re.sub(r"<style>.*</style>", "", text, flags=re.S).count("<") < 600  # short
 
 
 def test_a_name_without_words_is_seen() -> None:
