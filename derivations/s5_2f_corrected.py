@@ -34,7 +34,7 @@ cosine = sp.cos(Phi)
 
 # %%
 x1, y1, _, x2, y2, _ = (e.subs(one) for e in corrected_trajectories(3).expressions)
-sines = tuple(e.subs(k, 1) for e in corrected_inclinations(3).expressions)
+sines = tuple(sp.collect(sp.expand(e.subs(k, 1)), r0) for e in corrected_inclinations(3).expressions)
 frequency = paired_frequency(3).expressions[0]
 massless = paired_series(9, sp.Integer(1), sp.Integer(1))
 massless_frequency = massless.expression(massless.frequency)

@@ -10,6 +10,16 @@ from typing import Any
 from ..errors import InputError
 
 _FOLDER = Path(__file__).parent
+# The paper's headings over its equations.
+SECTIONS = {
+    "2": "Preliminary analysis",
+    "3": "Rigid body simulation",
+    "4": "Modeling and validation",
+    "5.2": "Free precessions of the anti-spin rotor pair",
+    "5.2.1": "Confirmation of theory",
+    "5.3": "Natural precession rate of the coupled oscillators",
+    "6": "Conclusion",
+}
 
 
 @dataclass(frozen=True)

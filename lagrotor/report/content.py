@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..paper.catalogue import Equation, claims, equation, equations
+from ..paper.catalogue import SECTIONS, Equation, claims, equation, equations
 from ..paper.catalogue import figures as papers_figures
 from ..paper.ledger import Relation, Verdict
 from ..paper.tables import Table
 from ..paper.trials import Result
+from .errata import corrected
 from .figures import Picture
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
@@ -18,7 +19,8 @@ SUBTITLE = "Every equation as printed and as derived, with its verdict"
 HOW_TO_READ = (
     "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
     "procedure; each claim made in words is put to a run; each figure is drawn again. What stands here as a number was "
-    "computed by the run that wrote this page. An equation goes by its section and place, such as 5.07, a claim as C08."
+    "computed by the run that wrote this page, but for seconds, which are on record with their machine. An "
+    "equation goes by its section and place, such as 5.07, a claim as C08."
 )
 
 MEANINGS = {
@@ -106,12 +108,13 @@ class Report:
 
 @dataclass(frozen=True)
 class Fact:
-    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text."""
+    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text; formulas in LaTeX."""
 
     label: str
     texts: tuple[str, ...] = ()
     ids: tuple[str, ...] = ()
     formulas: tuple[sp.Basic, ...] = ()
+    sources: tuple[str, ...] = ()
 
 
 def anchor(identifier: str) -> str:
@@ -123,7 +126,7 @@ def anchor(identifier: str) -> str:
 
 def contents(report: Report) -> list[tuple[str, str]]:
     """The sections of a report that have something in them, in their order: (anchor, heading)."""
-    paper = [(f"section-{name}", f"Section {name}", True) for name in report.sections]
+    paper = [(f"section-{name}", f"{name} {SECTIONS[name]}", True) for name in report.sections]
     listed = [
         ("summary", "In short", True),
         ("verdicts", "Verdicts", True),
@@ -170,7 +173,7 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
     if statement.correction:
         answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
-        yield Fact("Correction", (answer,), formulas=sides(statement.correction, "printed"))
+        yield Fact("Correction", (answer,), sources=corrected(statement))
     if verdict.reaches_result is not None:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
     if verdict.evidence:

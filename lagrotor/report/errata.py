@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..paper.catalogue import equation
-from ..paper.ledger import Relation, Verdict
+from ..paper.ledger import Relation, Statement, Verdict
 from ..symbols import latex
 from .latex import END, HEAD, printed, prose
 
@@ -42,12 +42,17 @@ def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
                 id=entry.id,
                 title=entry.title,
                 printed=entry.latex,
-                corrected=tuple(map(_line, statement.quantities, statement.correction)),
+                corrected=corrected(statement),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "undecided").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
             )
+
+
+def corrected(statement: Statement) -> tuple[str, ...]:
+    """The correction of an equation in LaTeX, a line for each of its relations."""
+    return tuple(map(_line, statement.quantities, statement.correction))
 
 
 def _line(quantity: str, relation: Relation) -> str:

@@ -122,7 +122,13 @@ def _fact(fact: Fact) -> str:
     words = [_prose(text) for text in fact.texts] + [_links(fact.ids)]
     words += [f"${latex(letter)}$" for letter in fact.formulas if letter.is_Symbol]
     line = f"**{fact.label}:** " + " ".join(filter(None, words))
-    return "\n\n".join([line.rstrip(), *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol)])
+    return "\n\n".join(
+        [
+            line.rstrip(),
+            *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol),
+            *map(_display, fact.sources),
+        ]
+    )
 
 
 def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
@@ -215,8 +221,11 @@ _PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
     "figures": lambda report: _shown((), (), report.pictures_of(""), report),
     "tables": lambda report: _shown(report.tables, (), (), report),
     "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
-    "speed": lambda report: _shown(report.speed, (), report.pictures_of("b"), report),
-    "stability": lambda report: _shown(report.stability, (), report.pictures_of("m"), report),
+    "speed": lambda report: [*_shown((), (), report.pictures_of("b"), report), *_shown(report.speed, (), (), report)],
+    "stability": lambda report: [
+        *_shown((), (), report.pictures_of("m"), report),
+        *_shown(report.stability, (), (), report),
+    ],
     "waiting": lambda report: [_rows(("Equation", "Title"), [(e.id, _prose(e.title)) for e in report.waiting])],
     "cite": _cite,
     "made": _made,

@@ -132,8 +132,10 @@ _PARTS: dict[str, Callable[[Report], str]] = {
     "figures": lambda report: _shown(report, (), (), report.pictures_of("")),
     "tables": lambda report: _shown(report, report.tables, (), []),
     "past": lambda report: _shown(report, report.past, report.theory, report.pictures_of("t")),
-    "speed": lambda report: _shown(report, report.speed, (), report.pictures_of("b")),
-    "stability": lambda report: _shown(report, report.stability, (), report.pictures_of("m")),
+    "speed": lambda report: _shown(report, (), (), report.pictures_of("b")) + _shown(report, report.speed, (), []),
+    "stability": lambda report: (
+        _shown(report, (), (), report.pictures_of("m")) + _shown(report, report.stability, (), [])
+    ),
     "waiting": _waiting,
     "cite": _cite,
     "made": _made,

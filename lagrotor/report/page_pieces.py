@@ -62,6 +62,7 @@ def _fact(fact: Fact) -> str:
     parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
     parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
     parts.append(formulas(formula for formula in fact.formulas if not formula.is_Symbol))
+    parts += map(typeset, fact.sources)
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
 
 

@@ -89,7 +89,7 @@ def _fact(fact: Fact) -> str:
     words = [*map(prose, fact.texts), _links(fact.ids)]
     words += [f"${inline(letter)}$" for letter in fact.formulas if letter.is_Symbol]
     shown = (derived(formula) for formula in fact.formulas if not formula.is_Symbol)
-    return " ".join([rf"\textbf{{{fact.label}.}}", *filter(None, words), *shown])
+    return " ".join([rf"\textbf{{{fact.label}.}}", *filter(None, words), *shown, *map(printed, fact.sources)])
 
 
 def _claim(result: Result, report: Report) -> str:
@@ -185,8 +185,11 @@ _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "figures": lambda report: _shown((), (), report.pictures_of(""), report),
     "tables": lambda report: _shown(report.tables, (), (), report),
     "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
-    "speed": lambda report: _shown(report.speed, (), report.pictures_of("b"), report),
-    "stability": lambda report: _shown(report.stability, (), report.pictures_of("m"), report),
+    "speed": lambda report: [*_shown((), (), report.pictures_of("b"), report), *_shown(report.speed, (), (), report)],
+    "stability": lambda report: [
+        *_shown((), (), report.pictures_of("m"), report),
+        *_shown(report.stability, (), (), report),
+    ],
     "waiting": _waiting,
     "cite": _cite,
     "made": _made,
