@@ -15,12 +15,7 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.rotors.response import shock_response
-from lagrotor.rotors.toppling import (
-    toppling_growth,
-    toppling_polynomial,
-    toppling_residual,
-    toppling_threshold,
-)
+from lagrotor.rotors.toppling import toppling_growth, toppling_polynomial, toppling_residual, toppling_threshold
 from lagrotor.symbols import G_1, G_2, G, a, b, k, nu
 
 statements: list = []

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.paper import scripts
-from lagrotor.report.style import OKABE_ITO
+from lagrotor.pictures.style import OKABE_ITO
 
 # Method → colour and marker: rungs as `simulate` runs them, engines on the minimal rung, other solvers of scipy on it.
 LOOKS = {

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene
 from lagrotor.numerics.attitude import body_rotations
-from lagrotor.report.diagram import arc, arrow, canvas, draw_wheel, ground, label, path_arrow
-from lagrotor.report.wheel import BAR, INK, RADIUS, ROTORS, Camera
+from lagrotor.pictures.diagram import arc, arrow, canvas, draw_wheel, ground, label, path_arrow
+from lagrotor.pictures.wheel import BAR, INK, RADIUS, ROTORS, Camera
 
 SCENE = Scene(spins=(10.0, -10.0))
 TITLE = "Axially coupled rotor pair"

@@ -16,8 +16,8 @@ from matplotlib.patches import FancyBboxPatch
 from lagrotor.models import spring_link, spring_run
 from lagrotor.models.rigid_body import RigidBody
 from lagrotor.models.spring_link import RigidBodySystem
-from lagrotor.report.diagram import arrow, bare
-from lagrotor.report.style import CORRECTED, MODEL, OKABE_ITO
+from lagrotor.pictures.diagram import arrow, bare
+from lagrotor.pictures.style import CORRECTED, MODEL, OKABE_ITO
 
 TITLE = "Object design of the rigid-body simulator"
 CAPTION = (

@@ -13,8 +13,8 @@ from matplotlib.patches import Circle, Rectangle
 
 from lagrotor import Scene
 from lagrotor.models.spring_run import paper_system
-from lagrotor.report.diagram import arrow, canvas, label
-from lagrotor.report.wheel import GROUND, INK, MARK, ROTORS
+from lagrotor.pictures.diagram import arrow, canvas, label
+from lagrotor.pictures.wheel import GROUND, INK, MARK, ROTORS
 
 S, D, MOVED = 1.0, 0.2, np.array([0.24, 0.0, 0.18])  # N/m, kg/s; m
 TITLE = "Link between a ground vertex and a body vertex"

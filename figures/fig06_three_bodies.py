@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.models.spring_run import paper_system
-from lagrotor.report.diagram import canvas, draw_wheel, ground, label
-from lagrotor.report.wheel import BAR, INK, MARK, RADIUS, ROTORS, Camera
+from lagrotor.pictures.diagram import canvas, draw_wheel, ground, label
+from lagrotor.pictures.wheel import BAR, INK, MARK, RADIUS, ROTORS, Camera
 from lagrotor.rotors.scenes import DAMPING, SCENES, STIFFNESS
 
 APART = np.array([[-0.12, 0, 0], [0.12, 0, 0], [0, 0, 0.24]])  # m, for the drawing only

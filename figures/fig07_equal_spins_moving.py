@@ -10,8 +10,8 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.report.diagram import bare, draw_wheel, ground
-from lagrotor.report.wheel import BAR, INK, RADIUS, ROTORS, Camera
+from lagrotor.pictures.diagram import bare, draw_wheel, ground
+from lagrotor.pictures.wheel import BAR, INK, RADIUS, ROTORS, Camera
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.study.struck import paper_run
 

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.models.spring_run import paper_system, run_steps
-from lagrotor.report.style import MODEL, OKABE_ITO
+from lagrotor.pictures.style import MODEL, OKABE_ITO
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
 
 SCENE = SCENES["same-spin"].scene

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.report.style import EXACT, MODEL
+from lagrotor.pictures.style import EXACT, MODEL
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.study.struck import paper_run
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import simulate
 from lagrotor.models.spring_link import step_limit
 from lagrotor.models.spring_run import paper_system
-from lagrotor.report.style import EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.study.struck import paper_run, pulse
 

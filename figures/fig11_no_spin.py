@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.report.panels import shock_figure
+from lagrotor.pictures.panels import shock_figure
 from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.study.struck import centre_numbers, centre_off, centre_runs
 

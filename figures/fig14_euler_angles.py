@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from lagrotor.report.diagram import arrow, between, canvas, label, path_arrow
-from lagrotor.report.wheel import GROUND, INK, MARK, ROTORS, Camera
+from lagrotor.pictures.diagram import arrow, between, canvas, label, path_arrow
+from lagrotor.pictures.wheel import GROUND, INK, MARK, ROTORS, Camera
 from lagrotor.rotors.lagrangians import axis
 
 NODE, THETA, PSI = 1.05, 0.7, 0.75  # the paper's varphi, theta, psi, rad

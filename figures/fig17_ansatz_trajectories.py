@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
 from lagrotor.models.orbit import exact_orbit
-from lagrotor.report.panels import orbits_from_above, over_one_turn
-from lagrotor.report.style import EXACT, PAPER
+from lagrotor.pictures.panels import orbits_from_above, over_one_turn
+from lagrotor.pictures.style import EXACT, PAPER
 from lagrotor.study.paired_curves import ansatz_axes
 
 R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
 from lagrotor.models.orbit import exact_orbit
-from lagrotor.report.style import CORRECTED, EXACT, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 
 R0, TOL = 0.204, 1e-11
 

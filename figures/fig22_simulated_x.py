@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.report.style import EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.scenes import SCENES
 
 TOL = 1e-10

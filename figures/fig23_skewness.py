@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.response import shock_response
 from lagrotor.rotors.scenes import SCENES
 from lagrotor.study.rates import turn_means

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.report.style import CORRECTED, EXACT, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 from lagrotor.rotors.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.rotors.response import shock_response
 from lagrotor.rotors.scenes import SCENES

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.report.style import EXACT, MODEL
+from lagrotor.pictures.style import EXACT, MODEL
 from lagrotor.rotors.scenes import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.study.struck import paper_run, pulse
 

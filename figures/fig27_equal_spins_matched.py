@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.report.panels import rate_figure
+from lagrotor.pictures.panels import rate_figure
 from lagrotor.rotors.scenes import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.study.struck import rate_numbers, rate_runs
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.rotors.scenes import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
 from lagrotor.study.rates import peak, spectrum
 from lagrotor.study.struck import paper_run

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.report.stability_figure import stability_figure
+from lagrotor.pictures.stability_figure import stability_figure
 from lagrotor.study.usefulness import USEFUL, Usefulness, usefulness
 
 TITLE = "Where the closed forms stop being useful"

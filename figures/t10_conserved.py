@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.models.orbit import exact_orbit
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 from lagrotor.study.compare import ansatz_A, measured_order, swing
 
 AMPLITUDES = np.array([0.05, 0.1, 0.2, 0.4])

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.report.style import CORRECTED, EXACT, OKABE_ITO, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, OKABE_ITO, PAPER
 from lagrotor.study.rates import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.study.compare import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.models.orbit import exact_orbit
-from lagrotor.report.style import CORRECTED, EXACT
+from lagrotor.pictures.style import CORRECTED, EXACT
 from lagrotor.rotors.orbit import evaluate, paired_series, shape_of
 from lagrotor.study.compare import measured_order
 

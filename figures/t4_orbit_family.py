@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.rotors.orbit import evaluate, paired_series, shape_of
 
 BARS = {

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.study.compare import measured_order
 from lagrotor.study.floquet import leading_square
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, cancelling_force
-from lagrotor.report.style import CORRECTED, EXACT, PAPER
+from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 from lagrotor.rotors.drift import toppling_after_shock
 from lagrotor.study.after_shock import run_after, turning_rate
 

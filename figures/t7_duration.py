@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.report.style import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.rotors.drift import toppling_after_shock, wander_after_shock
 from lagrotor.study.after_shock import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.study.compare import measured_order

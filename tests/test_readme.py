@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.report.command_line import main
+from lagrotor.commands.command_line import main
 
 ROOT = Path(lagrotor.__file__).parent.parent
 README = ROOT / "README.md"

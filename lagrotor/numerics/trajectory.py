@@ -86,13 +86,13 @@ class Trajectory:
 
     def plot(self) -> "Figure":
         """A figure: tips over time and from above, energy and length of the bar over time."""
-        from ..report.run_figure import run_figure
+        from ..pictures.run_figure import run_figure
 
         return run_figure(self)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.report.animate`."""
-        from ..report.animate import animate
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.pictures.animate`."""
+        from ..pictures.animate import animate
 
         return animate(self, path, fps)
 

@@ -11,8 +11,8 @@ from ..paper.catalogue import figures as papers_figures
 from ..paper.ledger import Relation, Verdict
 from ..paper.tables import Table
 from ..paper.trials import Result
+from ..pictures.figures import Picture
 from .errata import corrected
-from .figures import Picture
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"

@@ -9,6 +9,7 @@ from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
 from ..paper.tables import Cell, FigureLink, Table
 from ..paper.trials import Result
+from ..pictures.figures import Picture
 from ..symbols import latex
 from .cite import citation
 from .content import (
@@ -29,7 +30,6 @@ from .content import (
     word,
 )
 from .errata import errata
-from .figures import Picture
 from .readable import readable
 from .results import balance, headlines
 

@@ -6,12 +6,12 @@ from pathlib import Path
 
 from ..paper.catalogue import equation
 from ..paper.tables import Table
+from ..pictures.figures import Picture
 from .cite import citation
 from .content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, note
 from .errata import errata
-from .figures import Picture
-from .font import font_face
-from .interactive import interactive
+from .formulas.font import font_face
+from .interactive.interactive import interactive
 from .page_parts import (
     claim_entry,
     count_entry,

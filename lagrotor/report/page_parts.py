@@ -5,10 +5,10 @@ from html import escape
 from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
 from ..paper.trials import Result
+from ..pictures.figures import Picture
 from .content import Report, anchor, facts, figure_facts, linked_facts, sides
 from .embed import embedded, size
 from .errata import Erratum
-from .figures import Picture
 from .page_pieces import badge, code, fact_list, fold, formulas, heading, link, links, numbers, prose, typeset
 from .results import Headline
 

@@ -7,8 +7,8 @@ import sympy as sp
 
 from ..paper.tables import Cell, FigureLink, Table
 from .content import Fact, Report, anchor, word
-from .mathml import mathml
-from .mathml_latex import from_latex
+from .formulas.mathml import mathml
+from .formulas.mathml_latex import from_latex
 from .readable import readable
 
 # Characters of MathML that fill a page.

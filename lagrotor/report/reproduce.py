@@ -15,13 +15,14 @@ from ..paper import audit, catalogue, scripts, tables, trials
 from ..paper.ledger import Verdict
 from ..paper.scripts import beside
 from ..paper.trials import Result
-from . import figures, reuse
+from ..pictures import figures
+from ..pictures.figures import Picture
+from . import reuse
 from .api import api_page
 from .content import Report
 from .errata import latex_document
-from .figures import Picture
 from .folder import TIMES, check_target, replaced
-from .interactive import interactive
+from .interactive.interactive import interactive
 from .markdown import errata_blocks, markdown
 from .page import page
 from .reuse import Kept, digest

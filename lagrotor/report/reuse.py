@@ -23,11 +23,8 @@ from .folder import MADE
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _TOOLS = ("lagrotor", "sympy", "mpmath", "numpy", "scipy", "matplotlib")
-# The modules that write what was found: no claim and no figure depends on them, the report does.
-_WRITERS = (
-    "cite", "command_line", "content", "embed", "errata", "folder", "font", "interactive", "latex", "markdown", "mathml*",
-    "page*", "readable", "record", "reproduce", "results", "reuse", "supplement", "terminal",
-)  # fmt: skip
+# The rooms that write what was found: no claim and no figure depends on them, the report does.
+_WRITERS = ("report", "commands")
 _CATALOGUE, _FINDS = "catalogue of equations, claims, figures", "package, what finds"
 
 
@@ -70,10 +67,8 @@ def inputs() -> dict[str, str]:
 
 
 def _writes(path: Path) -> bool:
-    """Whether a file of the package is one of `_WRITERS`, or style, script, font of the report."""
-    if _PACKAGE / "report" not in path.parents:
-        return False
-    return path.suffix != ".py" or any(path.match(f"{name}.py") for name in _WRITERS)
+    """Whether a file of the package is in one of `_WRITERS`."""
+    return path.relative_to(_PACKAGE).parts[0] in _WRITERS
 
 
 def foundation() -> str:

@@ -8,6 +8,7 @@ from ..paper.catalogue import claims, equation
 from ..paper.ledger import Verdict
 from ..paper.tables import Cell, FigureLink, Table
 from ..paper.trials import Result
+from ..pictures.figures import Picture
 from .cite import citation
 from .content import (
     CLAIM_MEANINGS,
@@ -27,7 +28,6 @@ from .content import (
     word,
 )
 from .errata import errata, latex_block
-from .figures import Picture
 from .latex import END, HEAD, derived, inline, printed, prose, table
 from .results import Headline, balance, headlines
 

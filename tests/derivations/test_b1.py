@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lagrotor.paper import scripts
-from lagrotor.report.style import paper_style
+from lagrotor.pictures.style import paper_style
 from lagrotor.study.chart import METHODS
 from lagrotor.study.measure import chart
 

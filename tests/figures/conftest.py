@@ -3,7 +3,7 @@
 import pytest
 
 from lagrotor.paper import scripts
-from lagrotor.report import figures
+from lagrotor.pictures import figures
 
 
 @pytest.fixture(scope="session")

@@ -3,7 +3,7 @@
 import pytest
 
 from lagrotor.paper import scripts
-from lagrotor.report import figures
+from lagrotor.pictures import figures
 
 
 def test_every_derivation_past_the_paper_has_its_figure():

@@ -12,14 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.numerics.codegen import (
-    Program,
-    compile_program,
-    javascript,
-    operations,
-    reduce_common,
-    solve_symmetric,
-)
+from lagrotor.numerics.codegen import Program, compile_program, javascript, operations, reduce_common, solve_symmetric
 
 x, y, z = sp.symbols("x y z", real=True)
 s, t = sp.symbols("s t", real=True)

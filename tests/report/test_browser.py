@@ -20,9 +20,9 @@ from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.paper.ledger import judge
 from lagrotor.report.content import Report, sides
-from lagrotor.report.font import FAMILY, font_face
-from lagrotor.report.mathml import mathml
-from lagrotor.report.mathml_latex import from_latex
+from lagrotor.report.formulas.font import FAMILY, font_face
+from lagrotor.report.formulas.mathml import mathml
+from lagrotor.report.formulas.mathml_latex import from_latex
 from lagrotor.report.page import page
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

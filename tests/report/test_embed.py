@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from lagrotor.pictures.figures import Picture, draw
 from lagrotor.report import embed
 from lagrotor.report.embed import embedded, lean_svg, size
-from lagrotor.report.figures import Picture, draw
 
 # With 39 figures of this size the page would still be under 5 MB; most are half of it.
 LARGEST = 100_000

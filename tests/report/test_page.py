@@ -18,12 +18,12 @@ from lagrotor.paper.catalogue import claims, equation, equations
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.paper.trials import Finding, Result
+from lagrotor.pictures.figures import Picture
 from lagrotor.report import page as page_module
 from lagrotor.report import page_pieces
 from lagrotor.report.content import Report, contents
-from lagrotor.report.figures import Picture
+from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.markdown import markdown
-from lagrotor.report.mathml import mathml
 from lagrotor.report.page import page
 from lagrotor.symbols import ANSATZ, ROTOR, M, r0
 

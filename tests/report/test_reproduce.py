@@ -18,7 +18,9 @@ SUBSET = """
 import sys
 from pathlib import Path
 from lagrotor.paper import scripts
-from lagrotor.report import content, figures, page, reproduce, results, terminal
+from lagrotor.commands import terminal
+from lagrotor.pictures import figures
+from lagrotor.report import content, page, reproduce, results
 kept = {"s5_2e_bar_length", "s5_3_natural_rates", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
 names = scripts.names
 scripts.names = lambda kind, prefix="": [name for name in names(kind, prefix) if name in kept]

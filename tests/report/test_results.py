@@ -9,9 +9,9 @@ import sympy as sp
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.trials import Finding, Result, Trial
+from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
-from lagrotor.report.figures import Picture
 from lagrotor.report.results import balance, headlines
 from lagrotor.symbols import J, M, R, m
 

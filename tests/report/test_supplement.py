@@ -16,8 +16,8 @@ from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equations
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
+from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, contents
-from lagrotor.report.figures import Picture
 from lagrotor.report.latex import END, HEAD, derived, printed, prose, table
 from lagrotor.report.supplement import supplement
 from lagrotor.symbols import M, r0

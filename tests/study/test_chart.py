@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene, simulate
+from lagrotor.commands.chart_command import draw
+from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.report.chart_command import draw
-from lagrotor.report.command_line import main
-from lagrotor.report.style import paper_style
+from lagrotor.pictures.style import paper_style
 from lagrotor.study import chart as module
 from lagrotor.study.chart import METHODS, courses, ratios
 from lagrotor.study.measure import TOLERANCES, Course, Failure, Point, chart

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene
+from lagrotor.commands.chart_command import as_data, in_words
 from lagrotor.errors import LagrotorError
-from lagrotor.report.chart_command import as_data, in_words
 from lagrotor.study import measure
 from lagrotor.study.chart import METHODS, courses
 from lagrotor.study.measure import Course, Failure, Point, chart, front, listed, seconds_at

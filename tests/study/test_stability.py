@@ -8,20 +8,14 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene, simulate
+from lagrotor.commands.command_line import main
 from lagrotor.errors import IntegrationError, SingularError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.models.rigid_body import finite_rotation
-from lagrotor.report.command_line import main
 from lagrotor.study import throughput
 from lagrotor.study.compare import measured_order
-from lagrotor.study.coordinates import (
-    euler_limits,
-    joint_line_limits,
-    passing,
-    past_the_pole,
-    projection_limits,
-)
+from lagrotor.study.coordinates import euler_limits, joint_line_limits, passing, past_the_pole, projection_limits
 from lagrotor.study.drifts import DRIFTING, constraint_drift, drift_limits, long_limits, long_run
 from lagrotor.study.limits import Limit, threshold
 from lagrotor.study.reach import (

@@ -1,6 +1,6 @@
 """The mathematical font that the page carries: a subset of STIX Two Math (OFL), since a browser without one drops roots.
 
-`python -m lagrotor.report.font STIXTwoMath-Regular.otf` makes the subset again from the whole font, with fonttools and
+`python -m lagrotor.report.formulas.font STIXTwoMath-Regular.otf` makes the subset again from the whole font, with fonttools and
 brotli; version 2.12 was taken. Name and trademark stay with the original: the subset is called "Lagrotor Math".
 """
 

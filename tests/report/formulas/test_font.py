@@ -12,9 +12,9 @@ import pytest
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
-from lagrotor.report.font import FAMILY, FILE, characters, font_face
-from lagrotor.report.mathml import mathml
-from lagrotor.report.mathml_latex import from_latex
+from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
+from lagrotor.report.formulas.mathml import mathml
+from lagrotor.report.formulas.mathml_latex import from_latex
 from lagrotor.symbols import GLOSSARY
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
@@ -116,6 +116,6 @@ def test_the_page_carries_the_whole_file() -> None:
 
 
 def test_the_licence_lies_beside_it() -> None:
-    text = files("lagrotor.report").joinpath("fonts/OFL.txt").read_text(encoding="utf-8")
+    text = files("lagrotor.report.formulas").joinpath("fonts/OFL.txt").read_text(encoding="utf-8")
     assert "SIL OPEN FONT LICENSE Version 1.1" in text
     assert "The STIX Fonts Project Authors" in text

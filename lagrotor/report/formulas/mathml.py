@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.printing.mathml import MathMLPresentationPrinter
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from ..symbols import GLOSSARY
+from ...symbols import GLOSSARY
 from .mathml_break import math
 from .mathml_layout import join, laid_out, leaf
 

@@ -13,8 +13,8 @@ _MOST_SAMPLES = 10_000_000
 
 
 def animate_command(given: argparse.Namespace) -> int:
+    from ..pictures.animate import animate, check_film
     from ..rotors.scenes import SCENES
-    from .animate import animate, check_film
     from .terminal import progress
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")

@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 
 import lagrotor
+from lagrotor.commands import terminal
+from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.paper import audit, scripts
-from lagrotor.report import figures, folder, page, reproduce, reuse, terminal
-from lagrotor.report.command_line import main
+from lagrotor.pictures import figures
+from lagrotor.report import folder, page, reproduce, reuse
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SCENE = ["simulate", "--spins", "10", "-10"]
@@ -165,7 +167,7 @@ def test_bad_input_as_a_program(argv: tuple[str, ...]) -> None:
 
 def test_help_is_quick_and_needs_nothing_heavy() -> None:
     code = (
-        "import sys; from lagrotor.report.command_line import main; main(['--help']);"
+        "import sys; from lagrotor.commands.command_line import main; main(['--help']);"
         "print(sorted({'sympy', 'matplotlib', 'scipy', 'numpy'} & sys.modules.keys()), file=sys.stderr)"
     )
     done = subprocess.run(

@@ -150,8 +150,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _reproduce(given: argparse.Namespace) -> int:
-    from .content import told
-    from .reproduce import recorded, reproduce
+    from ..report.content import told
+    from ..report.reproduce import recorded, reproduce
     from .terminal import progress
 
     made = reproduce(given.out, progress)
@@ -173,8 +173,8 @@ def _reproduce(given: argparse.Namespace) -> int:
 def _audit(given: argparse.Namespace) -> int:
     from ..paper import audit, scripts
     from ..paper.catalogue import equation, equations
-    from .content import note, word
-    from .reproduce import changes, outcomes, recorded
+    from ..report.content import note, word
+    from ..report.reproduce import changes, outcomes, recorded
     from .terminal import progress, table
 
     for identifier in given.ids:
@@ -197,8 +197,8 @@ def _audit(given: argparse.Namespace) -> int:
 def _claims(given: argparse.Namespace) -> int:
     from ..paper import trials
     from ..paper.catalogue import claims
-    from .content import word
-    from .reproduce import changes, outcomes, recorded
+    from ..report.content import word
+    from ..report.reproduce import changes, outcomes, recorded
     from .terminal import progress, table
 
     if unknown := [i for i in given.ids if i not in claims()]:
@@ -224,7 +224,7 @@ def _compared(changes: list[str], on_record: dict[str, str] | None) -> int:
 
 
 def _figure(given: argparse.Namespace) -> int:
-    from .figures import check_keys, draw
+    from ..pictures.figures import check_keys, draw
     from .terminal import progress
 
     check_folder(given.out)

@@ -41,8 +41,8 @@ def add_chart(added: argparse.ArgumentParser) -> None:
 def chart_command(given: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts and the ratios."""
     from ..numerics.files import write_beside, write_text
+    from ..pictures.style import paper_style
     from ..study.chart import charts
-    from .style import paper_style
 
     check_folder(given.out)
     with progress(4) as step:
@@ -97,8 +97,8 @@ def draw(one: "Chart") -> Any:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
+    from ..pictures.style import OKABE_ITO
     from ..study.measure import front, listed
-    from .style import OKABE_ITO
 
     families = {p.method: p.family for p in one.points}
     names = [name for family in _FAMILIES for name in families if families[name] == family]

@@ -39,8 +39,8 @@ def stability_command(given: argparse.Namespace) -> int:
             "throughput": [asdict(rate) for rate in rates],
         }
         if given.out:
+            from ..pictures.stability_figure import draw_stability
             from ..study.usefulness import usefulness
-            from .stability_figure import draw_stability
 
             step("figure")
             n, m = (8, 9) if given.quick else (24, 40)

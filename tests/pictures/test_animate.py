@@ -11,11 +11,11 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from lagrotor import Scene, Shock, consistent_scene, simulate
+from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.numerics.attitude import between_samples, body_rotations, turn_between
-from lagrotor.report.animate import SIZE, Motion, animate, frame_times
-from lagrotor.report.command_line import main
-from lagrotor.report.wheel import Camera, carried, wheel
+from lagrotor.pictures.animate import SIZE, Motion, animate, frame_times
+from lagrotor.pictures.wheel import Camera, carried, wheel
 from lagrotor.rotors.closed_forms import natural_frequency, paired_frequency
 from lagrotor.rotors.scenes import SCENES
 

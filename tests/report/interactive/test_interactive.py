@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import lagrotor.report.interactive as model
+import lagrotor.report.interactive.interactive as model
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.minimal import MODEL
@@ -25,7 +25,7 @@ from lagrotor.models.orbit import exact_orbit
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
-from lagrotor.report.interactive import ORDER, formulas, interactive, programs
+from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
 from lagrotor.rotors.precession import precession_orbit
 from lagrotor.study.compare import measured_order
 from lagrotor.symbols import Phi, omega, r0
@@ -326,10 +326,12 @@ def test_the_fragment_is_one_section_that_needs_nothing_else() -> None:
 
 
 def test_the_fragment_is_the_same_in_every_process() -> None:
-    code = "from lagrotor.report.interactive import interactive; import sys; sys.stdout.write(interactive())"
+    code = (
+        "from lagrotor.report.interactive.interactive import interactive; import sys; sys.stdout.write(interactive())"
+    )
     ran = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, encoding="utf-8",
-        env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[2]), "PYTHONUTF8": "1"},
+        env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[3]), "PYTHONUTF8": "1"},
     )  # fmt: skip
     assert ran.stdout == interactive()
     assert formulas() in interactive()

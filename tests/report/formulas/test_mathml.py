@@ -8,9 +8,9 @@ import pytest
 import sympy as sp
 
 from lagrotor.paper.catalogue import equations
-from lagrotor.report import mathml_latex
-from lagrotor.report.mathml import mathml
-from lagrotor.report.mathml_break import WIDTH, width
+from lagrotor.report.formulas import mathml_latex
+from lagrotor.report.formulas.mathml import mathml
+from lagrotor.report.formulas.mathml_break import WIDTH, width
 from lagrotor.symbols import ANSATZ, PAIR, ROTOR, M, Omega, ell, r0
 
 THIN = '<mspace width="0.167em" />'
