@@ -49,7 +49,8 @@ _LETTERS = {
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
 _GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in greek_unicode.items()} | {
-    "ℓ": r"\ell"
+    "ℓ": r"\ell",
+    "ϑ": r"\vartheta",
 }
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))

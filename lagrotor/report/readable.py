@@ -4,7 +4,7 @@ import re
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-_LETTERS = greek_unicode | {"ell": "ℓ"}
+_LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _END = "[\\w)\u0307\u0308]"  # of what stands before an operator

@@ -15,6 +15,7 @@ from lagrotor.report.readable import readable
         ("phi_1 = -phi_2 at -0.363", "φ₁ = −φ₂ at −0.363"),
         ("(a+b)**nu", "(a+b)^ν"),
         ("Omega**12", "Ω¹²"),
+        ("varepsilon, sin(vartheta_1)", "ε, sin(ϑ₁)"),
     ],
 )
 def test_formulas_are_set(typed: str, read: str) -> None:

@@ -17,7 +17,7 @@ from .mathml_layout import join, laid_out, leaf
 _LETTER = re.compile(r"(?:\\(d?dot)\{)?\\?([A-Za-z]+)\}?(?:_\{?(\w+)\}?)?$")
 _ACCENTS = {"dot": "˙", "ddot": "¨"}
 # As LaTeX draws \phi and \varphi, \epsilon and \varepsilon.
-_LETTERS = greek_unicode | {"ell": "ℓ", "phi": "ϕ", "varphi": "φ", "epsilon": "ϵ", "varepsilon": "ε"}
+_LETTERS = greek_unicode | {"ell": "ℓ", "phi": "ϕ", "varphi": "φ", "vartheta": "ϑ", "epsilon": "ϵ", "varepsilon": "ε"}
 
 
 class _Printer(MathMLPresentationPrinter):  # type: ignore[misc]

@@ -7,6 +7,8 @@ from xml.etree.ElementTree import Element
 import pytest
 import sympy as sp
 
+from lagrotor.paper import scripts
+from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.formulas.mathml import mathml
@@ -217,3 +219,13 @@ def test_widths_follow_what_is_drawn() -> None:
     assert [width(tree(f'<mspace width="{w}" />')) for w in ("2em", "10pt", "0")] == [2, 1, 0]
     assert latex(r"x\quad").startswith("<mi>x</mi>"), "a blank at the end is nothing to break at"
     assert width(tree("<msup><mi>a</mi><mi>b</mi></msup>")) < 2 * width(tree("<mi>a</mi>"))
+
+
+def test_no_letter_is_spelled() -> None:
+    """Every symbol of every statement is drawn as letters, none as the name of one."""
+    spelled = re.compile(r"<mi[^>]*>(var)?(theta|phi|epsilon|omega|psi|chi|alpha|lambda|sigma|Omega|Phi)")
+    for statement in (one for stem in scripts.names("derivations", "s") for one in statements(stem)):
+        for relation in (*statement.relations, *statement.correction):
+            for side in (relation.printed, relation.derived):
+                assert not spelled.search(mathml(side)), statement.id
+    assert spelled.search("<mi>vartheta</mi>")  # twin
