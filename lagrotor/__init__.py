@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from .paper.audit import audit
     from .rotors.closed_forms import natural_rate
     from .rotors.consistent import consistent_scene, paired_scene
-    from .rotors.drift import cancelling_force
+    from .rotors.drift import cancelling_force, toppling_after_shock
     from .rotors.momentum import paired_momentum
     from .rotors.precession import precession_orbit
     from .rotors.response import shock_response
@@ -30,6 +30,7 @@ _LATER = {
     "precession_orbit": "lagrotor.rotors.precession",
     "shock_response": "lagrotor.rotors.response",
     "simulate": "lagrotor.models.simulate",
+    "toppling_after_shock": "lagrotor.rotors.drift",
 }
 
 __version__ = "0.1.0"
@@ -49,6 +50,7 @@ __all__ = [
     "precession_orbit",
     "shock_response",
     "simulate",
+    "toppling_after_shock",
 ]
 
 

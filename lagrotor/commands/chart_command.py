@@ -39,7 +39,7 @@ def add_chart(added: argparse.ArgumentParser) -> None:
 
 
 def chart_command(given: argparse.Namespace) -> int:
-    """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts and the ratios."""
+    """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
     from ..numerics.files import write_beside, write_text
     from ..pictures.style import paper_style
     from ..study.chart import charts
@@ -49,13 +49,17 @@ def chart_command(given: argparse.Namespace) -> int:
         found = charts(given.quick, step)
     data = as_data(found)
     text = json.dumps(data, indent=1, ensure_ascii=False)
-    write_text(given.out / "chart.json", text)
+    written = [write_text(given.out / "chart.json", text)]
     for one in found:
         with paper_style():
             figure = draw(one)
             for form in ("svg", "png"):
-                write_beside(given.out / f"chart-{one.scene}.{form}", partial(figure.savefig, format=form))
-    print(text if given.json else in_words(found))
+                target = given.out / f"chart-{one.scene}.{form}"
+                written.append(write_beside(target, partial(figure.savefig, format=form)))
+    if given.json:
+        print(text)
+    else:
+        print(in_words(found), *written, sep="\n")
     return 0
 
 

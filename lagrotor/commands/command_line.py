@@ -3,7 +3,6 @@
 import argparse
 import os
 import sys
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,11 @@ from typing import Any
 from .. import __version__
 from ..errors import InputError, LagrotorError
 from .chart_command import add_chart, chart_command
-from .options import Parser, add_scene, add_shock, check_folder
+from .options import Parser, add_pair, add_shock, add_start, check_folder
+from .paper_commands import audit_command, claims_command, reproduce_command
 from .scene_commands import animate_command, rate_command, simulate_command
 from .stability_command import stability_command
+from .terminal import say
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
@@ -22,6 +23,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and give its exit status; every refusal is one line on stderr."""
     if sys.stdout is None:  # started with its output closed
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
     try:
         arguments = _parser().parse_args(argv)
         status = int(arguments.run(arguments))
@@ -32,16 +36,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return _abandoned()
     except KeyboardInterrupt:
-        return _say("interrupted", 130)
+        return say("interrupted", 130)
     except MemoryError:
-        return _say("not enough memory: ask for fewer samples", 2)
+        return say("not enough memory: ask for fewer samples", 2)
     except (LagrotorError, OSError) as error:
-        return _say(str(error), 2)
-
-
-def _say(message: str, status: int) -> int:
-    print("lagrotor:", " ".join(message.split()), file=sys.stderr)
-    return status
+        return say(str(error), 2)
 
 
 def _flushed(status: int) -> int:
@@ -76,23 +75,24 @@ def _parser() -> argparse.ArgumentParser:
 
     added = command(
         "reproduce",
-        _reproduce,
+        reproduce_command,
         "judge every equation, draw every figure, write the report",
         "lagrotor reproduce --out report",
     )
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
 
-    added = command("audit", _audit, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
+    added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
+    added.description = "Judge the paper's equations. All derivations run, whatever ids: a verdict depends on others."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
 
-    added = command("claims", _claims, "put the paper's claims on trial", "lagrotor claims C08 C22 --json")
+    added = command("claims", claims_command, "put the paper's claims on trial", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
 
     added = command("figure", _figure, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
     added.add_argument(
-        "keys", nargs="+", metavar="N", help="the paper's figure number, or the name of another: t1 to t10, b1"
+        "keys", nargs="+", metavar="N", help="the paper's figure number, or the name of another: t1 to t10, b1, m1"
     )
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
@@ -104,14 +104,15 @@ def _parser() -> argparse.ArgumentParser:
         "run a rotor pair and keep or show its motion",
         "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
     )
-    add_scene(added)
+    add_pair(added)
+    add_start(added)
     add_shock(added)
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
     says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help="tolerance of the solver (default: 1e-9)")
-    added.add_argument("--out", type=Path, metavar="FILE", help="write .npz or .csv instead of showing a table")
+    added.add_argument("--out", type=Path, metavar="FILE", help="write the run as .npz or .csv, and show a line, no table")
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
     from ..rotors.scenes import SCENES
@@ -144,83 +145,9 @@ def _parser() -> argparse.ArgumentParser:
     added = command(
         "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
     )
-    add_scene(added)
+    add_pair(added)
     added.add_argument("--json", action="store_true", help="print a JSON object")
     return parser
-
-
-def _reproduce(given: argparse.Namespace) -> int:
-    from ..report.content import told
-    from ..report.reproduce import recorded, reproduce
-    from .terminal import progress
-
-    made = reproduce(given.out, progress)
-    page = given.out / "index.html"
-    judged = sum(made.equations.values())
-    print(f"{judged} equations judged: {told(made.equations) or 'none'}; {made.waiting} not yet judged")
-    if made.claims:
-        print(f"{sum(made.claims.values())} claims tried: {told(made.claims)}")
-    if made.taken == ["report"]:
-        print("all taken from the last run (same inputs); to run it again, delete the folder")
-    elif made.taken:
-        kinds = Counter(name.split()[0] for name in made.taken)
-        parts = ", ".join(f"{count} {kind}{'s' * (count > 1)}" for kind, count in kinds.items())
-        print(f"{parts} taken from the last run (same inputs)")
-    print(f"{made.figures} figures; {made.seconds:.1f} s; report: {page}")
-    return _compared(made.changes, recorded())
-
-
-def _audit(given: argparse.Namespace) -> int:
-    from ..paper import audit, scripts
-    from ..paper.catalogue import equation, equations
-    from ..report.content import note, word
-    from ..report.reproduce import changes, outcomes, recorded
-    from .terminal import progress, table
-
-    for identifier in given.ids:
-        equation(identifier)
-    with progress(len(scripts.names("derivations", "s"))) as step:
-        verdicts = audit.audit(step)
-    judged = {verdict.id for verdict in verdicts}
-    if waiting := [i for i in given.ids if i not in judged]:
-        raise InputError(f"equation {waiting[0]} is not yet judged: no derivation states it")
-    shown = [verdict for verdict in verdicts if not given.ids or verdict.id in given.ids]
-    if given.json:
-        print(audit.to_json(shown))
-    else:
-        rows = [(v.id, word(v.verdict), ": ".join(filter(None, (equation(v.id).title, note(v))))) for v in shown]
-        print(table(("id", "verdict", "equation: order or condition"), rows))
-    on_record = recorded()
-    return _compared(changes(outcomes(shown), on_record, given.ids or equations()), on_record)
-
-
-def _claims(given: argparse.Namespace) -> int:
-    from ..paper import trials
-    from ..paper.catalogue import claims
-    from ..report.content import word
-    from ..report.reproduce import changes, outcomes, recorded
-    from .terminal import progress, table
-
-    if unknown := [i for i in given.ids if i not in claims()]:
-        raise InputError(f"claim {unknown[0]!r} is not in the catalogue: ids run from C01 to C{len(claims()):02d}")
-    wanted = frozenset(given.ids or claims())
-    with progress(len(wanted)) as step:
-        results = trials.hear_all(step, wanted)
-    if given.json:
-        print(trials.to_json(results))
-    else:
-        rows = [(r.trial.id, word(r.finding.outcome), r.finding.explanation) for r in results]
-        print(table(("id", "outcome", "what was measured"), rows))
-    on_record = recorded()
-    return _compared(changes(outcomes(heard=results), on_record, wanted), on_record)
-
-
-def _compared(changes: list[str], on_record: dict[str, str] | None) -> int:
-    if on_record is None:
-        return _say("no verdicts are on record yet: nothing to compare these with", 0)
-    for change in changes:
-        _say(f"changed: {change}", 1)
-    return 1 if changes else 0
 
 
 def _figure(given: argparse.Namespace) -> int:

@@ -25,11 +25,11 @@ def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more:
     group.add_argument(name, nargs=len(letters), type=float, metavar=letters, help=says, **more)
 
 
-def add_scene(parser: argparse.ArgumentParser) -> None:
-    """The options of rotors, bar and start."""
-    group = parser.add_argument_group("scene")
+def add_pair(parser: argparse.ArgumentParser) -> None:
+    """The options of spins, rotors and bar."""
+    group = parser.add_argument_group("rotors and bar")
     _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s", required=True)
-    for name, default, says in (
+    for name, usual, says in (
         ("--rotor-mass", Rotor.mass, "mass of a rotor, kg"),
         ("--rotor-length", Rotor.length, "length of a rotor's axis, m"),
         ("--I1", Rotor.I1, "transverse inertia about the centre, kg m²"),
@@ -38,7 +38,14 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
         ("--link-mass", Link.mass, "mass of the bar, kg"),
         ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
     ):
-        group.add_argument(name, type=float, default=default, metavar="X", help=f"{says} (default: {default:g})")
+        default = None if name.startswith("--link") else usual  # None tells what was not asked for
+        group.add_argument(name, type=float, default=default, metavar="X", help=f"{says} (default: {usual:g})")
+    group.add_argument("--no-link", action="store_true", help="a pair without a bar")
+
+
+def add_start(parser: argparse.ArgumentParser) -> None:
+    """The options of where the pair starts."""
+    group = parser.add_argument_group("start")
     _numbers(group, "--axes", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "unit vectors at t = 0 (default: upright)")
     _numbers(group, "--rates", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "their rates at t = 0, 1/s (default: at rest)")
 
@@ -57,15 +64,23 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
     start = {
         name: (tuple(values[:3]), tuple(values[3:]))
         for name in ("axes", "rates")
-        if (values := getattr(given, name)) is not None
+        if (values := vars(given).get(name)) is not None  # rate asks for no start
     }
     return Scene(
         spins=tuple(given.spins),
         rotor=Rotor(given.rotor_mass, given.rotor_length, given.I1, given.I3),
-        link=Link(given.link_length, given.link_mass, given.link_inertia),
+        link=_link(given),
         shock=shock,
         **start,
     )
+
+
+def _link(given: argparse.Namespace) -> Link | None:
+    """The bar, if any. Raises InputError for one that is described and left out."""
+    asked = {name: value for name in ("length", "mass", "inertia") if (value := vars(given)[f"link_{name}"]) is not None}
+    if given.no_link and asked:
+        raise InputError(f"--no-link and --link-{next(iter(asked))}: a pair without a bar has none; leave one out")
+    return None if given.no_link else Link(**asked)
 
 
 def shock_of(given: argparse.Namespace) -> Shock | None:

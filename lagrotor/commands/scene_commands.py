@@ -96,7 +96,7 @@ def rate_command(given: argparse.Namespace) -> int:
     from ..rotors.rate_limits import natural_rate_limits
     from .terminal import table
 
-    rate, limits = natural_rate(scene), natural_rate_limits(scene)
+    rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None
     if given.json:
         told = {name: limit.rate for name, limit in limits.items()}
@@ -104,6 +104,8 @@ def rate_command(given: argparse.Namespace) -> int:
     else:
         print(f"natural rate  {rate:.12g} rad/s")
         print(f"period        {f'{period:.12g} s' if period else 'none: no oscillation'}")
+        if not limits:
+            return 0
         print()
         rows = [(name, limit.formula, f"{limit.rate:.12g}", limit.says) for name, limit in limits.items()]
         print(table(("limit", "formula", "rad/s", "what is changed"), rows))

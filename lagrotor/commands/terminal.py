@@ -1,4 +1,4 @@
-"""What people see in a terminal: tables as wide as it is, and progress while they wait."""
+"""What people see in a terminal: tables as wide as it is, refusals in a line, and progress while they wait."""
 
 import shutil
 import sys
@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
-_NARROWEST = 20
+_NARROWEST, _WIDTH = 20, 100
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -21,6 +21,18 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
         for i, part in enumerate(textwrap.wrap(row[-1], room) or [""]):
             lines.append(((first if i == 0 else " " * indent) + part).rstrip())
     return "\n".join(lines)
+
+
+def wrapped(text: str, indent: int) -> str:
+    """Text in lines as wide as the terminal, or of 100 characters where there is none; all but the first indented."""
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _WIDTH
+    return textwrap.fill(text, max(width, indent + _NARROWEST), subsequent_indent=" " * indent)
+
+
+def say(message: str, status: int) -> int:
+    """One line on stderr; hands the exit status on."""
+    print("lagrotor:", " ".join(message.split()), file=sys.stderr)
+    return status
 
 
 @contextmanager

@@ -49,10 +49,7 @@ class Answer:
 
 def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
     """Axes and rates at times t (n,). Raises DomainError where no closed form holds the scene."""
-    answer = closed_form(scene, float(t[-1]), tol)
-    if answer.error > tol:
-        answer = closed_form(scene, float(t[-1]), tol, best=True)
-    axes, rates = answer.motion(t)
+    axes, rates = nearest(scene, float(t[-1]), tol).motion(t)
     return Observed(axes, rates, constant_momenta(scene, len(t)))
 
 
@@ -79,6 +76,12 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> A
         f"closed_form: none is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
         "or opposite; use model='linear' or 'minimal'"
     )
+
+
+def nearest(scene: Scene, t_end: float, tol: float) -> Answer:
+    """What is answered where this rung is asked for by name: within `tol` if any order is, else the best there is."""
+    answer = closed_form(scene, t_end, tol)
+    return answer if answer.error <= tol else closed_form(scene, t_end, tol, best=True)
 
 
 def _still(value: Array, t: Array) -> Array:

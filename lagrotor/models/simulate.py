@@ -74,7 +74,8 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
 
     model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
     of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: for "auto" that error
-    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1.
+    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1; the closed
+    form gives the best it has, and says in `why` how far off it may be.
 
     engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal" and
     "spheres". Never chosen silently: it compiles for a moment, and its last digits are others.
@@ -90,10 +91,22 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     if model == "auto":
         return _automatic(scene, times, tolerance, engine)
     if model in DIRECT:
-        return _trajectory(scene, model, "asked for", times, DIRECT[model](scene, times, tolerance), 0)
+        seen = DIRECT[model](scene, times, tolerance)
+        return _trajectory(scene, model, _foreseen(scene, model, float(times[-1]), tolerance), times, seen, 0)
     if model not in MODELS:
         raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join((*DIRECT, *MODELS))}")
     return _run(MODELS[model](), scene, times, tolerance, "asked for", engine)
+
+
+def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
+    """Why, and how far off, a model that was asked for by name; it may miss `tol`."""
+    if model != "closed_form":
+        return "asked for"
+    from .closed_form import nearest
+
+    answer = nearest(scene, t_end, tol)
+    missed = ", more than tol" if answer.error > tol else ""
+    return f"asked for; {answer.reason}; an error up to {answer.error:.1e} is foreseen{missed}"
 
 
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:

@@ -85,7 +85,7 @@ class Trajectory:
         return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)
 
     def plot(self) -> "Figure":
-        """A figure: tips over time and from above, energy and length of the bar over time."""
+        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
         from ..pictures.run_figure import run_figure
 
         return run_figure(self)

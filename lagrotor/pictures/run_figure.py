@@ -1,5 +1,6 @@
 """A run over time: what `Trajectory.plot()` shows at a prompt."""
 
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
@@ -12,10 +13,19 @@ if TYPE_CHECKING:
     from ..numerics.trajectory import Trajectory
 
 
-def run_figure(run: "Trajectory") -> Figure:
+class RunFigure(Figure):
+    """A figure that a notebook shows by itself, without pyplot."""
+
+    def _repr_png_(self) -> bytes:
+        with BytesIO() as file:
+            self.savefig(file, format="png")
+            return file.getvalue()
+
+
+def run_figure(run: "Trajectory") -> RunFigure:
     """Tips x, y, z over time, from above, and the energy: five panels, a colour a rotor."""
     with paper_style():
-        figure = Figure(figsize=(9.0, 6.0))
+        figure = RunFigure(figsize=(9.0, 6.0))
         panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
         for j, letter in enumerate("xyz"):
             panel = panels[letter]

@@ -16,6 +16,7 @@ from .page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
+    "Ensemble": "lagrotor.study.ensemble",
     "Trajectory": "lagrotor.numerics.trajectory",
     "choose": "lagrotor.models.choose",
     "sweep": "lagrotor.study.ensemble",
@@ -89,13 +90,19 @@ def _short(default: Any) -> str:
     return "…" if re.search(r" at 0x|<factory>", repr(default)) else repr(default)
 
 
+def _words(text: str) -> str:
+    """Text of a docstring for HTML: what stands between backticks as code, as it is."""
+    parts = enumerate(text.split("`"))
+    return "".join(f"<code>{escape(part)}</code>" if i % 2 else prose(part) for i, part in parts)
+
+
 def api_page() -> str:
     """The page as HTML, in the report's style."""
     style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
     blocks = []
     for entry in entries():
-        told = "".join(f"<p>{prose(part)}</p>" for part in entry.text.split("\n\n"))
-        members = "".join(f"<li><code>{escape(call)}</code>: {prose(line)}</li>" for call, line in entry.members)
+        told = "".join(f"<p>{_words(part)}</p>" for part in entry.text.split("\n\n"))
+        members = "".join(f"<li><code>{escape(call)}</code>: {_words(line)}</li>" for call, line in entry.members)
         how = code(f"from {entry.module} import {entry.name}\n{entry.call}")
         listed = f"<ul>{members}</ul>" if members else ""
         blocks.append(f'<article id="{entry.name}"><h2>{entry.name}</h2>{how}{told}{listed}</article>')

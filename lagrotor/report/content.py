@@ -1,7 +1,7 @@
 """What a report says and in which order, before it is put into HTML or Markdown."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy as sp
@@ -22,6 +22,17 @@ HOW_TO_READ = (
     "computed by the run that wrote this page, but for seconds, which are on record with their machine. An "
     "equation goes by its section and place, such as 5.07, a claim as C08."
 )
+# File of the report's folder → what it is.
+_BESIDE = {
+    "index.html": "this report as a page",
+    "report.md": "as Markdown",
+    "report.tex": "as LaTeX",
+    "errata.md": "the errata alone",
+    "verdicts.json": "the verdicts as data",
+    "claims.json": "the claims as data",
+    "measured.json": "the numbers read off the figures",
+    "api.html": "the names to use from Python",
+}
 
 MEANINGS = {
     "holds": "the printed and the derived expression are the same, decided exactly",
@@ -145,6 +156,11 @@ def contents(report: Report) -> list[tuple[str, str]]:
         ("made", "How this was made", True),
     ]
     return [(name, heading) for name, heading, there in listed if there]
+
+
+def made_beside(name: Callable[[str], str]) -> str:
+    """The sentence on what else the run wrote, with each file's name as `name` gives it."""
+    return f"In the same folder: {', '.join(f'{name(file)} ({what})' for file, what in _BESIDE.items())}."
 
 
 def word(answer: str) -> str:

@@ -8,7 +8,7 @@ import sympy as sp
 from ..paper.catalogue import equation
 from ..paper.ledger import Relation, Statement, Verdict
 from ..symbols import latex
-from .latex import END, HEAD, printed, prose
+from .latex import END, head, printed, prose
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,9 @@ def _line(quantity: str, relation: Relation) -> str:
 
 def latex_document(verdicts: Iterable[Verdict]) -> str:
     """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref."""
-    title = r"\section*{Errata to \emph{Dynamics of Axially Coupled Rotor Pairs}}"
-    return "\n".join([HEAD + title, *map(latex_block, errata(verdicts)), END])
+    paper = "Dynamics of Axially Coupled Rotor Pairs"
+    title = rf"\section*{{Errata to \emph{{{paper}}}}}"
+    return "\n".join([head(f"Errata to {paper}") + title, *map(latex_block, errata(verdicts)), END])
 
 
 def latex_block(e: Erratum) -> str:

@@ -24,6 +24,8 @@ CONTENTS = {
     TIMES,
     MADE,
 }
+# What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
+_COMPILED = {f"{stem}.{kind}" for stem in ("report", "errata") for kind in "aux log out toc pdf synctex.gz".split()}
 
 
 def check_target(target: Path) -> Path:
@@ -36,8 +38,10 @@ def check_target(target: Path) -> Path:
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
     held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if held and not {"index.html", "verdicts.json"} <= held <= CONTENTS:
-        raise InputError(f"{target} holds other files than a report: choose a new or an empty folder")
+    if other := sorted(held - CONTENTS - _COMPILED):
+        raise InputError(f"{target} holds {other[0]}, which is no part of a report: choose a new or an empty folder")
+    if held and (missing := sorted({"index.html", "verdicts.json"} - held)):
+        raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
     return folder
 
 

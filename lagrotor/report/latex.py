@@ -11,7 +11,7 @@ from sympy.printing.pretty.pretty_symbology import greek_unicode
 from ..symbols import latex
 from .readable import readable
 
-HEAD = r"""\documentclass[11pt]{article}
+_HEAD = r"""\documentclass[11pt]{article}
 \usepackage[a4paper,margin=22mm]{geometry}
 \usepackage{amsmath,amssymb,graphicx,array,longtable}
 \usepackage[hidelinks]{hyperref}
@@ -38,7 +38,6 @@ HEAD = r"""\documentclass[11pt]{article}
 % A picture of the folder beside this file.
 \newcommand{\drawn}[1]{\IfFileExists{#1}{\includegraphics[width=.8\linewidth]{#1}}%
   {\emph{(\texttt{\detokenize{#1}})}}}
-\begin{document}
 """
 END = "\\end{document}\n"
 
@@ -61,6 +60,12 @@ _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
 _LONG_WORD = 18
 # Characters of a formula beyond which nobody reads it on paper.
 _LONGEST = 2_500
+
+
+def head(title: str) -> str:
+    """What a document begins with; its title as plain ASCII, for what a viewer shows of the PDF."""
+    about = rf"\hypersetup{{pdftitle={{{title}}},pdfauthor={{The lagrotor developers}}}}"
+    return f"{_HEAD}{about}\n\\begin{{document}}\n"
 
 
 def prose(text: str) -> str:

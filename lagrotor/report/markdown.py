@@ -25,6 +25,7 @@ from .content import (
     facts,
     figure_facts,
     linked_facts,
+    made_beside,
     note,
     sides,
     word,
@@ -92,6 +93,7 @@ def _cite(report: Report) -> list[str]:
 def _made(report: Report) -> list[str]:
     return [
         "The same inputs give the same file, byte for byte; how long each part took is in times.json.",
+        made_beside(lambda file: f"[{file}]({file})"),
         _rows(("What", "Version"), report.versions),
         _rows(("Input", "SHA-256"), ((name, f"`{digest}`") for name, digest in report.inputs)),
     ]

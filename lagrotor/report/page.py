@@ -8,7 +8,7 @@ from ..paper.catalogue import equation
 from ..paper.tables import Table
 from ..pictures.figures import Picture
 from .cite import citation
-from .content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, note
+from .content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, made_beside, note
 from .errata import errata
 from .formulas.font import font_face
 from .interactive.interactive import interactive
@@ -21,7 +21,7 @@ from .page_parts import (
     headline_entry,
     picture_entry,
 )
-from .page_pieces import badge, code, link, links, prose, rows, side_by_side
+from .page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
 from .results import balance, headlines
 
 _HERE = Path(__file__).parent
@@ -119,6 +119,7 @@ def _made(report: Report) -> str:
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
         "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
+        f"<p>{made_beside(file_link)}</p>"
         f"{versions}{rows(('Input', 'SHA-256'), inputs)}"
     )
 

@@ -100,6 +100,11 @@ def link(identifier: str) -> str:
     return f'<a href="#{anchor(identifier)}">{escape(identifier)}</a>'
 
 
+def file_link(name: str) -> str:
+    """A link to a file of the page's folder."""
+    return f'<a href="{name}">{name}</a>'
+
+
 def links(identifiers: Iterable[str]) -> str:
     """Links one after the other."""
     return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)

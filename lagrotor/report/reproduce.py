@@ -22,6 +22,7 @@ from .api import api_page
 from .content import Report
 from .errata import latex_document
 from .folder import TIMES, check_target, replaced
+from .formulas.mathml_latex import converter
 from .interactive.interactive import interactive
 from .markdown import errata_blocks, markdown
 from .page import page
@@ -57,7 +58,8 @@ def reproduce(target: Path, progress: Progress) -> Outcome:
     is no report. Until all is done the old report stays.
     """
     began, on_record, old = time.perf_counter(), recorded(), check_target(target)
-    whole = digest(reuse.foundation(), json.dumps([reuse.inputs(), on_record]), beside("CITATION.cff").read_bytes())
+    made_from = json.dumps([reuse.inputs(), on_record, converter()])
+    whole = digest(reuse.foundation(), made_from, beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
         return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
     with replaced(target) as new:

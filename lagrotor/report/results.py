@@ -31,7 +31,9 @@ def balance(report: Report) -> str:
     text = f"Of {len(report.verdicts)} equations {hold} hold: {counts.get('holds', 0)} exactly, "
     text += f"{counts.get('holds-if', 0)} under a condition that is named, "
     text += f"{counts.get('holds-to-order', 0)} to the order that is named. "
-    text += f"{len(fallen)} fall; for {corrected} of these a correction is given that itself holds, "
+    whole = 0 < corrected == len(fallen)
+    told = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
+    text += f"{len(fallen)} fall{told} that itself holds, "
     text += f"and {reaching} take a result of the paper with them. The other {other} give a name or a measured number."
     return text
 

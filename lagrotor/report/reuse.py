@@ -25,6 +25,8 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _TOOLS = ("lagrotor", "sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # The rooms that write what was found: no claim and no figure depends on them, the report does.
 _WRITERS = ("report", "commands")
+# What lies inside an installed package, or was drawn by it, and is no source of it.
+_NO_SOURCE = {".cff", ".gif", ".png"}
 _CATALOGUE, _FINDS = "catalogue of equations, claims, figures", "package, what finds"
 
 
@@ -52,6 +54,7 @@ def versions() -> dict[str, str]:
 def inputs() -> dict[str, str]:
     """What a run is made from: name → SHA-256."""
     package = {path for path in _PACKAGE.rglob("*") if path.is_file() and "__pycache__" not in path.parts}
+    package -= {path for path in package if path.suffix in _NO_SOURCE}
     package -= {path for kind in ("derivations", "figures") for path in (_PACKAGE / kind).rglob("*")}
     toml = {path for path in package if path.suffix == ".toml"}
     writers = set(filter(_writes, package))

@@ -23,12 +23,13 @@ from .content import (
     facts,
     figure_facts,
     linked_facts,
+    made_beside,
     note,
     sides,
     word,
 )
 from .errata import errata, latex_block
-from .latex import END, HEAD, derived, inline, printed, prose, table
+from .latex import END, derived, head, inline, printed, prose, table
 from .results import Headline, balance, headlines
 
 
@@ -44,7 +45,7 @@ def supplement(report: Report) -> str:
         if name != "model":
             blocks.append(rf"\section*{{{prose(heading)}}}\addcontentsline{{toc}}{{subsection}}{{{prose(heading)}}}")
             blocks += _paper(report, name) if name.startswith("section-") else _PARTS[name](report)
-    return "\n\n".join([HEAD, *filter(None, blocks), END])
+    return "\n\n".join([head(TITLE), *filter(None, blocks), END])
 
 
 def _summary(report: Report) -> list[str]:
@@ -151,7 +152,7 @@ def _cite(report: Report) -> list[str]:
 def _made(report: Report) -> list[str]:
     versions = [(prose(name), prose(number)) for name, number in report.versions]
     inputs = [(prose(name), prose(digest)) for name, digest in report.inputs]
-    blocks = [table(("What", "Version"), versions) if versions else ""]
+    blocks = [made_beside(prose), table(("What", "Version"), versions) if versions else ""]
     return [*blocks, table(("Input", "SHA-256"), inputs) if inputs else ""]
 
 

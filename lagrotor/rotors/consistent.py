@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DomainError, InputError
 from ..mechanics import jacobian, mass_matrix, project_position, project_velocity
-from ..mechanics.fourier import FourierSeries
 from ..symbols import AXES, a, b, k
 from .lagrangians import axes_pair
-from .orbit import PairedSeries, evaluate, paired_series, shape_of
+from .orbit import evaluate, last_terms, paired_series, shape_of
 from .parameters import Link, Rotor, Scene, Shock
 
 Array = NDArray[np.floating[Any]]
@@ -68,7 +67,7 @@ def paired_scene(scene: Scene, r0: float, order: int = 9) -> Scene:
         raise DomainError(f"paired_scene: r0 = {r0:g} must lie between −1 and 1: it is the sine of an inclination")
     series = paired_series(order, shape, ratio)
     rate = natural_rate(scene) * float(evaluate(series.frequency, r0, 0.0)) * np.sign(scene.spins[0])
-    if (off := _last_terms(series, r0)) > 1e-3:
+    if (off := last_terms(series, r0)) > 1e-3:
         raise DomainError(
             f"paired_scene: at r0 = {r0:g} the last terms of the series of order {order} are still {off:.1g}: take a smaller "
             "amplitude or a higher order, or find the orbit by lagrotor.models.orbit.exact_orbit"
@@ -83,15 +82,6 @@ def paired_scene(scene: Scene, r0: float, order: int = 9) -> Scene:
     mirror = np.array([-1.0, 1.0, 1.0])
     axes, rates = (first, mirror * later), (rate * slope, rate * mirror * later_slope)
     return consistent_scene(scene.spins, axes, rates, scene.rotor, scene.link, scene.shock)
-
-
-def _last_terms(series: PairedSeries, r0: float) -> float:
-    """Size of the last two orders of the orbit at amplitude r0: what a truncated series leaves undecided."""
-    kept = series.order - 2
-    ends = (
-        FourierSeries({k: v for k, v in part.terms.items() if k[0] > kept}, part.order) for part in (series.x, series.Y)
-    )
-    return max(abs(float(value)) * abs(r0) ** n for end in ends for (n, _), value in end.terms.items())
 
 
 def _pair(flat: Array) -> Any:

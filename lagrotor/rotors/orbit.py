@@ -74,6 +74,12 @@ def evaluate(series: FourierSeries, amplitude: float, phases: ArrayLike) -> NDAr
     return total
 
 
+def last_terms(series: PairedSeries, r0: float) -> float:
+    """Size of the last two orders of the orbit at amplitude r0: what a truncated series leaves undecided."""
+    kept = [(value, n) for part in (series.x, series.Y) for (n, _), value in part.terms.items() if n > series.order - 2]
+    return max(abs(float(value)) * abs(r0) ** n for value, n in kept)
+
+
 def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
     free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)

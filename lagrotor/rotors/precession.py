@@ -23,10 +23,11 @@ from ..numerics.codegen import Program, compile_program, in_blocks
 from .closed_forms import natural_rate
 from .consistent import paired_scene
 from .momentum import paired_momentum
-from .orbit import evaluate, paired_series, shape_of
+from .orbit import evaluate, last_terms, paired_series, shape_of
 from .parameters import Scene
 
 Array = NDArray[np.float64]
+_UNDECIDED = 0.05  # of the last terms of a series of order 5 or more, beyond which it is taken to diverge
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +72,7 @@ def precession_orbit(scene: Scene, r0: float, order: int = 15) -> PrecessionOrbi
     phase as time goes on. At r0 = 0.204 the axes are within 1e-6 of the exact orbit over a turn from order 9 on for the
     bar of section 5.2.1, from order 11 on for a massless one; with order 15 over hundreds of turns.
     Raises InputError unless the spins are opposite, there is a bar, and order is at least 1; DomainError unless
-    |r0| < 1. Source: 5.21 and 5.22 of the paper, corrected.
+    |r0| < 1, and where the series does not converge (massless, from r0 = 0.6 on). Source: 5.21 and 5.22 of the paper, corrected.
     """
     if isinstance(order, bool) or not isinstance(order, int) or order < 1:
         raise InputError(f"precession_orbit: order = {order!r} must be a whole number, 1 or more")
@@ -79,6 +80,11 @@ def precession_orbit(scene: Scene, r0: float, order: int = 15) -> PrecessionOrbi
         raise DomainError(f"precession_orbit: r0 = {r0} must lie between −1 and 1: it is the sine of an inclination")
     shape, ratio = shape_of(scene)
     series, amplitude = paired_series(order, shape, ratio), float(r0)
+    if order >= 5 and (off := last_terms(series, amplitude)) > _UNDECIDED:
+        raise DomainError(
+            f"precession_orbit: at r0 = {r0:g} the last terms of the series of order {order} are still {off:.2g}: it does not "
+            "converge there; take a smaller amplitude, or find the orbit by lagrotor.models.orbit.exact_orbit"
+        )
     relative = float(evaluate(series.frequency, amplitude, 0.0))
     momentum = scene.momenta[0] * float(paired_momentum(order, shape, ratio)(amplitude, float(shape), float(ratio)))  # type: ignore[arg-type]
     width = float(shape) ** 0.5

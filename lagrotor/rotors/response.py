@@ -170,7 +170,10 @@ class ShockResponse:
 
     @property
     def toppling_rate(self) -> float:
-        """Rate of the mean turning about the joint line, −(y_1' + y_2')/2, as alpha' (rad/s)."""
+        """Rate of the mean turning about the joint line, −(y_1' + y_2')/2, as alpha' (rad/s), to first order in the shock.
+
+        Of opposite spins a shock along the bar alone has none; the second order, `toppling_after_shock`, then decides.
+        """
         return float(-(self.drift[1] + self.drift[2]) / 2)
 
     def after(self, t: ArrayLike) -> Array:

@@ -112,3 +112,9 @@ def test_asked_for_by_name_the_series_goes_on_to_order_21() -> None:
     # Twin: the orbit of another amplitude is not this one.
     other = exact_orbit(Scene((10, -10)), 0.2).scene
     assert np.abs(simulate(other, T, "closed_form", 1e-13).axes - exact).max() > 1e-3
+
+
+def test_a_closed_form_asked_for_by_name_says_how_far_off_it_may_be() -> None:
+    off = simulate(paired_scene(Scene((10, -10)), 0.204), T, "closed_form", 1e-9)
+    assert off.why.startswith("asked for; on its paired precession") and off.why.endswith("more than tol")
+    assert "more than tol" not in simulate(paired_scene(Scene((10, -10)), 0.204), T, "closed_form", 1e-3).why

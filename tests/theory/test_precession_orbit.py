@@ -125,3 +125,11 @@ def test_public_names():
         Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=lagrotor.Shock((40, 0, 0), 2, 1 / 20))
     )
     assert response.frequency == pytest.approx(lagrotor.natural_rate(response.scene))
+
+
+def test_a_series_that_does_not_converge_is_refused() -> None:
+    with pytest.raises(DomainError, match=r"at r0 = 0\.7 .* does not converge"):
+        precession_orbit(SCENES["massless"], 0.7)
+    assert precession_orbit(SCENES["massless"], 0.5).frequency == pytest.approx(
+        exact_orbit(SCENES["massless"], 0.5).frequency, rel=1e-3
+    )

@@ -1,9 +1,18 @@
 """Printed formulas: LaTeX as MathML, by latex2mathml, in the same layout as the derived expressions."""
 
 from html import unescape
+from importlib.metadata import PackageNotFoundError, version
 
 from .mathml_break import math
 from .mathml_layout import laid_out
+
+
+def converter() -> str:
+    """The version of latex2mathml; empty where it is not installed."""
+    try:
+        return version("latex2mathml")
+    except PackageNotFoundError:
+        return ""
 
 
 def from_latex(source: str, display: bool = True) -> str | None:
