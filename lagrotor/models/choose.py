@@ -1,7 +1,7 @@
 """The cheapest rung of the ladder that a scene needs: closed form, linear, minimal, spheres."""
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, pi
 
 from ..errors import LagrotorError
 from ..numerics.solve import TIGHTEST
@@ -15,6 +15,7 @@ MARGIN = 1.5
 # An integrated run gathers more than its local errors: what is wanted over what the solver is asked for, for a motion that
 # the linear one resembles, and for a wide one, whose neighbours part.
 NEAR, WIDE = 10.0, 3e3
+SHORT = 20.0  # turns after which the error is taken to grow with the run
 
 
 @dataclass(frozen=True)
@@ -33,8 +34,9 @@ class Choice:
 def choose(scene: Scene, t_end: float, tol: float) -> Choice:
     """The cheapest rung whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
 
-    What the closed forms and the linear motion would miss is foreseen from the theory, without integrating; the solver of
-    an integrated model is asked for less than `tol`, so that its estimate is `tol`.
+    What the closed forms and the linear motion would miss is foreseen from the theory, without integrating. The solver of
+    an integrated model is asked for less than `tol` by what such motions gather, more for a longer run; a motion that parts
+    from its neighbours faster than that may be off by more: see the horizon in `lagrotor stability`.
     """
     try:
         answer = closed_form(scene, t_end, tol)
@@ -50,7 +52,8 @@ def choose(scene: Scene, t_end: float, tol: float) -> Choice:
         missed = f"normal modes would miss by {error:.1e}"
     except LagrotorError as refusal:
         missed = str(refusal).split(";")[0]
-    solver_tol = max(tol / (NEAR if error < 0.1 else WIDE), TIGHTEST)
+    turns = sum(map(abs, scene.momenta)) / (2 * scene.rotor.J) * t_end / (2 * pi)
+    solver_tol = max(tol / ((NEAR if error < 0.1 else WIDE) * max(1.0, turns / SHORT)), TIGHTEST)
     try:
         MINIMAL.start(scene)
     except LagrotorError as refusal:

@@ -77,8 +77,8 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1; the closed
     form gives the best it has, and says in `why` how far off it may be.
 
-    engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal" and
-    "spheres". Never chosen silently: it compiles for a moment, and its last digits are others.
+    engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
+    "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
 
     Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
     DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on.
@@ -115,13 +115,15 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
     choice = choose(scene, float(times[-1]), tol)
     if choice.model in DIRECT:
         return _trajectory(scene, choice.model, choice.reason, times, DIRECT[choice.model](scene, times, tol), 0)
+    if choice.model == "spheres" and scene.link:
+        engine = "core"
     try:
         return _run(MODELS[choice.model](), scene, times, choice.solver_tol, choice.reason, engine)
     except IntegrationError as refusal:
         if choice.model == "spheres":
             raise
         # Beside a singular position any error grows a millionfold: the solver gives all it has.
-        return _run(_spheres(), scene, times, TIGHTEST, f"regular everywhere; {refusal}", engine)
+        return _run(_spheres(), scene, times, TIGHTEST, f"regular everywhere; {refusal}", "core")
 
 
 def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
@@ -137,7 +139,7 @@ def problem_of(model: Model, scene: Scene, t_end: float) -> Problem:
     return Problem(
         free=model.rate(scene, False),
         start=model.start(scene),
-        allowance=20_000 + 500 * _fastest(scene) * t_end,
+        allowance=20_000 + 250 * _fastest(scene) * t_end,
         driven=model.rate(scene, True) if scene.shock else None,
         at=scene.shock.at if scene.shock else 0.0,
         width=scene.shock.width if scene.shock else 0.0,
@@ -149,9 +151,12 @@ def _fast(model: Model, scene: Scene, times: Array, tol: float) -> Solution:
     from ..numerics.taylor import Pulse, integrate_taylor
     from . import minimal, spheres
 
-    offered = {"minimal": minimal.generated, "spheres": spheres.generated}
+    offered = {"minimal": minimal.generated} | ({} if scene.link else {"spheres": spheres.generated})
     if model.name not in offered:
-        raise InputError(f"simulate: engine='fast' does not run model={model.name!r}; take minimal or spheres")
+        raise InputError(
+            f"simulate: engine='fast' does not run model={model.name!r} with this scene: it has no projection onto "
+            "constraints; take minimal, or engine='core'"
+        )
     start, pulse = model.start(scene), None
     if scene.shock:
         x, y, z = (scene.rotor.length * f for f in scene.shock.force)

@@ -19,6 +19,8 @@ Projection = Callable[[Array], Array]
 
 LOST = ValueError, ZeroDivisionError, OverflowError  # what a rate in Python meets outside its coordinates' reach
 _BLOCK = 100
+_A_CUT = 5_000  # evaluations between two projections, beyond which something else than the motion is followed
+_DRIFT = 200.0  # local errors that the constraints may gather between projections: what the run as a whole is asked for
 _SWEEPS = 25
 
 
@@ -72,18 +74,35 @@ def lsoda(stretch: Stretch, error: float) -> Run:
     """
     if stretch.project is None:
         return _lsoda(stretch, error)
-    found, spent, left, y = [], 0, stretch.left, stretch.start
+    found, spent, left, y, longest_cut = [], 0, stretch.left, stretch.start, np.inf
     while left < stretch.right:
-        part = replace(stretch, left=left, start=y, allowance=stretch.allowance - spent)
-        right = min(stretch.right, left + 5 / (part.pace + 1e-300))
-        if stretch.right - right < (right - left) / 2:
-            right = stretch.right
+        cut = min(5 / (replace(stretch, left=left, start=y).pace + 1e-300), longest_cut)
+        right = left + cut if left + 1.5 * cut < stretch.right else stretch.right
         inside = (stretch.asked > left) & (stretch.asked <= right)
         # A state with constraints moves no more than a tenth in a step, so that none leaps over where they fail.
-        longest = min(stretch.longest, (right - left) / 50)
-        run = _lsoda(replace(part, right=right, asked=stretch.asked[inside], longest=longest), error)
+        part = replace(
+            stretch,
+            start=y,
+            left=left,
+            right=right,
+            asked=stretch.asked[inside],
+            longest=min(stretch.longest, cut / 50),
+        )
+        try:
+            run = _lsoda(replace(part, allowance=min(stretch.allowance - spent, _A_CUT)), error)
+            end, spent = stretch.project(run.end), spent + run.evaluations + 1
+            drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
+        except StopError:
+            if cut < longest_cut / 2 or spent + _A_CUT > stretch.allowance:
+                raise
+            drifted, spent = np.inf, spent + _A_CUT
+        if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
+            longest_cut = cut / 8
+            if longest_cut < 1e-6 * (stretch.right - stretch.left):
+                raise StopError(left, "the constraints drift faster than they can be kept")
+            continue
         found.append(run.states)
-        y, left, spent = stretch.project(run.end), right, spent + run.evaluations + 1
+        y, left = end, right
     states = stretch.project(np.concatenate(found).T).T
     if not np.isfinite(states).all():
         raise StopError(stretch.left, "a state could not be brought back onto its constraints")

@@ -22,6 +22,7 @@ from .solve import PULSE_REACH, Solution
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
+_MOST_STEPS = 1_000_000  # between two edges, beyond which a run is taken to crawl
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
@@ -59,7 +60,9 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
         inside = (asked > left) & (asked <= right)
         last = [] if right in asked[-1:] or not right > left else [right]
         grid = np.concatenate([[left], asked[inside], last])
-        outcome, _, _, steps, _, found = solver.propagate_grid(grid, max_delta_t=width if driven else np.inf)
+        outcome, _, _, steps, _, found = solver.propagate_grid(
+            grid, max_delta_t=width if driven else np.inf, max_steps=_MOST_STEPS
+        )
         if "time_limit" not in str(outcome) or not np.isfinite(found).all():
             raise IntegrationError(f"the Taylor solver stopped near t = {at + solver.time:.6g} s; use engine='core'")
         states[inside], y = found[1 : 1 + inside.sum()], found[-1]
@@ -82,10 +85,12 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
         lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
         solver.set_time(np.zeros(LANES))
         solver.state[:], solver.pars[:] = start[:, lanes], parameters[:, lanes]
-        _, found = solver.propagate_grid(grid)
+        _, found = solver.propagate_grid(grid, max_steps=_MOST_STEPS)
         kept = min(LANES, n - begin)
         steps = [steps for _, _, _, steps in solver.propagate_res[:kept]]
+        stopped = ["time_limit" not in str(outcome) for outcome, *_ in solver.propagate_res[:kept]]
         states[begin : begin + kept] = found[1 - first :, :, :kept].transpose(2, 0, 1)
+        states[begin : begin + kept][stopped] = np.nan
         spent[begin : begin + kept] = np.array(steps) * solver.order
     return states, spent
 

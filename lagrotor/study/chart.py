@@ -74,7 +74,6 @@ METHODS: dict[str, Method] = {
     "euler": Method("core", _rung("euler")),
     **ENGINES,
     "minimal, fast": Method("fast", _rung("minimal", "fast")),
-    "spheres, fast": Method("fast", _rung("spheres", "fast")),
     "springs of the paper": Method("springs", _springs(1), (2e-3, 1e-3, 5e-4)),
     "springs, 100 times as stiff": Method("springs", _springs(100), (2e-4, 1e-4)),
 }

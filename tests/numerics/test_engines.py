@@ -6,9 +6,10 @@ from math import cos
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError
 from lagrotor.models import minimal, spheres
+from lagrotor.numerics import engines
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.engines import Array, StopError, Stretch, adams, adams_order, adams_weights, dop853, lsoda
 from lagrotor.numerics.engines import _piece as piece
@@ -123,11 +124,12 @@ def test_without_the_fast_extra_a_word_says_what_to_install(monkeypatch: pytest.
     monkeypatch.setitem(sys.modules, "heyoka", None)
     with pytest.raises(InputError, match=r"pip install 'lagrotor\[fast\]'"):
         simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [1.0], "minimal", 3e-4, engine="fast")
-    with pytest.raises(InputError, match="take minimal or spheres"):
-        simulate(Scene((10, -10), axes=((0.6, 0, 0.8),) * 2), [1.0], "euler", engine="fast")
+    for axes, model in (((0.6, 0, 0.8), "euler"), ((0.6, 0, 0.8), "spheres")):
+        with pytest.raises(InputError, match="take minimal, or engine='core'"):
+            simulate(Scene((10, -10), axes=(axes,) * 2), [1.0], model, engine="fast")
 
 
-@pytest.mark.parametrize("model", ["minimal", "spheres"])
+@pytest.mark.parametrize("model", ["minimal"])
 @pytest.mark.parametrize("shock", [None, SHOCK_PAIRED, Shock((4, 1, 0), at=0.02, width=0.1, body=2)])
 def test_the_fast_extra_gives_the_same_motion(model: str, shock: Shock | None) -> None:
     pytest.importorskip("heyoka")
@@ -139,3 +141,28 @@ def test_the_fast_extra_gives_the_same_motion(model: str, shock: Shock | None) -
     loose = simulate(scene, times, model, 1e-5, "fast")
     assert loose.axes == pytest.approx(core.axes, abs=1e-4)
     assert loose.evaluations < fast.evaluations
+
+
+@pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-8, 1e-9])
+def test_where_the_constraints_drift_fast_the_run_is_cut_shorter(tol: float) -> None:
+    """Axes that are pressed: their constraints' error grows exponentially within what the start's pace calls a turn."""
+    pressed = consistent_scene(
+        (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
+    )
+    times = np.linspace(0, 5, 21)
+    run, exact = simulate(pressed, times, "spheres", tol), simulate(pressed, times, "minimal", 1e-12)
+    assert np.abs(run.axes - exact.axes).max() < 100 * tol
+    assert np.abs(run.link_length - 1).max() < 1e-10
+    assert run.evaluations < 10_000
+
+
+def test_a_projection_from_far_off_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twin: without a bound on what is projected the same run is wrong, and nothing says so."""
+    monkeypatch.setattr(engines, "_DRIFT", np.inf)
+    monkeypatch.setattr(engines, "_A_CUT", 10**9)
+    pressed = consistent_scene(
+        (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
+    )
+    times = np.linspace(0, 5, 21)
+    run, exact = simulate(pressed, times, "spheres", 1e-6), simulate(pressed, times, "minimal", 1e-12)
+    assert np.abs(run.axes - exact.axes).max() > 0.1

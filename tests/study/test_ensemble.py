@@ -191,6 +191,7 @@ def test_beside_a_singular_position_the_fallback_gives_all_it_has():
     scene = consistent_scene((10, -10), UP, ((-1.836, -1.934, 0), (-1.836, 1.934, 0)), link=Link(1, 0.01, 0.1))
     found, exact = sweep([scene], [0.0, 5.0, 10.0], 1e-6), simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-12)
     assert MODELS[found.models[0]] == "spheres"
-    assert np.abs(found.axes[0] - exact.axes).max() < 1e-4
+    off = np.abs(found.axes[0] - exact.axes).max()
     loose = simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-6)
-    assert np.abs(loose.axes - exact.axes).max() > 1e-3  # twin: the tolerance asked for would not do
+    assert off < 1e-5
+    assert np.abs(loose.axes - exact.axes).max() > max(10 * off, 1e-5)  # twin: the tolerance asked for would not do

@@ -22,6 +22,7 @@ NEEDS = {
     "PyDy, lambdify": "pydy",
     "PyDy, Cython": "pydy",
     "CasADi CVODES": "casadi",
+    "CasADi CVODES, Adams": "casadi",
     "scikit-sundae": "sksundae",
     "MuJoCo": "mujoco",
     "Pinocchio": "pinocchio",
