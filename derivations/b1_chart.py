@@ -55,8 +55,8 @@ missed = chart("shock", replace(scenes["shock"], repeats=0), TRAPS, (1e-3, 1e-6)
 # **Conclusion.** On its own orbit the closed form needs no evaluation and leaves 3e-11 m with the series through $r_0^{21}$.
 # Among integrations it is the order that counts: from 1e-7 to 1e-9 Adams in equal steps, of order 10, needs least,
 # Runge–Kutta of order 5 more than six times as much at 1e-9. The floor is how far minimal and spheres are apart, which
-# end with that Adams pair, of order 12. scipy's solvers stop above it, with 1e-13 for their own tolerance; but for DOP853 in `ode`, which
-# begins anew at every output time and so spends the same whatever it is asked for.
+# end with that Adams pair, of order 12. scipy's solvers stop above it, with 1e-13 for their own tolerance; but for DOP853 in
+# `ode`, which begins anew at every output time and so spends the same whatever it is asked for.
 
 # %%
 tables = [

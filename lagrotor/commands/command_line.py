@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
-from ..errors import InputError, LagrotorError
+from ..errors import LagrotorError
 from .chart_command import add_chart, chart_command
 from .options import Parser, add_pair, add_shock, add_start, check_folder
 from .paper_commands import audit_command, claims_command, reproduce_command
@@ -112,7 +112,9 @@ def _parser() -> argparse.ArgumentParser:
     says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help="tolerance of the solver (default: 1e-9)")
-    added.add_argument("--out", type=Path, metavar="FILE", help="write the run as .npz or .csv, and show a line, no table")
+    added.add_argument(
+        "--out", type=Path, metavar="FILE", help="write the run as .npz or .csv, and show a line, no table"
+    )
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
     from ..rotors.scenes import SCENES

@@ -77,7 +77,8 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
 
 def _link(given: argparse.Namespace) -> Link | None:
     """The bar, if any. Raises InputError for one that is described and left out."""
-    asked = {name: value for name in ("length", "mass", "inertia") if (value := vars(given)[f"link_{name}"]) is not None}
+    parts = {"length": given.link_length, "mass": given.link_mass, "inertia": given.link_inertia}
+    asked = {name: value for name, value in parts.items() if value is not None}
     if given.no_link and asked:
         raise InputError(f"--no-link and --link-{next(iter(asked))}: a pair without a bar has none; leave one out")
     return None if given.no_link else Link(**asked)

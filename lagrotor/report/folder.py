@@ -25,7 +25,9 @@ CONTENTS = {
     MADE,
 }
 # What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
-_COMPILED = {f"{stem}.{kind}" for stem in ("report", "errata") for kind in "aux log out toc pdf synctex.gz".split()}
+_COMPILED = {
+    f"{stem}.{kind}" for stem in ("report", "errata") for kind in ("aux", "log", "out", "toc", "pdf", "synctex.gz")
+}
 
 
 def check_target(target: Path) -> Path:

@@ -9,14 +9,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import lagrotor
-from lagrotor.commands import terminal
+from lagrotor.commands import paper_commands, terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
-from lagrotor.paper import audit, scripts
+from lagrotor.paper import audit, scripts, trials
+from lagrotor.paper.catalogue import claims
+from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.pictures import figures
 from lagrotor.report import folder, page, reproduce, reuse
+from lagrotor.report.formulas import mathml_latex
+from lagrotor.study import chart as chart_module
+from lagrotor.study.measure import Chart, Point
+from lagrotor.symbols import M, R
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SCENE = ["simulate", "--spins", "10", "-10"]
@@ -109,6 +116,12 @@ BAD: dict[str, tuple[list[str], str]] = {
     "no format": ([*SCENE, "--out", "run"], ".npz or .csv"),
     "output folder missing": ([*SCENE, "--out", "missing/run.npz"], "no folder missing"),
     "rate without spins": (["rate"], "--spins"),
+    "rate with a start": (["rate", "--spins", "1", "1", "--axes", *"001001"], "--axes"),
+    "bar and none": ([*SCENE, "--no-link", "--link-mass", "1"], "--no-link and --link-mass"),
+    "bar of the usual length and none": (
+        ["rate", "--spins", "1", "1", "--no-link", "--link-length", "1"],
+        "leave one out",
+    ),
     "rate with a shock": (["rate", "--spins", "1", "1", "--shock", "1", "0", "0"], "--shock"),
 }
 
@@ -145,7 +158,7 @@ def test_read_only_folder_is_refused(
 def test_folder_that_is_no_report_is_not_replaced(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (small_paper / "thesis.tex").write_text("years of work")
     assert main(["reproduce", "--out", "."]) == 2
-    assert "other files" in capsys.readouterr().err
+    assert "holds thesis.tex, which is no part of a report" in capsys.readouterr().err
     assert (small_paper / "thesis.tex").read_text() == "years of work"
     assert main(["reproduce", "--out", "thesis.tex"]) == 2
 
@@ -186,7 +199,7 @@ def test_closed_pipe_is_quiet() -> None:
     assert "Exception" not in done.stderr
 
 
-@pytest.mark.parametrize("command", ["reproduce", "audit", "figure", "simulate", "rate"])
+@pytest.mark.parametrize("command", ["reproduce", "audit", "claims", "figure", "simulate", "rate"])
 def test_each_help_ends_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([command, "--help"]) == 0
     assert capsys.readouterr().out.strip().splitlines()[-1].startswith(f"example: lagrotor {command}")
@@ -257,6 +270,54 @@ def test_rate_with_its_limits(capsys: pytest.CaptureFixture[str]) -> None:
     assert "no oscillation" in capsys.readouterr().out
 
 
+def test_pair_without_a_bar(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rate", "--spins", "10", "-10", "--no-link", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["rate"] == pytest.approx(8)
+    assert answer["limits"] == {}
+    assert main(["rate", "--spins", "10", "-10", "--no-link"]) == 0
+    assert "limit" not in capsys.readouterr().out
+    tilted = ["--axes", "0", "0.6", "0.8", "0", "-0.6", "0.8"]  # tips farther apart than a bar would let them
+    assert main([*SCENE, *tilted, "--t-end", "1", "--samples", "3", "--no-link", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["energy_last"] == pytest.approx(100)
+    assert main([*SCENE, *tilted, "--t-end", "1"]) == 2
+
+
+def test_what_is_right_stands_under_what_is_not(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    right = Statement("5.20", chain(M, R), correction=chain(M, M))
+    assert paper_commands.in_a_line(right) == "M"
+    series = Statement("5.20", chain(M, R), correction=chain(M, M, small=R, claimed=2))
+    assert paper_commands.in_a_line(series) == "M + O(R**3)"
+    long = Statement("5.20", chain(M, R), correction=chain(M, sum(sp.symbols("x1:60"))))
+    assert paper_commands.in_a_line(long).startswith("see the errata sheet")
+    monkeypatch.setattr(audit, "audit", lambda step: [judge(series), judge(Statement("5.21", chain(M, M)))])
+    assert main(["audit"]) == 0
+    head, refuted, corrected, holds = capsys.readouterr().out.splitlines()
+    assert refuted.startswith("5.20  refuted") and corrected.strip() == "right: M + O(R**3)"
+    assert holds.startswith("5.21  holds"), head
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
+def test_letters_that_a_pipe_lacks_are_no_traceback(encoding: str) -> None:
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding}
+    argv = [sys.executable, "-m", "lagrotor", *SCENE, "--t-end", "0.1", "--samples", "3", "--out", "Ω.csv"]
+    done = subprocess.run(argv, capture_output=True, env=environment, check=False)
+    assert done.stdout.startswith(b"?.csv: 3 times"), done.stderr
+    assert Path("Ω.csv").exists()
+
+
+def test_a_claim_is_told_with_its_outcome(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    trial = trials.Trial("C08", (1, 1), (1, 2), "", lambda s: {}, lambda v: trials.Finding("refuted", ""))
+    found = trials.Result(trial, {}, trials.Finding("refuted", "word " * 40), 0.0)
+    monkeypatch.setattr(trials, "hear_all", lambda step, wanted: [found])
+    assert main(["claims", "C08"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert " ".join(" ".join(lines).split()).startswith(f"C08 {claims()['C08'].text} refuted: word word")
+    assert max(map(len, lines)) <= 100
+
+
 def test_audit_table_and_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["audit"]) == 0
     assert "holds if" in capsys.readouterr().out
@@ -309,6 +370,20 @@ def test_figure_writes_the_same_bytes_twice(small_paper: Path) -> None:
     assert set(first) == {"fig17_stub.svg", "fig17_stub.png"}
     assert main(["figure", "17"]) == 0
     assert {path.name: path.read_bytes() for path in small_paper.iterdir()} == first
+
+
+def test_chart_names_what_it_wrote(
+    small_paper: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    points = tuple(Point("minimal", "core", tol, tol, 10, 0.1, 0.1) for tol in (1e-3, 1e-6))
+    found = Chart("displaced", "a scene", points, (), {"minimal": 0.0}, 1e-12)
+    monkeypatch.setattr(chart_module, "charts", lambda quick, step: [found])
+    assert main(["chart"]) == 0
+    files = {path.name for path in small_paper.iterdir()}
+    assert files == {"chart.json", "chart-displaced.svg", "chart-displaced.png"}
+    assert set(capsys.readouterr().out.splitlines()[-3:]) == files
+    assert main(["chart", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["charts"][0]["scene"] == "displaced"
 
 
 def test_figure_past_the_paper(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -372,6 +447,35 @@ def test_second_run_says_what_it_takes(small_paper: Path, capsys: pytest.Capture
     (small_paper / "report" / "index.html").write_text("edited")
     assert main(["reproduce"]) == 0
     assert "\n1 figure taken from the last run (same inputs)\n" in capsys.readouterr().out
+
+
+def test_what_latex_leaves_is_no_obstacle(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reproduce"]) == 0
+    report = small_paper / "report"
+    for name in ("report.pdf", "report.aux", "errata.log", "report.synctex.gz"):
+        (report / name).touch()
+    assert main(["reproduce"]) == 0
+    assert (report / "report.pdf").exists(), "nothing had changed"
+    (report / "index.html").write_text("edited")
+    assert main(["reproduce"]) == 0
+    assert {path.name for path in report.iterdir()} == folder.CONTENTS, "the PDF was of the last report"
+    (report / "thesis.pdf").touch()
+    assert main(["reproduce"]) == 2
+    assert "holds thesis.pdf, which" in capsys.readouterr().err
+
+
+def test_report_without_the_converter_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(mathml_latex, "converter", lambda: "1.0")
+    assert main(["reproduce"]) == 0
+    assert "pip install" not in capsys.readouterr().out
+    monkeypatch.setattr(mathml_latex, "converter", lambda: "")
+    monkeypatch.setattr(reproduce, "converter", lambda: "")
+    assert main(["reproduce"]) == 0
+    out = capsys.readouterr().out
+    assert out.splitlines()[-1].endswith("pip install 'lagrotor[report]'")
+    assert "all taken" not in out, "another page"
 
 
 def test_interrupted_swap_puts_the_old_report_back(small_paper: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,6 +10,7 @@ from lagrotor.report import api
 def test_every_public_name_is_there_with_its_call_and_its_words() -> None:
     found = {entry.name: entry for entry in api.entries()}
     assert set(lagrotor.__all__) <= found.keys()
+    assert len(found) == len(list(api.entries())), "none twice"
     for entry in found.values():
         assert entry.text, entry.name
         assert all(line for _, line in entry.members), entry.name
@@ -33,6 +34,12 @@ def test_the_page_can_be_run_and_does_not_change() -> None:
     assert "0x" not in text and text.count("<article") == len(list(api.entries())) == text.count("<h2>")
     assert set(re.findall(r'href="#(\w+)"', text)) <= set(re.findall(r'id="(\w+)"', text))
     assert re.sub(r"<style>.*</style>", "", text, flags=re.S).count("<") < 600  # short
+
+
+def test_backticks_are_code() -> None:
+    assert api._words("of `sweep(a, b*c)` and omega_1") == "of <code>sweep(a, b*c)</code> and ω₁"
+    assert all(entry.text.count("`") % 2 == 0 for entry in api.entries()), "each is closed"
+    assert "`" not in api.api_page().partition("<main")[2]
 
 
 def test_a_name_without_words_is_seen() -> None:

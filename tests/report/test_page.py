@@ -22,6 +22,7 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report import page as page_module
 from lagrotor.report import page_pieces
 from lagrotor.report.content import Report, contents
+from lagrotor.report.folder import CONTENTS
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page
@@ -127,12 +128,17 @@ def read(text: str) -> Reader:
     return reader
 
 
+def leads(link: str, reader: Reader) -> bool:
+    """To a place of the page, or to a file that lies beside it."""
+    return link in CONTENTS or (link[:1] == "#" and link[1:] in reader.ids)
+
+
 def faults(text: str) -> list[str]:
     """What a reader, a screen reader or a keyboard would stumble over."""
     reader = read(text)
     found = [f"left open: {tag}" for tag in (*reader.open, *reader.crossed)]
     found += [f"id twice: {i}" for i in set(reader.ids) if reader.ids.count(i) > 1]
-    found += [f"leads nowhere: {link}" for link in reader.all("a", "href") if link[1:] not in reader.ids]
+    found += [f"leads nowhere: {link}" for link in reader.all("a", "href") if not leads(link, reader)]
     named = [attrs for _, attrs in reader.seen if "aria-labelledby" in attrs or "for" in attrs]
     found += [f"no such name: {i}" for a in named if (i := a.get("aria-labelledby") or a.get("for")) not in reader.ids]
     ranks = [int(tag[1]) for tag, _ in reader.seen if re.fullmatch("h[1-6]", tag)]
@@ -154,7 +160,7 @@ def reached(text: str) -> list[str]:
         for name in ("src", "href", "srcset", "poster", "action", "data")
         if name in attrs
     ]
-    found = [address for address in addresses if not address.startswith(("#", "data:"))]
+    found = [address for address in addresses if not address.startswith(("#", "data:")) and address not in CONTENTS]
     alone = re.sub(r"([\"(])data:[^\")]*", r"\1data:", text)
     return found + re.findall(r"https?:|url\((?!data:)|@import|\bfetch\(|XMLHttpRequest|\bimport\b[ (]", alone)
 
@@ -309,6 +315,15 @@ def test_markdown_links_lead_somewhere(longer: Report) -> None:
     for link in re.findall(r"\]\(#([^)]+)\)", text):
         assert link in places or link == "figure-t7", link
     assert judged - {"figure-t7"} <= places
+    beside = {file.partition("#")[0] for file in re.findall(r"(?<!!)\[[^\]]*\]\(([^#)][^)]*)\)", text)}
+    assert {"api.html", "errata.md", "verdicts.json", "claims.json", "measured.json"} <= beside <= CONTENTS
+
+
+def test_page_leads_to_what_lies_beside_it(report: Report) -> None:
+    text = page(report)
+    files = {link for link in read(text).all("a", "href") if not link.startswith("#")}
+    assert {"api.html", "errata.md", "report.md", "report.tex", "verdicts.json"} <= files <= CONTENTS
+    assert "leads nowhere: missing.json" in faults(text.replace('href="api.html"', 'href="missing.json"'))
 
 
 def test_past_the_paper_is_a_section_of_its_own(report: Report, longer: Report) -> None:

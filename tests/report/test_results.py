@@ -90,8 +90,12 @@ def test_what_was_not_found_is_not_told(report: Report) -> None:
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
     assert text.startswith("Of 2 equations 0 hold")
-    assert "1 fall; for 1 of these a correction is given that itself holds, and 0 take a result" in text
+    assert "1 fall, each with a correction that itself holds, and 0 take a result" in text
     assert text.endswith("The other 1 give a name or a measured number.")
+    alone = judge(Statement("5.20", chain(M, R)))
+    text = balance(replace(report, verdicts=(*report.verdicts, alone)))
+    assert "2 fall; for 1 of these a correction is given that itself holds, and 0 take a result" in text
+    assert "0 fall; for 0 of these" in balance(replace(report, verdicts=()))
 
 
 def test_citation_is_that_of_the_file() -> None:

@@ -2,6 +2,7 @@
 
 import ast
 import json
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -129,6 +130,25 @@ def test_what_is_found_depends_on_all_but_what_writes_it(file: str, found: bool,
     assert sum(reuse.inputs()[name] != seen for name, seen in whole.items()) == 1
 
 
+def test_an_installed_package_has_the_digests_of_the_checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its scripts and CITATION.cff lie inside it."""
+    installed, checkout = tmp_path / "lagrotor", dict(reuse.inputs())
+    shutil.copytree(PACKAGE, installed, ignore=shutil.ignore_patterns("__pycache__"))
+    for kind in ("derivations", "figures"):
+        shutil.copytree(scripts.folder(kind), installed / kind, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(scripts.beside("CITATION.cff"), installed)
+    (installed / "pictures" / "drawn.gif").write_bytes(b"GIF89a")
+    for module in (reuse, scripts):
+        monkeypatch.setattr(module, "_PACKAGE", installed)
+    reuse.inputs.cache_clear()
+    assert scripts.folder("figures") == installed / "figures"
+    assert reuse.inputs() == checkout
+    (installed / "pictures" / "drawn.txt").touch()
+    reuse.inputs.cache_clear()
+    assert reuse.inputs() != checkout, "what is not known to be no source counts"
+    reuse.inputs.cache_clear()
+
+
 def imported(file: Path) -> set[str]:
     """The rooms of the package that a file imports from, however it writes it."""
     found: set[str] = set()
@@ -148,7 +168,7 @@ def test_nothing_that_finds_imports_what_writes() -> None:
     finders += [path for kind in ("derivations", "figures") for path in scripts.folder(kind).glob("*.py")]
     assert len(finders) > 100
     assert {path.name: rooms for path in finders if (rooms := imported(path) & set(reuse._WRITERS))} == {}
-    assert imported(PACKAGE / "commands" / "command_line.py") >= {"report", "pictures"}, "the check sees imports"
+    assert imported(PACKAGE / "commands" / "command_line.py") >= {"commands", "pictures"}, "the check sees imports"
 
 
 def test_no_figure_runs_another_figure() -> None:

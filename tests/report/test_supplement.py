@@ -17,8 +17,8 @@ from lagrotor.paper.catalogue import claims, equations
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.content import Report, contents
-from lagrotor.report.latex import END, HEAD, derived, printed, prose, table
+from lagrotor.report.content import TITLE, Report, contents
+from lagrotor.report.latex import END, derived, head, printed, prose, table
 from lagrotor.report.supplement import supplement
 from lagrotor.symbols import M, r0
 
@@ -88,7 +88,7 @@ def test_it_is_ascii_with_balanced_braces(report: Report) -> None:
     assert text.isascii()
     bare = re.sub(r"\\[{}\\]", "", text)
     assert bare.count("{") == bare.count("}")
-    assert text.startswith(HEAD) and text.endswith(END)
+    assert text.startswith(head(TITLE)) and text.endswith(END)
     assert text.count(r"\end{document}") == 1, "no text ends the document"
 
 
@@ -112,6 +112,8 @@ def test_nothing_is_left_out(report: Report) -> None:
         "sympy",
         "012345678",
         "@software",
+        r"pdfauthor={The lagrotor developers}",
+        "measured.json (the numbers",
     ):
         assert part in text, part
     assert r"\hyperlink{figure-t7}" not in text, "what is not drawn is not linked"
@@ -127,18 +129,18 @@ def test_it_compiles(report: Report) -> None:
 
 def test_every_printed_equation_compiles(tmp_path: Path) -> None:
     pages = "\n\n".join(printed(entry.latex) for entry in equations().values())
-    assert complaints(compiled(HEAD + pages + END, tmp_path)) == []
+    assert complaints(compiled(head("A test") + pages + END, tmp_path)) == []
 
 
 def test_long_expressions_fit_the_page(tmp_path: Path) -> None:
     wide = [LONG, M / LONG, sp.sqrt(LONG), sp.Matrix([LONG, 1]), sp.Matrix([[LONG, 1], [1, LONG]]), M * (LONG + 1) ** 2]
-    log = compiled(HEAD + "\n\n".join(map(derived, wide)) + END, tmp_path)
+    log = compiled(head("A test") + "\n\n".join(map(derived, wide)) + END, tmp_path)
     assert complaints(log) == []
 
 
 def test_what_is_wrong_is_found(tmp_path: Path) -> None:
     wrong = r"\undefinedword \ref{nowhere} \hbox{" + "x" * 200 + "}" + END
-    found = " ".join(complaints(compiled(HEAD + wrong, tmp_path)))
+    found = " ".join(complaints(compiled(head("A test") + wrong, tmp_path)))
     assert "Undefined control sequence" in found and "nowhere" in found and "too wide" in found
 
 
