@@ -13,6 +13,7 @@ from ..models.simulate import simulate
 from ..rotors.closed_forms import natural_rate
 from ..rotors.orbit import PairedSeries, evaluate, paired_series, shape_of
 from ..rotors.parameters import Scene
+from ..rotors.twist import parallel_scene
 from .ensemble import started
 from .floquet import floquet_of
 from .limits import Limit, threshold
@@ -92,6 +93,14 @@ def off_opposite(share: float, r0: float = 0.1, turns: float = 1.0) -> float:
     return float(np.linalg.norm(moved - exact, axis=-1).max())
 
 
+def off_equal(share: float, r0: float) -> float:
+    """How far apart the axes of a parallel pair twist within a turn when spin 2 is (1 − share) times spin 1."""
+    start = parallel_scene(Scene((10.0, 10.0)), r0)
+    times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
+    axes = simulate(replace(start, spins=(10.0, 10.0 * (1 - share))), times, "minimal", 1e-12).axes
+    return float(np.linalg.norm(axes[1] - axes[0], axis=-1).max())
+
+
 def spin_limits(quick: bool) -> list[Limit]:
     """Spins that are not quite opposite, and spins too slow to hold the pair up."""
     wanted, tiny, r0 = 1e-2, 1e-5, 0.1
@@ -102,7 +111,7 @@ def spin_limits(quick: bool) -> list[Limit]:
     def falls(spin: float) -> bool:
         scene = Scene((spin, spin), rates=((0.0, push, 0.0), (0.0, push, 0.0)))
         turn = 2 * pi / max(natural_rate(scene), push)
-        return bool(simulate(scene, np.linspace(0, turn, 201), "closed_form", 1e-8).axes[..., 2].min() < 0)
+        return bool(simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-8).axes[..., 2].min() < 0)
 
     return [
         Limit(
@@ -112,6 +121,14 @@ def spin_limits(quick: bool) -> list[Limit]:
             wanted * tiny / off_opposite(tiny, r0),
             found,
             "refuses spins that are not exactly opposite",
+        ),
+        Limit(
+            "spins nearly equal",
+            f"(G_1 − G_2)/G_1 that twists parallel axes {wanted:g} R apart in a turn, inclined by {r0:g}",
+            f"error ~ (G_1 − G_2), its slope from {tiny:g}",
+            wanted * tiny / off_equal(tiny, r0),
+            threshold(lambda share: off_equal(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01),
+            "closed_form refuses spins that are not exactly equal or opposite",
         ),
         Limit(
             "spins going to zero",

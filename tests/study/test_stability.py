@@ -13,7 +13,7 @@ from lagrotor.errors import IntegrationError, SingularError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.models.rigid_body import finite_rotation
-from lagrotor.study import throughput
+from lagrotor.study import coordinates, reach, throughput
 from lagrotor.study.compare import measured_order
 from lagrotor.study.coordinates import euler_limits, joint_line_limits, passing, past_the_pole, projection_limits
 from lagrotor.study.drifts import DRIFTING, constraint_drift, drift_limits, long_limits, long_run
@@ -203,3 +203,14 @@ def test_the_command(tmp_path, capsys, monkeypatch):
 def test_the_command_refuses_a_missing_folder(tmp_path, capsys):
     assert main(["stability", "--out", str(tmp_path / "none")]) == 2
     assert "no folder" in capsys.readouterr().err
+
+
+def test_what_passes_where_bar_and_axes_are_in_line():
+    assert coordinates.passes(0.02)
+    assert not coordinates.passes(0.002)
+
+
+def test_spins_not_quite_equal_twist_as_their_difference():
+    one, two = reach.off_equal(1e-4, 0.1), reach.off_equal(2e-4, 0.1)
+    assert two / one == pytest.approx(2, rel=1e-3)
+    assert reach.off_equal(0.0, 0.1) < 1e-10  # twin: equal spins stay together
