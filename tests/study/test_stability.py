@@ -60,9 +60,10 @@ def test_found_where_predicted(tried, within):
 
 
 def test_joint_line_and_fold():
-    line, fold = joint_line_limits(True)
+    line, fold, in_line = joint_line_limits(True)
     assert line.ratio == pytest.approx(1, abs=0.3)
     assert 0 < fold.measured < fold.predicted
+    assert in_line.ratio == pytest.approx(1, abs=0.2)
 
 
 def test_euler_angles_cost_the_logarithm_and_lose_digits_as_the_inverse_of_the_miss():
