@@ -1,6 +1,7 @@
 """`simulate`: a scene, times and a model in; a trajectory out."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import hypot
 
 import numpy as np
@@ -127,10 +128,16 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
 
 
 def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
+    felt = scene
+    if scene.shock:
+        from .linear import struck
+
+        # Time is counted from the pulse: one far off that is not felt would only cost digits.
+        felt = scene if struck(scene, float(times[-1])) else replace(scene, shock=None)
     if engine == "fast":
-        solution = _fast(model, scene, times, tol)
+        solution = _fast(model, felt, times, tol)
     else:
-        solution = integrate(problem_of(model, scene, float(times[-1])), times, tol)
+        solution = integrate(problem_of(model, felt, float(times[-1])), times, tol)
     return _trajectory(scene, model.name, why, times, model.observe(scene, solution.states), solution.evaluations)
 
 

@@ -1,6 +1,7 @@
 """`simulate`: what it refuses, what `auto` picks, and shocks however short."""
 
 import re
+from dataclasses import replace
 from functools import lru_cache
 from math import cos, inf, nan, pi, sin, sqrt
 from typing import Any
@@ -8,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import InputError, IntegrationError, SingularError
 from lagrotor.mechanics import project_velocity
 
@@ -164,3 +165,13 @@ def test_a_loose_tolerance_misses_no_shock(model: str) -> None:
     found = simulate(start(1, 1e-6), [END], model, 1e-3).axes[:, 0]
     assert found == pytest.approx(limit(1), abs=1e-2)
     assert np.abs(simulate(start(), [END], model, 1e-3).axes[:, 0] - limit(1)).max() > 0.1
+
+
+@pytest.mark.parametrize("at", [1e10, -1e12])
+def test_a_shock_that_is_not_felt_costs_no_digit(at: float) -> None:
+    scene = paired_scene(Scene((10, -10)), 0.204)
+    far = replace(scene, shock=Shock((1, 0, 0), at, 0.1))
+    runs = [simulate(s, [1.0, 10.0], "minimal", 1e-10).axes for s in (scene, far)]
+    assert (runs[0] == runs[1]).all()
+    near = replace(scene, shock=Shock((1, 0, 0), 5.0, 0.1))
+    assert np.abs(simulate(near, [1.0, 10.0], "minimal", 1e-10).axes - runs[0]).max() > 1e-2  # twin
