@@ -17,12 +17,13 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from .. import __version__
 from ..numerics.files import write_text
 from ..paper import scripts
 from .folder import MADE
 
 _PACKAGE = Path(__file__).resolve().parent.parent
-_TOOLS = ("lagrotor", "sympy", "mpmath", "numpy", "scipy", "matplotlib")
+_TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # The rooms that write what was found: no claim and no figure depends on them, the report does.
 _WRITERS = ("report", "commands")
 # What lies inside an installed package, or was drawn by it, and is no source of it.
@@ -47,7 +48,7 @@ def digest_of(files: Iterable[Path], base: Path) -> str:
 
 def versions() -> dict[str, str]:
     """What a run is made with."""
-    return {"Python": platform.python_version()} | {name: version(name) for name in _TOOLS}
+    return {"Python": platform.python_version(), "lagrotor": __version__} | {name: version(name) for name in _TOOLS}
 
 
 @cache

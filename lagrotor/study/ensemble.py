@@ -4,7 +4,7 @@ A chunk is one call of `run_chunk`, which needs nothing but its arguments: any e
 it, on this machine or on others.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -12,6 +12,7 @@ from hashlib import sha256
 from math import hypot
 from pathlib import Path
 from typing import NamedTuple
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,7 +97,8 @@ def sweep(
     A step ends at each asked time: a few times cost little, a thousand a good deal.
     Raises InputError for bad arguments, no scene, or a folder that holds another sweep.
     """
-    times, tolerance, members = check_times(t), check_tolerance(tol), tuple(scenes)
+    times, tolerance = check_times(t), check_tolerance(tol)
+    members = tuple(scenes) if isinstance(scenes, Iterable) else ()
     if not members or not all(isinstance(scene, Scene) for scene in members):
         raise InputError("sweep: scenes must be a sequence of at least one Scene")
     if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
@@ -124,9 +126,10 @@ def sweep(
 
     waiting = list(range(len(parts)))
     if target is not None:
-        for number in [n for n in waiting if _file(target, n).exists()]:
-            keep(number, _read(_file(target, number)), False)
-            waiting.remove(number)
+        for number in list(waiting):
+            if (found := _read(_file(target, number))) is not None:
+                keep(number, found, False)
+                waiting.remove(number)
     tasks = {number: [members[i] for i in parts[number]] for number in waiting}
     if executor is None:
         for number, part in tasks.items():
@@ -276,6 +279,10 @@ def _write(target: Path, found: Chunk) -> None:
     write_beside(target, lambda file: np.savez(file, **found._asdict()))
 
 
-def _read(target: Path) -> Chunk:
-    with np.load(target) as stored:
-        return Chunk(**stored)
+def _read(target: Path) -> Chunk | None:
+    """A finished chunk; None where there is none, or a damaged one, which is then run again."""
+    try:
+        with np.load(target) as stored:
+            return Chunk(**stored)
+    except (OSError, ValueError, TypeError, EOFError, BadZipFile):
+        return None

@@ -195,3 +195,16 @@ def test_beside_a_singular_position_the_fallback_gives_all_it_has():
     loose = simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-6)
     assert off < 1e-5
     assert np.abs(loose.axes - exact.axes).max() > max(10 * off, 1e-5)  # twin: the tolerance asked for would not do
+
+
+def test_a_damaged_chunk_is_run_again(tmp_path):
+    scenes = family(4)
+    whole = sweep(scenes, T, chunk=2, folder=tmp_path)
+    (tmp_path / "chunk-000001.npz").write_bytes(b"PK damaged")
+    again = sweep(scenes, T, chunk=2, folder=tmp_path)
+    np.testing.assert_array_equal(again.axes, whole.axes)
+
+
+def test_one_scene_is_no_sequence_of_scenes():
+    with pytest.raises(InputError, match="a sequence of at least one Scene"):
+        sweep(family(1)[0], T)
