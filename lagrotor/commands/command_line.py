@@ -113,7 +113,10 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help="tolerance of the solver (default: 1e-9)")
     added.add_argument(
-        "--out", type=Path, metavar="FILE", help="write the run as .npz or .csv, and show a line, no table"
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif, .mp4); a line, no table",
     )
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 

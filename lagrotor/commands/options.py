@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ..errors import InputError
+from ..numerics.files import FILMS, PICTURES
 from ..rotors.parameters import Link, Rotor, Scene, Shock
 
 
@@ -101,8 +102,9 @@ def shock_of(given: argparse.Namespace) -> Shock | None:
 
 def check_file(path: Path) -> None:
     """Raises InputError unless a run can be written there."""
-    if path.suffix not in (".npz", ".csv"):
-        raise InputError(f"--out {path}: the name must end in .npz or .csv")
+    endings = (".npz", ".csv", *PICTURES, *FILMS)
+    if path.suffix not in endings:
+        raise InputError(f"--out {path}: the name must end in {', '.join(endings)}")
     if path.is_dir():
         raise InputError(f"--out {path} is a folder: give a file")
     check_folder(path.parent)

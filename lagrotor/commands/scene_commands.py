@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..numerics.files import FILMS
 from .options import check_file, check_folder, scene_of, shock_of
 
 _MOST_SAMPLES = 10_000_000
@@ -41,6 +42,10 @@ def simulate_command(given: argparse.Namespace) -> int:
         raise InputError(f"--samples {given.samples} must lie between 2 and {_MOST_SAMPLES}")
     if given.out:
         check_file(given.out)
+    if given.out and given.out.suffix in FILMS:
+        from ..pictures.animate import check_film
+
+        check_film(given.out, given.t_end, 25.0)
     scene = scene_of(given, shock_of(given))
 
     import numpy as np

@@ -8,6 +8,8 @@ from typing import IO, Any
 
 from ..errors import InputError
 
+PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4")
+
 
 def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
     """Let `write` fill a file beside `target`, then rename it: readers see the old file or the new, never half of one.

@@ -1,17 +1,20 @@
 """What a run leaves: the axes over time and everything read off them, the same for every model."""
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import __version__
 from ..errors import InputError
-from ..rotors.parameters import Scene
-from .files import write_beside
+from ..rotors.parameters import Link, Rotor, Scene, Shock
+from .files import FILMS, PICTURES, write_beside, write_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -116,25 +119,48 @@ class Trajectory:
         return f"<table><caption>Trajectory</caption>{rows}</table>"
 
     def save(self, path: str | Path) -> Path:
-        """Write `.npz` (t, axes, rates, tips, energy, link_length, momenta, P) or `.csv` (a column a component)."""
+        """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
+
+        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model and version. .csv: a
+        column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError for another ending.
+        """
         target = Path(path)
-        arrays = {
-            name: getattr(self, name) for name in ("t", "axes", "rates", "tips", "energy", "link_length", "momenta")
-        }
-        arrays["P"] = self.joint_line_momentum
         if target.suffix == ".npz":
-            return write_beside(target, lambda file: np.savez_compressed(file, **arrays))
+            arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
+            about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
+            about["lagrotor"] = __version__
+            return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(about), **arrays))
         if target.suffix == ".csv":
-            names, columns = ["t [s]"], [self.t]
-            for i in (0, 1):
-                for j, letter in enumerate("xyz"):
-                    names.append(f"tip_{i + 1}_{letter} [m]")
-                    columns.append(self.tips[i, :, j])
-            names += ["energy [J]", "link_length [m]", "P [kg m2/s]"]
-            columns += [self.energy, self.link_length, self.joint_line_momentum]
-            table = np.column_stack(columns)
-            return write_beside(
-                target,
-                lambda file: np.savetxt(file, table, delimiter=",", header=",".join(names), comments="", fmt="%.17g"),
+            return write_text(target, self._columns())
+        if target.suffix in PICTURES:
+            return write_beside(target, lambda file: self.plot().savefig(file, format=target.suffix[1:]))
+        if target.suffix in FILMS:
+            return self.animate(target)
+        raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
+
+    def _columns(self) -> str:
+        names, columns = ["t [s]"], [self.t]
+        for i in (0, 1):
+            for j, letter in enumerate("xyz"):
+                names.append(f"tip_{i + 1}_{letter} [m]")
+                columns.append(self.tips[i, :, j])
+        names += ["energy [J]", "link_length [m]", "P [kg m2/s]"]
+        columns += [self.energy, self.link_length, self.joint_line_momentum]
+        rows = (",".join(map(repr, row)) for row in np.column_stack(columns).tolist())
+        return "\n".join([",".join(names), *rows, ""])
+
+    @staticmethod
+    def load(path: str | Path) -> "Trajectory":
+        """The run that `save` wrote as `.npz`. Raises InputError where that is not what the file is."""
+        try:
+            with np.load(Path(path)) as held:
+                about = json.loads(str(held["about"]))
+                t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
+            given = about["scene"]
+            parts = {"rotor": Rotor, "link": Link, "shock": Shock}
+            given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
+            return Trajectory(
+                Scene(**given), about["model"], about["why"], t, axes, rates, momenta, about["evaluations"]
             )
-        raise InputError(f"save: {target.name} must end in .npz or .csv")
+        except (OSError, ValueError, KeyError, TypeError, BadZipFile) as error:
+            raise InputError(f"load: {path} is no run saved as .npz ({error})") from None

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, simulate
+from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import InputError
 from lagrotor.numerics.files import write_beside, write_text
 from lagrotor.numerics.trajectory import UNITS, Trajectory
@@ -99,7 +99,7 @@ def test_angles_describe_the_axes(run: Trajectory) -> None:
 def test_npz_holds_what_the_run_holds(run: Trajectory, tmp_path: Path) -> None:
     target = run.save(tmp_path / "run.npz")
     with np.load(target) as kept:
-        assert set(kept) == {*UNITS, "P"}
+        assert set(kept) == {*UNITS, "P", "about"}
         for name in UNITS:
             assert kept[name].tolist() == getattr(run, name).tolist()
         assert kept["P"].tolist() == run.joint_line_momentum.tolist()
@@ -121,7 +121,7 @@ def test_csv_holds_every_digit_under_named_columns(run: Trajectory, tmp_path: Pa
 
 @pytest.mark.parametrize("name", ["run.txt", "run", "run.npz.gz", "run.CSV2"])
 def test_other_endings_are_refused_and_leave_nothing(run: Trajectory, tmp_path: Path, name: str) -> None:
-    with pytest.raises(InputError, match=rf"{name} must end in \.npz or \.csv"):
+    with pytest.raises(InputError, match=rf"{name} must end in \.npz, \.csv, \.png"):
         run.save(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
@@ -160,3 +160,26 @@ def test_a_file_is_as_readable_as_any_other(tmp_path: Path) -> None:
     plain = tmp_path / "plain"
     plain.touch()
     assert write_text(tmp_path / "note", "x").stat().st_mode == plain.stat().st_mode
+
+
+def test_a_saved_run_is_read_back_with_its_scene(run: Trajectory, tmp_path: Path) -> None:
+    again = Trajectory.load(run.save(tmp_path / "run.npz"))
+    assert (again.scene, again.model, again.why, again.evaluations) == (run.scene, run.model, run.why, run.evaluations)
+    assert (again.axes == run.axes).all() and (again.energy == run.energy).all()
+    shocked = Scene((3, 1), link=None, shock=Shock((1, 0, 0), 0.1, 0.05))
+    assert Trajectory.load(simulate(shocked, [0.0, 1.0]).save(tmp_path / "two.npz")).scene == shocked
+
+
+def test_what_is_no_saved_run_is_refused(run: Trajectory, tmp_path: Path) -> None:
+    np.savez(tmp_path / "other.npz", t=run.t)
+    for path in (run.save(tmp_path / "run.csv"), tmp_path / "other.npz", tmp_path / "none.npz"):
+        with pytest.raises(InputError, match=r"is no run saved as \.npz"):
+            Trajectory.load(path)
+
+
+@pytest.mark.parametrize(
+    ("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF"), ("gif", b"GIF8")]
+)
+def test_a_run_is_saved_as_a_picture_or_a_film(run: Trajectory, tmp_path: Path, ending: str, begins: bytes) -> None:
+    short = simulate(run.scene, np.linspace(0, 0.2, 6), tol=1e-6)
+    assert short.save(tmp_path / f"run.{ending}").read_bytes().startswith(begins)
