@@ -131,7 +131,7 @@ def test_rates_and_axes_are_those_of_the_minimal_model() -> None:
 @node
 @pytest.mark.parametrize("order", [1, 3, 5, 7, 9])
 def test_the_series_is_that_of_the_precession_orbit(order: int) -> None:
-    sizes, times = RANDOM.uniform(0.01, 0.45, len(OPPOSITE)), RANDOM.uniform(-3, 3, len(OPPOSITE))
+    sizes, times = RANDOM.uniform(0.01, 0.25, len(OPPOSITE)), RANDOM.uniform(-3, 3, len(OPPOSITE))
     made = [
         f"(m => [m.seriesRate, m.series({t})])(motion({choice(size, *scene, order)}))"
         for size, t, scene in zip(sizes, times, OPPOSITE, strict=True)
