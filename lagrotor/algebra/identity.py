@@ -30,6 +30,9 @@ from lagrotor.algebra.evidence import largest_value
 from lagrotor.algebra.generators import CIRCULAR, FAMILY, HYPERBOLIC, Chart, Pair, Quotient, angle_of, chart_of, is_root
 from lagrotor.errors import NotExactError
 
+# A divisor larger than this stands in the domain as it is: its factors may take hours to find.
+_MOST_TERMS, _MOST_DEGREE = 40, 12
+
 
 @dataclass(frozen=True)
 class Decision:
@@ -254,4 +257,8 @@ def _irreducible(chart: Chart, polynomial: PolyElement) -> list[sp.Expr]:
             found.append(chart.ring.symbols[index])
             polynomial = quotient
     named = chart.divisors.get(polynomial.monic())
-    return found + ([named] if named is not None else [factor.as_expr() for factor, _ in polynomial.factor_list()[1]])
+    if named is not None:
+        return [*found, named]
+    if len(polynomial) > _MOST_TERMS or max(map(sum, polynomial.monoms())) > _MOST_DEGREE:
+        return [*found, polynomial.as_expr()]
+    return found + [factor.as_expr() for factor, _ in polynomial.factor_list()[1]]

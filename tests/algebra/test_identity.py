@@ -207,3 +207,13 @@ def test_normal_form_is_unique_and_idempotent(expression: sp.Expr) -> None:
     assert normal_form(form) == form
     assert normal_form(rewritten(expression)) == form
     assert decide_equal(form, expression).answer == "zero"
+
+
+def test_a_large_divisor_stands_in_the_domain_unfactored() -> None:
+    """Factors of a small one are told apart; those of a large one might take hours, and the decision does not need them."""
+    small, large = (x + y) * (x - y + 1), (x + y + m + 1) ** 3 * (x * y - m + 2) ** 3
+    assert len(decide_equal(1 / sp.expand(small), 1 / small).domain) == 2
+    found = decide_equal(1 / sp.expand(large), 1 / sp.expand(large) + x - x)
+    assert decide_zero(1 / sp.expand(large) - 1 / large).answer == "zero"
+    assert [sp.Poly(factor).total_degree() for factor in decide_zero(1 / sp.expand(large + 1)).domain] == [9]
+    assert found.answer == "zero"
