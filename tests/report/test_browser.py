@@ -66,7 +66,9 @@ def looked_at(html: str, folder: Path) -> list[dict[str, Any]]:
     """What the browser finds of a page at each of `WIDTHS`: a frame of that width, measured after it is drawn."""
     source = escape(html.replace("<head>", "<head>" + LISTENER, 1), quote=True)
     frames = "".join(f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in WIDTHS)
-    (folder / "frames.html").write_text(f"<!DOCTYPE html>{frames}<script>{MEASURE}</script>", encoding="utf-8")
+    # Without its encoding the browser guesses, sometimes wrong, and then measures other letters.
+    sheet = f'<!DOCTYPE html><meta charset="utf-8">{frames}<script>{MEASURE}</script>'
+    (folder / "frames.html").write_text(sheet, encoding="utf-8")
     options = [
         "--headless=new",
         "--no-sandbox",
@@ -81,7 +83,7 @@ def looked_at(html: str, folder: Path) -> list[dict[str, Any]]:
         "--dump-dom",
         str(folder / "frames.html"),
     ]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=False)
     match = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
     assert match, done.stderr[-2000:]
     return list(json.loads(unescape(match[1])))
