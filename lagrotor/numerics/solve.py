@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, IntegrationError
+from .adams import adams
 from .engines import Projection as Projection
 from .engines import Rate as Rate
-from .engines import Run, StopError, Stretch, adams, dop853, lsoda
+from .engines import Run, StopError, Stretch, dop853, lsoda
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from ..errors import IntegrationError
 from ..models import minimal
 from ..models.simulate import problem_of
-from ..numerics.engines import Engine, StopError, Stretch, adams, dop853
+from ..numerics.adams import adams
+from ..numerics.engines import Engine, StopError, Stretch, dop853
 from ..numerics.engines import Run as States
 from ..numerics.solve import Rate
 from ..rotors.parameters import Scene

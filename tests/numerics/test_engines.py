@@ -10,9 +10,10 @@ from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics import engines
+from lagrotor.numerics.adams import _piece as piece
+from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.codegen import compile_program
-from lagrotor.numerics.engines import Array, StopError, Stretch, adams, adams_order, adams_weights, dop853, lsoda
-from lagrotor.numerics.engines import _piece as piece
+from lagrotor.numerics.engines import Array, StopError, Stretch, dop853, lsoda
 from lagrotor.numerics.rates import rate_factory
 from lagrotor.rotors.scenes import HEAVY, SHOCK_PAIRED
 

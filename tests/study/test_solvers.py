@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import Scene, Shock, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics.engines import StopError, Stretch, adams, dop853, lsoda
+from lagrotor.numerics.adams import adams
+from lagrotor.numerics.engines import StopError, Stretch, dop853, lsoda
 from lagrotor.study.chart import courses
 from lagrotor.study.solvers import ENGINES, IVP, TRAPS, ivp_engine
 

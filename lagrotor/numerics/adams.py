@@ -1,0 +1,143 @@
+"""Adams predictor and corrector in equal steps: the engine for tight tolerances, its order exact before rounding."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from .engines import Array, Run, StopError, Stretch
+
+_BLOCK = 100
+_SWEEPS = 25
+
+
+def adams_order(error: float) -> int:
+    """Of the pair, for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
+    return 10 if error >= 1e-10 else 12
+
+
+@lru_cache(maxsize=8)
+def adams_weights(q: int) -> tuple[Array, Array, Array]:
+    """What an Adams pair of q rates needs, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
+
+    A (q,): integrals from the last node to the one after it (Adams–Bashforth); B (q,): from the last but one to the last
+    (Adams–Moulton); P (q, q + 1): the integral of l_j from the middle node q // 2 as a polynomial in steps from there.
+    """
+    from sympy import QQ, Poly, Rational, Symbol
+
+    x, middle, last = Symbol("x"), q // 2, q - 1 - q // 2
+    nodes = [i - middle for i in range(q)]
+    rows = []
+    for j in nodes:
+        lagrange = Poly(1, x, domain=QQ)
+        for i in nodes:
+            if i != j:
+                lagrange *= Poly(Rational(1, j - i) * (x - i), x, domain=QQ)
+        rows.append(lagrange.integrate(x))
+    A = [float(row.eval(last + 1) - row.eval(last)) for row in rows]
+    B = [float(row.eval(last) - row.eval(last - 1)) for row in rows]
+    P = [[float(row.nth(power)) for power in range(q + 1)] for row in rows]
+    return np.array(A), np.array(B), np.array(P)
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Equal steps h from t by the pair of order q: states and rates (n + 1, d) at the nodes, what was spent, and by how
+    much h is to change."""
+
+    q: int
+    t: float
+    h: float
+    states: Array
+    rates: Array
+    spent: int
+    change: float
+
+    def read(self, times: Array) -> Array:
+        """States (m, d) at times within the piece, by the polynomial of the pair itself."""
+        q = self.q
+        _, _, P = adams_weights(q)
+        steps = (times - self.t) / self.h
+        middle = np.clip(np.floor(steps).astype(int), q // 2, len(self.states) - q + q // 2)
+        weights = np.vander(steps - middle, q + 1, increasing=True) @ P.T
+        window = self.rates[middle[:, None] + np.arange(q) - q // 2]
+        return self.states[middle] + self.h * np.einsum("mj,mjd->md", weights, window)
+
+
+def _piece(stretch: Stretch, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
+    """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
+
+    Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
+    Wanner, III.1). The first q nodes come together: their integral equation is swept until nothing moves.
+    """
+    rate = stretch.rate
+    A, B, P = adams_weights(q)
+    from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
+    S = h * (from_middle - from_middle[0])
+    states, rates, off = np.empty((steps + 1, len(y))), np.empty((steps + 1, len(y))), np.zeros((steps + 1, len(y)))
+    states[:q], rates[:q] = y, rate(t, y)
+    spent = 1
+    for sweep in range(_SWEEPS):
+        before = states[:q].copy()
+        states[:q] = y + S @ rates[:q]
+        for i in range(1, q):
+            rates[i] = rate(t + i * h, states[i])
+        spent += q - 1
+        moved = np.abs(states[:q] - before).max()
+        if sweep and not moved > 2e-15 * (1 + np.abs(y).max()):
+            break
+    if not moved < 1e-13 * (1 + np.abs(y).max()):
+        return _Piece(q, t, h, states[:1], rates[:1], spent, 0.5)
+
+    hA, hB, last, n = h * A, h * B, states[q - 1], q
+    while n <= steps:
+        block = range(n, min(n + (_BLOCK if n > q else 2 * q), steps + 1))
+        for n in block:
+            predicted = last + hA.dot(rates[n - q : n])
+            rates[n] = rate(t + n * h, predicted)
+            states[n] = last = last + hB.dot(rates[n - q + 1 : n + 1])
+            off[n] = last - predicted
+            rates[n] = rate(t + n * h, last)
+        spent += 2 * len(block)
+        worst = np.abs(off[block.start : n + 1]).max() / (h * (1 + np.abs(last).max())) + 1e-300
+        change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
+        if not worst <= limit:
+            kept = block.start if block.start > q else 1
+            return _Piece(q, t, h, states[:kept], rates[:kept], spent, change)
+        if stretch.project is not None:
+            states[n] = last = stretch.project(last)
+        n += 1
+        if worst < limit / 300 and n <= steps and 1.3 * h < stretch.longest:
+            return _Piece(q, t, h, states[:n], rates[:n], spent, change)
+    return _Piece(q, t, h, states, rates, spent, 1.0)
+
+
+def adams(stretch: Stretch, error: float) -> Run:
+    """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it."""
+    asked, right, y, t = stretch.asked, stretch.right, stretch.start, stretch.left
+    q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
+    h = min((right - t) / q, stretch.longest, min(limit ** (1 / q) / 5, 0.05) / (stretch.pace + 1e-300))
+    found, done, spent, end = np.empty((len(asked), len(y))), 0, 1, y
+    while t < right:
+        steps = min(max(int(np.ceil((right - t) / h)), q), 10_000)
+        with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
+            piece = _piece(stretch, q, y, t, h, steps, limit)
+        spent += piece.spent
+        if piece.change < 1:  # too long once, for its error or because it is not stable: not tried again
+            stretch = replace(stretch, longest=1.2 * piece.change * h)
+        if spent > stretch.allowance:
+            raise StopError(t, f"{spent} evaluations spent")
+        if len(piece.states) > 1:
+            reached = t + (len(piece.states) - 1) * h
+            until = int(np.searchsorted(asked, reached, side="right")) if reached < right else len(asked)
+            found[done:until] = piece.read(asked[done:until])
+            end = piece.read(np.array([right]))[0] if reached >= right else end
+            done, t, y = until, reached, piece.states[-1]
+        h = min(h * min(piece.change, 2.0), stretch.longest)
+        if t + h == t:
+            raise StopError(t, "the step vanishes")
+    if not (np.isfinite(end).all() and np.isfinite(found).all()):
+        raise StopError(t, "a value is not finite")
+    if stretch.project is not None:
+        return Run(stretch.project(found.T).T, stretch.project(end), spent)
+    return Run(found, end, spent)
