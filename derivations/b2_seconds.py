@@ -5,13 +5,13 @@
 # the same pair; how many trajectories and closed-form points a second gives.
 #
 # **Assumptions.** Seconds differ from machine to machine and from run to run, so they are read off a record, made in one
-# run by `python -m lagrotor.report.record speed`: medians of processor time, methods in turn. What every reader gets
-# alike, errors and evaluations, is in b1_chart.
+# run by `python -m lagrotor.report.record speed`: medians of processor time over samples of at least 10 ms, methods in
+# turn. What every reader gets alike, errors and evaluations, is in b1_chart.
 
 # %%
 from lagrotor.models.choose import choose
 from lagrotor.paper.tables import Table
-from lagrotor.study.chart import courses
+from lagrotor.study.chart import LADDERS, courses
 from lagrotor.study.recorded import recorded_speed
 
 found = recorded_speed()
@@ -24,7 +24,7 @@ def milliseconds(value):
     return "—" if value is None else f"{1e3 * value:.3g}"
 
 
-def multiple(name, error, of="best of core"):
+def multiple(name, error, of):
     """Seconds of a method over those of another at the same error, or a dash."""
     ours, theirs = at_error[error][of], at_error[error][name]
     return "—" if None in (ours, theirs) else f"{theirs / ours:.3g}"
@@ -70,17 +70,14 @@ tables = [
     ),
     Table(
         "Speed against accuracy: other tools as multiples",
-        ("method", *(f"over core, {error}" for error in ERRORS[:2]), *(f"over fast, {error}" for error in ERRORS[:2])),
+        ("method", *(f"over {ladder}, {error}" for ladder in LADDERS for error in ERRORS[:2])),
         tuple(
-            (
-                name,
-                *(multiple(name, error) for error in ERRORS[:2]),
-                *(multiple(name, error, "best of fast") for error in ERRORS[:2]),
-            )
+            (name, *(multiple(name, error, f"best of {ladder}") for ladder in LADDERS for error in ERRORS[:2]))
             for name in names
             if at_error[ERRORS[0]][name]
         ),
-        "Core and fast: the best of their integrated models. From the same run.",
+        "Any rung: the best of the core packages, here the closed form, its fit to the start included. Core and fast: the best "
+        "of their integrations, with the core packages and with the fast extra. From the same run.",
     ),
     Table(
         "Throughput",

@@ -72,7 +72,7 @@ def as_data(found: "list[Chart]") -> dict[str, Any]:
 
 def in_words(found: "list[Chart]") -> str:
     """The front of each scene, set-up, what failed, and the ratios, as tables."""
-    from ..study.chart import ratios
+    from ..study.chart import LADDERS, ratios
     from ..study.measure import front, listed
 
     parts = []
@@ -88,7 +88,7 @@ def in_words(found: "list[Chart]") -> str:
         parts += [f"  not there: {failure}" for failure in listed(one.failures)]
         parts += [""]
     compared = [
-        (error, name, f"{1e3 * value:.3g} ms" if name in ("core", "fast") else f"{value:.3g}")
+        (error, name, f"{1e3 * value:.3g} ms" if name in LADDERS else f"{value:.3g}")
         for error, row in ratios(found[0]).items()
         for name, value in row.items()
         if value is not None

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import inf, pi, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import sympy as sp
@@ -34,7 +34,7 @@ LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 _ROUND = 4e-16  # relative, of an angle
 # What exchanging the rotors, half a period later, does to an axis.
-_MIRRORS = np.array([[[1.0, 1.0, 1.0]], [[-1.0, 1.0, 1.0]]])
+_MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +50,11 @@ class Answer:
 
 
 def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
-    """Axes and rates at times t (n,). Raises DomainError where no closed form holds the scene."""
-    axes, rates = nearest(scene, float(t[-1]), tol).motion(t)
+    """Axes and rates at times t (n,), within `tol` if any order is, else the best there is.
+
+    Raises DomainError where no closed form holds the scene.
+    """
+    axes, rates = closed_form(scene, float(t[-1]), tol, best=True).motion(t)
     return Observed(axes, rates, constant_momenta(scene, len(t)))
 
 
@@ -78,12 +81,6 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> A
         f"closed_form: none is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
         "or opposite; use model='linear' or 'minimal'"
     )
-
-
-def nearest(scene: Scene, t_end: float, tol: float) -> Answer:
-    """What is answered where this rung is asked for by name: within `tol` if any order is, else the best there is."""
-    answer = closed_form(scene, t_end, tol)
-    return answer if answer.error <= tol else closed_form(scene, t_end, tol, best=True)
 
 
 def _still(value: Array, t: Array) -> Array:
@@ -146,9 +143,19 @@ def _twice(vector: Array) -> Array:
     return np.stack([vector, vector])
 
 
+class _Series(NamedTuple):
+    """The orbit's series to one order: of r_1, waves[n, h, i] of r0**n exp(i h Phi) (real part meant), of Omega/Omega_0,
+    frequency[n], and how large the terms of each power of r0 are."""
+
+    waves: Waves
+    frequency: Array
+    wave_sizes: list[float]
+    frequency_sizes: list[float]
+
+
 @lru_cache(maxsize=64)
-def _coefficients(order: int, shape: sp.Rational, ratio: sp.Rational) -> tuple[Waves, Array]:
-    """The series of r_1, c[n, h, i] of r0**n exp(i h Phi) (real part meant), and of Omega/Omega_0, f[n]; n to `order`."""
+def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
+    """The series through r0**order."""
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
     waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
     for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
@@ -156,7 +163,7 @@ def _coefficients(order: int, shape: sp.Rational, ratio: sp.Rational) -> tuple[W
             waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
     for (n, _), value in _through(series.frequency, order):
         frequency[n] = float(value)
-    return waves, frequency
+    return _Series(waves, frequency, np.abs(waves).sum(axis=(1, 2)).tolist(), np.abs(frequency).tolist())
 
 
 def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int], Any]]:
@@ -164,19 +171,20 @@ def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int
 
 
 def _summed(powers: Array, waves: Waves) -> Waves:
-    """sum_n powers_n waves_n: the waves (order + 1, 3) at one amplitude."""
-    return np.asarray(np.tensordot(powers, waves, 1), dtype=np.complex128)
+    """sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
+    summed: Waves = powers @ waves.reshape(len(waves), -1)
+    return summed.reshape(*powers.shape, 3)
 
 
-def _axes_at(waves: Waves, phase: Array) -> Array:
-    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, n, 3).
+def _axes_at(waves: Waves, phase: float) -> Array:
+    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, 3).
 
-    waves (…, order + 1, 3); phase (n,).
+    waves (…, order + 1, 3).
     """
-    h = np.arange(waves.shape[-2])
-    turn = np.exp(1j * np.outer(phase, h))
-    both = np.stack([turn, np.where(h % 2, -turn, turn)])
-    return np.real(both @ waves[..., None, :, :]) * _MIRRORS
+    turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
+    both = np.stack([turn, turn])
+    both[1, 1::2] *= -1
+    return np.real(both @ waves) * _MIRRORS
 
 
 def _turned(vectors: Array, angle: float) -> Array:
@@ -185,28 +193,29 @@ def _turned(vectors: Array, angle: float) -> Array:
     return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
 
 
-def _fit(axes: Array, velocity: Array, unknowns: Array, waves: Waves, frequency: Array) -> tuple[Array, float]:
+def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
     """(r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
 
     axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
     """
-    n = np.arange(len(frequency))
-    h = 1j * n[:, None]
+    n = np.arange(len(series.frequency))
+    along = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
     wanted = np.stack([axes, velocity])
+    reached, by = np.empty((2, 2, 3)), np.empty((2, 2, 3, 3))
     for last in (False, False, True):
         r0, phase, azimuth = unknowns
-        powers, slopes = r0**n, n * r0 ** np.maximum(n - 1, 0)
-        at, by_r0 = _summed(powers, waves), _summed(slopes, waves)
-        rate, rate_by_r0 = powers @ frequency, slopes @ frequency
-        parts = _axes_at(np.stack([at, h * at, h * h * at, by_r0, h * by_r0]), np.array([phase]))[:, :, 0]
-        place, slope, bend, grown, sloped = _turned(parts, azimuth)
-        reached = np.stack([place, rate * slope])
+        powers = np.stack([r0**n, n * r0 ** np.maximum(n - 1, 0)])
+        rate, rate_by_r0 = powers @ series.frequency
+        parts = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * along, phase)
+        reached[0], slope, bend, grown, sloped = _turned(parts, azimuth)
+        reached[1] = rate * slope
         left = (wanted - reached).ravel()
         if last:
             break
-        by_azimuth = np.stack([0 * reached[..., 0], -reached[..., 2], reached[..., 1]], axis=-1)
-        columns = (np.stack([grown, rate * sloped + rate_by_r0 * slope]), np.stack([slope, rate * bend]), by_azimuth)
-        unknowns = unknowns + np.linalg.lstsq(np.stack([c.ravel() for c in columns], 1), left, rcond=None)[0]
+        by[0, ..., 0], by[1, ..., 0] = grown, rate * sloped + rate_by_r0 * slope
+        by[0, ..., 1], by[1, ..., 1] = slope, rate * bend
+        by[..., 0, 2], by[..., 1, 2], by[..., 2, 2] = 0.0, -reached[..., 2], reached[..., 1]
+        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), left, rcond=None)[0]
     return unknowns, float(np.linalg.norm(left))
 
 
@@ -225,19 +234,21 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     shape, ratio = _shape(scene.rotor, scene.link)
     error, before = inf, inf
     orders = (*ORDERS, *FURTHER) if best else ORDERS
+    r0 = float(guess[0])
     for order in orders:
-        waves, frequency = _coefficients(order, shape, ratio)
-        last = np.abs(guess[0] ** np.arange(order - 1, order + 1))
-        tail = float((last[:, None, None] * np.abs(waves[order - 1 :])).sum())
-        slip = float((last * np.abs(frequency[order - 1 :])).sum()) * guess[0] * max(1.0, width)
+        series = _series(order, shape, ratio)
+        last = range(order - 1, order + 1)
+        tail = sum(r0**n * series.wave_sizes[n] for n in last)
+        slip = sum(r0**n * series.frequency_sizes[n] for n in last) * r0 * max(1.0, width)
         before, error = error, tail + slip * turned
         fall = (error / before) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
         if error <= tol / 4 or (error * fall > tol and not best):
             break
-    unknowns, mismatch = _fit(axes, velocity, guess, waves, frequency)
+    unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
     error += (mismatch + _ROUND) * (1 + turned)
-    return _orbit_answer(_summed(powers, waves), signed * float(powers @ frequency), unknowns, order, error)
+    frequency = signed * float(powers @ series.frequency)
+    return _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
 
 
 @lru_cache(maxsize=64)
@@ -265,7 +276,7 @@ def _orbit_answer(waves: Waves, frequency: float, unknowns: Array, order: int, e
     h = np.arange(order + 1)[:, None]
     # Both axes and both rates as one real matrix over cos(h Phi) and sin(h Phi); half a period later odd waves change sign.
     both = np.stack([waves, frequency * 1j * h * waves])
-    rotors = _turned(np.stack([both, np.where(h % 2, -both, both)], axis=1) * _MIRRORS, azimuth)
+    rotors = _turned(np.stack([both, np.where(h % 2, -both, both)], axis=1) * _MIRRORS[:, None], azimuth)
     table = rotors.transpose(2, 0, 1, 3).reshape(order + 1, 12)
     table = np.concatenate([table.real, -table.imag])
 

@@ -20,9 +20,9 @@ Stage = tuple[sp.Symbol, sp.Expr]
 _BLOCK = 8192  # values at once: what a processor keeps close
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Program:
-    """arguments → stages → outputs; a stage may use the arguments and the stages before it."""
+    """arguments → stages → outputs; a stage may use the arguments and the stages before it. Equal only to itself."""
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]

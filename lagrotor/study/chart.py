@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.closed_form import closed_form
 from ..models.simulate import simulate
 from ..models.spring_run import paper_system, run_steps
 from ..rotors.closed_forms import natural_rate
@@ -16,7 +17,7 @@ from ..rotors.parameters import Link, Scene
 from ..rotors.scenes import DAMPING, HEAVY, SCENES, STIFFNESS
 from .candidates import CANDIDATES
 from .measure import PATIENCE, TOLERANCES, Chart, Course, Failure, chart, seconds_at
-from .method import Method, Prepare, Run
+from .method import Family, Method, Prepare, Run
 from .peers import PEERS
 from .solvers import ENGINES, TRAPS
 
@@ -43,6 +44,7 @@ def courses(quick: bool = False) -> dict[str, Course]:
 def _rung(model: str, engine: str = "core") -> Prepare:
     def prepare(scene: Scene, times: Array) -> Run:
         def run(tol: float) -> tuple[Array, int]:
+            closed_form.cache_clear()  # no run knows of the one before: each meets its scene for the first time
             found = simulate(scene, times, model, tol, engine)
             return found.tips, found.evaluations
 
@@ -125,18 +127,27 @@ def charts(quick: bool = False, step: Callable[[str], None] = lambda name: None)
     return found
 
 
+# What others are held to: the best rung of the core packages, the closed form included, and the best integrations.
+LADDERS: dict[str, tuple[Family, ...]] = {"any rung": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
+
+
 def ratios(found: Chart, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of the core's and the fast extra's best integration, and the best of others as multiples of them."""
-    core, fast = ([p for p in found.points if p.family == family] for family in ("core", "fast"))
-    others = ["closed form", *CANDIDATES, *PEERS]
-    table: dict[str, dict[str, Any]] = {}
+    """Error → seconds of each of LADDERS, and the best of others as multiples of them; None where one does not get there.
+
+    "any rung" and "core" take the four core packages alone, "core" and "fast" integrate.
+    """
+    by = {name: [p for p in found.points if p.family in families] for name, families in LADDERS.items()}
+    others = {name: [p for p in found.points if p.method == name] for name in (*CANDIDATES, *PEERS)}
+    table = {}
     for error in errors:
-        ours, extra = seconds_at(core, error), seconds_at(fast, error)
-        row: dict[str, Any] = {"core": ours, "fast": extra}
-        for name in others:
-            theirs = seconds_at([p for p in found.points if p.method == name], error)
-            row[f"{name} / core"] = theirs / ours if theirs and ours else None
-            row[f"{name} / fast"] = theirs / extra if theirs and extra else None
-        row["core / fast"] = ours / extra if ours and extra else None
+        ours = {name: seconds_at(points, error) for name, points in by.items()}
+        row: dict[str, Any] = ours | {"core / fast": _over(ours["core"], ours["fast"])}
+        for name, points in others.items():
+            theirs = seconds_at(points, error)
+            row |= {f"{name} / {ladder}": _over(theirs, spent) for ladder, spent in ours.items()}
         table[f"{error:g}"] = row
     return table
+
+
+def _over(theirs: float | None, ours: float | None) -> float | None:
+    return theirs / ours if theirs and ours else None

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 TOLERANCES = tuple(10.0**-n for n in range(3, 14))
 # A method is not asked for more once a run took as long (s); one that takes a tenth of it is timed once.
 PATIENCE = 2.0
+# A run is repeated, one after another, until that long (s): a millisecond by itself is a measure of what ran before it.
+SAMPLE = 0.01
 # Processor time, which other work on the machine does not lengthen, where it ticks finely enough.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 _COMPILING = "closed", "fast"  # a first run may derive or compile
@@ -29,7 +31,8 @@ _REFUSALS = LagrotorError, RuntimeError, ValueError
 @dataclass(frozen=True)
 class Point:
     """One method at one knob, a tolerance or a step in s: largest error of a tip (m; the reference's floor where it is
-    below), evaluations, median seconds of processor time a run, and those of the first, which may compile."""
+    below), evaluations, median over samples of the seconds of processor time a run, and those of the first, which may
+    compile."""
 
     method: str
     family: Family
@@ -67,7 +70,7 @@ class Chart:
 
 @dataclass(frozen=True)
 class Course:
-    """A scene to run, its times (s), how often each run is repeated, and a sentence."""
+    """A scene to run, its times (s), how many samples are taken of each run after the first, and a sentence."""
 
     scene: Scene
     times: Array
@@ -95,7 +98,7 @@ def chart(
     tolerances: Iterable[float] = TOLERANCES,
     patience: float = PATIENCE,
 ) -> Chart:
-    """Run every method at every knob, all of them once before any of them again; medians of the seconds."""
+    """Run every method at every knob, all of them once before any of them again; medians of the samples' seconds."""
     truth = reference(course.scene, course.times)
     failed: _Failed = []
     ready = _get_ready(course, methods, tuple(tolerances), failed)
@@ -127,7 +130,7 @@ def chart(
         if methods[method].family in _COMPILING or seconds[method, knob][0] < patience / 10
     ]
     for method, knob in again * course.repeats:
-        seconds[method, knob].append(_timed(ready[method].run, knob)[2])
+        seconds[method, knob].append(_sample(ready[method].run, knob))
 
     points = []
     for (method, knob), (error, evaluations) in found.items():
@@ -164,6 +167,15 @@ def _timed(run: Run, knob: float) -> tuple[Array, int, float]:
     began = _CLOCK()
     tips, evaluations = run(knob)
     return tips, evaluations, _CLOCK() - began
+
+
+def _sample(run: Run, knob: float) -> float:
+    """Seconds a run, of as many as SAMPLE holds, and at least one."""
+    began, runs, spent = _CLOCK(), 0, 0.0
+    while spent < SAMPLE:
+        run(knob)
+        runs, spent = runs + 1, _CLOCK() - began
+    return spent / runs
 
 
 def _grouped(failed: _Failed, ready: dict[str, _Ready]) -> tuple[Failure, ...]:

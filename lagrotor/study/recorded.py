@@ -5,7 +5,7 @@ still be the same bytes everywhere. Renewed by `python -m lagrotor.report.record
 import json
 import os
 import platform
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -29,6 +29,7 @@ _PACKAGES = (
     "CyRK",
     "numba",
 )
+_SAMPLES = 7
 _ERRORS = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
 
 
@@ -45,13 +46,13 @@ def renew_speed() -> None:
     from concurrent.futures import ProcessPoolExecutor
 
     from .candidates import CANDIDATES
-    from .chart import METHODS, courses
+    from .chart import LADDERS, METHODS, courses
     from .measure import chart, seconds_at
     from .peers import PEERS
     from .throughput import throughput
 
-    found = chart("displaced", courses()["displaced"], METHODS | CANDIDATES | PEERS)
-    best = {f"best of {name}": [p for p in found.points if p.family == name] for name in ("core", "fast")}
+    found = chart("displaced", replace(courses()["displaced"], repeats=_SAMPLES), METHODS | CANDIDATES | PEERS)
+    best = {f"best of {name}": [p for p in found.points if p.family in of] for name, of in LADDERS.items()}
     best |= {name: [p for p in found.points if p.method == name] for name in found.setup}
     with ProcessPoolExecutor() as executor:
         rates = throughput(8192, executor)
