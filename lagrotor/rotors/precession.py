@@ -51,17 +51,17 @@ class PrecessionOrbit:
         return paired_scene(self.scene, self.r0, self.order)
 
     def __call__(self, t: ArrayLike) -> Array:
-        """Axes at times t (…) in s: (2, 3, …), unit vectors to the order of the series. Raises DomainError for NaN."""
+        """Axes at times t (…) in s: (2, …, 3), unit vectors to the order of the series. Raises DomainError for NaN."""
         return self.at_phase(self.frequency * np.asarray(t, dtype=float))
 
     def at_phase(self, phase: ArrayLike) -> Array:
-        """Axes at phases (…) in rad: (2, 3, …). Raises DomainError for a phase that is not finite."""
+        """Axes at phases (…) in rad: (2, …, 3), as of a run. Raises DomainError for a phase that is not finite."""
         phases = np.asarray(phase, dtype=float)
         if not np.isfinite(phases).all():
             raise DomainError("precession_orbit: a time is not finite")
         flat = phases.ravel()
         axes = in_blocks(_at_phases(self.order), [flat, *self._coefficients], 6, flat.size)
-        return axes.reshape(2, 3, *phases.shape)
+        return np.moveaxis(axes.reshape(2, 3, *phases.shape), 1, -1)
 
 
 def precession_orbit(scene: Scene, r0: float, order: int = 15) -> PrecessionOrbit:
