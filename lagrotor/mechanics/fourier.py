@@ -36,11 +36,12 @@ class FourierSeries:
     def __mul__(self, other: "FourierSeries") -> "FourierSeries":
         """Product, with cos p cos q = (cos(p−q) + cos(p+q))/2 and its kin; terms beyond the order are dropped."""
         total: dict[Key, Coefficient] = defaultdict(int)
+        halves = sorted((m, q, v / 2) for (m, q), v in other.terms.items())
         for (n, p), u in self.terms.items():
-            for (m, q), v in other.terms.items():
+            for m, q, v in halves:
                 if n + m > self.order:
-                    continue
-                half = u * v / 2
+                    break
+                half = u * v
                 i, j = abs(p), abs(q)
                 if p >= 0 and q >= 0:
                     total[n + m, abs(i - j)] += half

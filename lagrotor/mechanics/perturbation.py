@@ -95,11 +95,12 @@ def lindstedt_poincare(
         # The highest harmonics first: the mode's own takes what the amplitude's definition leaves.
         at_zero = field.zero
         for h in range(n, -1, -2):
-            columns = operators.setdefault(h, _columns(residual, rest, sines, h, one))
+            if h not in operators:
+                operators[h] = _columns(residual, rest, sines, h, one)
             wanted = {(i, key): -v for i, r in enumerate(now) for key, v in r.harmonics(n).items() if abs(key) == h}
             extra = drift if h == 1 else None
             fixed = (amplitude, -at_zero) if h == 1 else None
-            values, shift = _solve(columns, wanted, extra, fixed, field)
+            values, shift = _solve(operators[h], wanted, extra, fixed, field)
             for j, value in enumerate(values):
                 if value:
                     unknowns[j] += FourierSeries({(n, -h if sines[j] else h): value}, order)

@@ -31,28 +31,30 @@ class Choice:
     solver_tol: float = 0.0
 
 
-def choose(scene: Scene, t_end: float, tol: float) -> Choice:
+def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
     """The cheapest rung whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
 
-    What the closed forms and the linear motion would miss is foreseen from the theory, without integrating. The solver of
-    an integrated model is asked for less than `tol` by what such motions gather, more for a longer run; a motion that parts
+    What the closed forms and the linear motion would miss is foreseen from the theory, without integrating; a short run of
+    a pair on its bar is integrated at once by engine = "fast", which takes less than foreseeing. The solver of an
+    integrated model is asked for less than `tol` by what such motions gather, more for a longer run; a motion that parts
     from its neighbours faster than that may be off by more: see the horizon in `lagrotor stability`.
     """
-    try:
-        answer = closed_form(scene, t_end, tol)
-        if answer.error <= tol:
-            return Choice("closed_form", answer.error, f"{answer.reason}; error {answer.error:.1e}")
-    except LagrotorError:
-        pass
-    error = inf
-    try:
-        error = MARGIN * linear_error(scene, t_end)
-        if error <= tol:
-            return Choice("linear", error, f"small motion: normal modes, whose next term is {error:.1e}")
-        missed = f"normal modes would miss by {error:.1e}"
-    except LagrotorError as refusal:
-        missed = str(refusal).split(";")[0]
     turns = sum(map(abs, scene.momenta)) / (2 * scene.rotor.J) * t_end / (2 * pi)
+    error, missed = inf, "a run too short to foresee what cheaper ones would miss"
+    if engine == "core" or scene.link is None or turns > SHORT:
+        try:
+            answer = closed_form(scene, t_end, tol)
+            if answer.error <= tol:
+                return Choice("closed_form", answer.error, f"{answer.reason}; error {answer.error:.1e}")
+        except LagrotorError:
+            pass
+        try:
+            error = MARGIN * linear_error(scene, t_end)
+            if error <= tol:
+                return Choice("linear", error, f"small motion: normal modes, whose next term is {error:.1e}")
+            missed = f"normal modes would miss by {error:.1e}"
+        except LagrotorError as refusal:
+            missed = str(refusal).split(";")[0]
     solver_tol = max(tol / ((NEAR if error < 0.1 else WIDE) * max(1.0, turns / SHORT)), TIGHTEST)
     try:
         MINIMAL.start(scene)

@@ -113,7 +113,7 @@ def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
     from .choose import choose
 
-    choice = choose(scene, float(times[-1]), tol)
+    choice = choose(scene, float(times[-1]), tol, engine)
     if choice.model in DIRECT:
         return _trajectory(scene, choice.model, choice.reason, times, DIRECT[choice.model](scene, times, tol), 0)
     if choice.model == "spheres" and scene.link:

@@ -88,6 +88,7 @@ _SLOW = {
         "minimal, CyRK": "compiles for six seconds",
         "minimal, numba": "slower than minimal, CyRK",
         "PyDy, lambdify": "slower than PyDy, Cython",
+        "LagrangesMethod": "slower than PyDy, Cython",
         "Drake, SAP": "gives no digit in less than a second",
         "Drake, multipliers": "slower than Pinocchio, which is as exact",
         "euler": "slower than minimal, which goes as far",

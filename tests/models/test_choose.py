@@ -77,12 +77,12 @@ def trials(seed: int, count: int) -> Iterator[Trial]:
             yield Trial(kind, scene, t, tol, exact)
 
 
-def judge(seed: int, count: int) -> tuple[list[str], list[str], Counter[tuple[str, str]]]:
+def judge(seed: int, count: int, engine: str = "core") -> tuple[list[str], list[str], Counter[tuple[str, str]]]:
     """Trials whose chosen rung missed the tolerance, those that a cheaper rung would have met, and what was chosen."""
     missed, dear, chosen = [], [], Counter[tuple[str, str]]()
     for trial in trials(seed, count):
-        choice = choose(trial.scene, trial.t[-1], trial.tol)
-        run = simulate(trial.scene, trial.t, tol=trial.tol)
+        choice = choose(trial.scene, trial.t[-1], trial.tol, engine)
+        run = simulate(trial.scene, trial.t, tol=trial.tol, engine=engine)
         error = float(np.linalg.norm(run.axes - trial.exact, axis=-1).max())
         says = f"{trial} {choice} {run.why} {error:.3e}"
         chosen[trial.kind, run.model] += 1
@@ -109,6 +109,18 @@ def test_the_chosen_rung_meets_the_tolerance_and_hardly_any_cheaper_one_would() 
 @pytest.mark.slow
 def test_the_same_on_500_scenes() -> None:
     check(2, 500)
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(300, marks=pytest.mark.slow)])
+def test_the_fast_extra_misses_none_either_and_foresees_only_long_runs(count: int) -> None:
+    pytest.importorskip("heyoka", reason="the fast extra is not installed")
+    missed, _, chosen = judge(4, count, "fast")
+    assert not missed, missed
+    assert chosen["rest", "minimal"] and chosen["paired", "minimal"]
+    shaken = Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05))
+    assert choose(shaken, 5.0, 1e-4, "fast").reason.endswith("too short to foresee what cheaper ones would miss")
+    assert choose(shaken, 50.0, 1e-4, "fast").model == choose(shaken, 5.0, 1e-4).model == "linear"
+    assert choose(Scene((10, 3), link=None, rates=((1, 0, 0),) * 2), 1.0, 1e-6, "fast").model == "closed_form"
 
 
 def test_the_judge_would_see_a_wrong_choice(monkeypatch: pytest.MonkeyPatch) -> None:

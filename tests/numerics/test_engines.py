@@ -1,13 +1,11 @@
 """The solvers one by one: order, reading, counting, stopping, and the programs they are given."""
 
-import sys
 from math import cos
 
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, consistent_scene, simulate
-from lagrotor.errors import InputError
+from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics import engines
 from lagrotor.numerics.adams import _piece as piece
@@ -15,7 +13,7 @@ from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.engines import Array, StopError, Stretch, dop853, lsoda
 from lagrotor.numerics.rates import rate_factory
-from lagrotor.rotors.scenes import HEAVY, SHOCK_PAIRED
+from lagrotor.rotors.scenes import HEAVY
 
 TIMES = np.linspace(0.3, 20, 57)
 
@@ -119,29 +117,6 @@ def test_the_projection_keeps_unit_vectors_on_their_bar_for_long() -> None:
         run = simulate(scene, np.linspace(0, 100, 201), "spheres", tol)
         assert np.abs(run.link_length - 1).max() < 1e-11
         assert np.ptp(run.energy) < 2e3 * tol
-
-
-def test_without_the_fast_extra_a_word_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "heyoka", None)
-    with pytest.raises(InputError, match=r"pip install 'lagrotor\[fast\]'"):
-        simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [1.0], "minimal", 3e-4, engine="fast")
-    for axes, model in (((0.6, 0, 0.8), "euler"), ((0.6, 0, 0.8), "spheres")):
-        with pytest.raises(InputError, match="take minimal, or engine='core'"):
-            simulate(Scene((10, -10), axes=(axes,) * 2), [1.0], model, engine="fast")
-
-
-@pytest.mark.parametrize("model", ["minimal"])
-@pytest.mark.parametrize("shock", [None, SHOCK_PAIRED, Shock((4, 1, 0), at=0.02, width=0.1, body=2)])
-def test_the_fast_extra_gives_the_same_motion(model: str, shock: Shock | None) -> None:
-    pytest.importorskip("heyoka")
-    scene = Scene((10, -7), shock=shock, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
-    times = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
-    core, fast = (simulate(scene, times, model, 1e-11, engine) for engine in ("core", "fast"))
-    assert fast.axes == pytest.approx(core.axes, abs=1e-10)
-    assert fast.rates == pytest.approx(core.rates, abs=1e-9)
-    loose = simulate(scene, times, model, 1e-5, "fast")
-    assert loose.axes == pytest.approx(core.axes, abs=1e-4)
-    assert loose.evaluations < fast.evaluations
 
 
 @pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-8, 1e-9])

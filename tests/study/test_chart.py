@@ -12,6 +12,7 @@ from lagrotor import Scene, simulate
 from lagrotor.commands.chart_command import draw
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
+from lagrotor.models.closed_form import closed_form
 from lagrotor.pictures.style import paper_style
 from lagrotor.study import chart as module
 from lagrotor.study.chart import METHODS, courses, ratios
@@ -79,6 +80,17 @@ def test_an_error_that_is_asked_for_less_gets_smaller_down_to_the_floor() -> Non
 # What is offered, and its ratios.
 
 
+def test_a_closed_form_meets_its_scene_anew_in_every_run() -> None:
+    run = METHODS["closed form"].prepare(displaced(), TIMES)
+    spent = []
+    for _ in range(2):
+        run(1e-6)
+        spent.append((closed_form.cache_info().misses, closed_form.cache_info().hits))
+    assert spent[0] == spent[1] and spent[0][0] == 1
+    simulate(displaced(), TIMES, "closed_form", 1e-6)  # twin: outside the chart it is remembered
+    assert closed_form.cache_info().misses == 1
+
+
 def small() -> Course:
     return Course(displaced(), np.linspace(0, 1, 11), 1, "one second")
 
@@ -123,9 +135,14 @@ def test_ratios_compare_at_equal_error() -> None:
     points += [point("PyDy, Cython", 1e-5, 1, 0.1, "peer"), point("PyDy, Cython", 1e-7, 1, 0.4, "peer")]
     found = replace(chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,)), points=tuple(points))
     row = ratios(found, [1e-6])["1e-06"]
-    assert row["PyDy, Cython / core"] == pytest.approx(20)
+    assert row["PyDy, Cython / core"] == row["PyDy, Cython / any rung"] == pytest.approx(20)
     assert row["core / fast"] == pytest.approx(10)
     assert row["CasADi CVODES / core"] is None
+    # The closed form is a rung, and no integration.
+    whole = replace(found, points=(*points, point("closed form", 1e-6, 0, 0.002, "closed")))
+    row = ratios(whole, [1e-6, 1e-7])["1e-06"]
+    assert (row["PyDy, Cython / core"], row["PyDy, Cython / any rung"]) == pytest.approx((20, 100))
+    assert ratios(whole, [1e-7])["1e-07"]["any rung"] is None
 
 
 # The figure.

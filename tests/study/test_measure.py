@@ -105,6 +105,14 @@ def test_a_first_run_that_compiles_tires_nobody_and_does_not_count(monkeypatch: 
     assert [p.seconds for p in peer.points] == pytest.approx([0.001, 5])
 
 
+def test_a_short_run_is_repeated_until_a_sample_is_full_and_a_long_one_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, lambda knob, _: measure.SAMPLE * (3 if knob < 0.01 else 0.3))
+    found = chart("small", small(), {"a": Method("core", clock.prepare, (0.1, 0.001))}, (1e-3,))
+    # Once to get ready (the crudest), once for the error, and one sample.
+    assert clock.runs == {0.1: 1 + 1 + 4, 0.001: 1 + 1}
+    assert [p.seconds / measure.SAMPLE for p in found.points] == pytest.approx([0.3, 3])
+
+
 def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
     return Point(name, family, 1, error, evaluations, seconds, seconds)
 

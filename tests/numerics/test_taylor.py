@@ -1,0 +1,104 @@
+"""The fast extra: the same motion as the core's, orders and steps set apart, and a word where it is not installed."""
+
+import sys
+from threading import Thread
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Scene, Shock, consistent_scene, simulate
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models import minimal
+from lagrotor.models.elimination import observation, program
+from lagrotor.numerics import taylor
+from lagrotor.rotors.scenes import SHOCK_PAIRED
+
+TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
+MOVING = {"rates": ((0.4, 1, 0), (0.4, -0.5, 0))}
+
+
+@pytest.fixture
+def heyoka():
+    return pytest.importorskip("heyoka", reason="the fast extra is not installed")
+
+
+def test_without_the_fast_extra_a_word_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    with pytest.raises(InputError, match=r"pip install 'lagrotor\[fast\]'"):
+        simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [1.0], "minimal", 3e-4, engine="fast")
+    for axes, model in (((0.6, 0, 0.8), "euler"), ((0.6, 0, 0.8), "spheres")):
+        with pytest.raises(InputError, match="take minimal, or engine='core'"):
+            simulate(Scene((10, -10), axes=(axes,) * 2), [1.0], model, engine="fast")
+
+
+@pytest.mark.parametrize("shock", [None, SHOCK_PAIRED, Shock((4, 1, 0), at=0.02, width=0.1, body=2)])
+def test_the_fast_extra_gives_the_same_motion(heyoka, shock: Shock | None) -> None:
+    scene = Scene((10, -7), shock=shock, **MOVING)
+    core, fast = (simulate(scene, TIMES, "minimal", 1e-11, engine) for engine in ("core", "fast"))
+    assert fast.axes == pytest.approx(core.axes, abs=1e-10)
+    assert fast.rates == pytest.approx(core.rates, abs=1e-9)
+    loose = simulate(scene, TIMES, "minimal", 1e-5, "fast")
+    assert loose.axes == pytest.approx(core.axes, abs=1e-4)
+    assert loose.evaluations < fast.evaluations
+
+
+@pytest.mark.parametrize("link", [Link(0.8), Link(1.4, 0.2, 0.0), Link(1, 0.01, 0.1)])
+@pytest.mark.parametrize("times", [[4.0], [0.0], [0.5, 4.0], [0.0, 4.0]])
+def test_any_bar_at_any_times(heyoka, link: Link, times: list[float]) -> None:
+    scene = consistent_scene((10, -7), ((0.1, 0.05, 1), (0.05, 0, 1)), ((0, 0.5, 0), (0, 0.2, 0)), link=link)
+    core, fast = (simulate(scene, times, "minimal", 1e-12, engine) for engine in ("core", "fast"))
+    assert fast.axes.shape == (2, len(times), 3)
+    assert fast.axes == pytest.approx(core.axes, abs=1e-10)
+
+
+@pytest.mark.parametrize("tol", [0.1, 1e-3, 1e-7, 9e-8, 1e-11, 9e-12, 1e-13])
+def test_the_order_is_the_one_asked_for_and_a_step_leaves_what_is_asked(heyoka, tol: float) -> None:
+    order = taylor.taylor_order(tol)
+    assert taylor._solver(program(False, "equal", 0), 6, False, order, 1, 0).order == order
+    scene = Scene((10, -7), **MOVING)
+    exact = simulate(scene, TIMES, "minimal", 1e-13)
+    error = np.abs(simulate(scene, TIMES, "minimal", tol, "fast").axes - exact.axes).max()
+    assert error < max(tol, 1e-12)
+
+
+def test_within_an_order_the_step_follows_the_tolerance(heyoka) -> None:
+    """The component that stands still sets it: steps as tol^(−1/order), within the rounding of a few of them."""
+    scene, times = Scene((10, -7), **MOVING), [20.0]
+    spent = [simulate(scene, times, "minimal", tol, "fast").evaluations for tol in (1e-2, 1e-4, 1e-6)]
+    assert taylor.taylor_order(1e-2) == taylor.taylor_order(1e-6) == 10
+    assert spent[1] / spent[0] == pytest.approx(100**0.1, rel=0.1)
+    assert spent[2] / spent[1] == pytest.approx(100**0.1, rel=0.1)
+
+
+def test_more_points_than_a_block_are_observed_alike(heyoka) -> None:
+    """Blocks are put together in order; as numpy has them, with a bar's length that matters."""
+    states = np.random.default_rng(3).uniform(-0.5, 0.5, (2 * taylor._BLOCK + 3, 6))
+    scene = Scene((10, -7), link=Link(0.8))
+    fast, plain = minimal.observe_fast(scene, states), minimal.MODEL.observe(scene, states)
+    assert fast.axes == pytest.approx(plain.axes, abs=1e-14)
+    assert fast.rates == pytest.approx(plain.rates, abs=1e-14)
+    assert np.abs(minimal.observe_fast(Scene((10, -7), link=Link(0.9)), states).axes - plain.axes).max() > 1e-3
+    assert taylor.compile_taylor(observation("equal"), 6) is taylor.compile_taylor(observation("equal"), 6)
+
+
+def test_what_reaches_the_joint_line_stops_and_says_so(heyoka) -> None:
+    falling = Scene((0.0, 0.0), axes=((0, 0, 1),) * 2, rates=((1, 0, 0),) * 2)
+    with pytest.raises(IntegrationError, match="use engine='core'"):
+        simulate(falling, [20.0], "minimal", 1e-9, "fast")
+
+
+def test_threads_do_not_share_a_solver(heyoka) -> None:
+    scenes = [Scene((10, spin), **MOVING) for spin in (-7, -8)]
+    alone = [simulate(scene, TIMES, "minimal", 1e-9, "fast").axes for scene in scenes]
+    found = {}
+
+    def work(i: int) -> None:
+        for _ in range(50):
+            found[i] = simulate(scenes[i], TIMES, "minimal", 1e-9, "fast")
+
+    threads = [Thread(target=work, args=(i,)) for i in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all((found[i].axes == alone[i]).all() for i in range(2))
