@@ -7,6 +7,7 @@ import pytest
 from lagrotor.errors import LagrotorError
 from lagrotor.paper import scripts
 from lagrotor.study import recorded
+from lagrotor.study.chart import LADDERS
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +29,10 @@ def test_the_tables_are_the_record(made):
     row = next(row for row in times.rows if row[0] == "minimal")
     assert row[1] == f"{1e3 * found['at_error']['1e-06']['minimal']:.3g}"
     assert all(len(row) == len(times.head) for row in times.rows)
-    assert next(row for row in multiples.rows if row[0] == "best of core")[1] == "1"
+    told = {row[0]: dict(zip(multiples.head, row, strict=True)) for row in multiples.rows}
+    for ladder in LADDERS:  # each is one of itself
+        assert told[f"best of {ladder}"][f"over {ladder}, 1e-06"] == "1"
+    assert told["minimal"]["over core, 1e-06"] == "1" != told["minimal"]["over any rung, 1e-06"]
     assert len(rates.rows) == len(found["throughput"])
 
 
