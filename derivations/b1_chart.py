@@ -44,6 +44,8 @@ def needed(method, error):
     return f"{min(enough):,}" if enough else "—"
 
 
+scenes["displaced"].scene
+
 # %% [markdown]
 # **A trap.** The shock of 5.2.1 comes after two seconds of rest. A solver that is called once over the run, with no limit to
 # its step, has by then grown its step past the shock, and nothing says so; only DOP853 at a tight tolerance meets it.
@@ -82,3 +84,10 @@ tables = [
         "An error of 0.4 m is the whole motion.",
     ),
 ]
+tables[0]
+
+# %%
+tables[1]
+
+# %%
+tables[2]

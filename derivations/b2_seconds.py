@@ -41,6 +41,7 @@ decades = [
     n for n in range(3, 14) if choose(displaced.scene, float(displaced.times[-1]), 10.0**-n).model == "closed_form"
 ]
 reach = max(decades)
+decades
 
 # %% [markdown]
 # ## At equal error
@@ -88,3 +89,10 @@ tables = [
         f"From the same run: ensembles in one process a core, the rest in one. {where}.",
     ),
 ]
+tables[0]
+
+# %%
+tables[1]
+
+# %%
+tables[2]

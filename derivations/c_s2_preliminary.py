@@ -12,6 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 BAR, WIDTH, AT = Link(mass=1, inertia=1), 1 / 50, 0.2
@@ -36,6 +37,8 @@ def centre(run, start, cycles=5):
     t = run.t[0] + start + period * cycles * np.linspace(0, 1, 200, endpoint=False)
     return np.array([[np.interp(t, run.t, part).mean() for part in axis.T] for axis in run.axes])
 
+
+Scene((10, 10), link=BAR, shock=Shock((50, 0, 0), AT, WIDTH))
 
 # %% [markdown]
 # ## C01: equal spins precess alike and stay displaced
@@ -135,3 +138,4 @@ trials = [
     Trial("C01", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c01, decide_c01),
     Trial("C02", (10, -10), (0, 0), "exact pair (spheres), bar m = K = 1", measure_c02, decide_c02),
 ]
+Heard(trials)

@@ -16,12 +16,13 @@ from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.models.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
 from lagrotor.models.spring_link import RigidBodySystem
 from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.study.compare import measured_order
 
 BAR, DT, S, D = Link(mass=1, inertia=1), 1e-3, 1e4, 250.0
 ROUNDING = 100 * np.finfo(float).eps  # what a few products of 3 × 3 matrices may lose
-
+Scene((10, 10), link=BAR)
 
 # %% [markdown]
 # ## C03: orthogonality
@@ -60,6 +61,8 @@ def decide_c03(m):
     kept = m["rodrigues_off_orthogonal"] < ROUNDING
     return Finding("confirmed" if m["first_order_off_orthogonal"] > ROUNDING and kept else "refuted", how)
 
+
+measure_c03((10, 10))
 
 # %% [markdown]
 # ## C04: no inversion in a step
@@ -168,3 +171,4 @@ trials = [
     ),
     Trial("C05", (10, 10), (100, 100), "spring-linked bodies against the exact pair", measure_c05, decide_c05),
 ]
+Heard(trials)

@@ -14,6 +14,7 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link import step_limit
 from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 BAR, LIGHT, DT = Link(mass=1, inertia=1), Link(mass=0.01, inertia=0.1), 1e-3
@@ -31,6 +32,8 @@ def every(step, start, end):
 def with_shock(spins, force=(50, 0, 0), bar=BAR, at=AT):
     return Scene(spins, link=bar, shock=Shock(force, at, WIDTH))
 
+
+with_shock((10, 10))
 
 # %% [markdown]
 # ## C06: the bar placed wrongly
@@ -211,6 +214,8 @@ def decide_c08(m):
     )
 
 
+closed_jump(with_shock((10, 10)))
+
 # %% [markdown]
 # ## C09: momenta
 #
@@ -279,3 +284,4 @@ trials = [
     Trial("C08", (10, 10), (5, 5), "spring-linked bodies, the exact pair, the closed form", measure_c08, decide_c08),
     Trial("C09", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c09, decide_c09),
 ]
+Heard(trials)

@@ -14,6 +14,7 @@ import numpy as np
 from lagrotor import Link, Scene, Shock, consistent_scene, natural_rate, simulate
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.models.spring_run import paper_system
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.study.compare import ansatz_A, measured_order
 
@@ -40,6 +41,8 @@ def once_round(spins, r0, bar, samples=361):
     scene, rate = orbit(spins, r0, bar)
     return simulate(scene, np.linspace(0, 2 * pi / (rate or 1.0), samples), "minimal", 1e-11)
 
+
+Scene((10, -10), link=LIGHT)
 
 # %% [markdown]
 # ## C14: degrees of freedom
@@ -86,6 +89,8 @@ def decide_c14(m):
         f"freedom, {m['degrees_of_freedom_without_spins']:.0f} without the two turns about the axes, whatever the spins.",
     )
 
+
+constraints((0, 0, 1), (0, 0, 1), BAR)
 
 # %% [markdown]
 # ## C15: the ansatz and its integrals
@@ -294,3 +299,4 @@ trials = [
     Trial("C16", (10, -10), (10, 10), "exact orbit, massless bar", measure_c16, decide_c16),
     Trial("C17", (10, -10), (10, 10), "exact orbits, massless bar", measure_c17, decide_c17),
 ]
+Heard(trials)

@@ -12,6 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 LIGHT, PAPER_R0 = Link(mass=0.01, inertia=0.1), 0.204
@@ -89,6 +90,8 @@ def decide_c18(m):
         f"{m['turned_about_joint_line_without_y_shock_rad']:.2f}.",
     )
 
+
+Scene((10, -10), link=LIGHT, shock=SHOCK)
 
 # %% [markdown]
 # ## C19: the skew axis
@@ -176,3 +179,4 @@ trials = [
     Trial("C18", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c18, decide_c18),
     Trial("C19", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c19, decide_c19),
 ]
+Heard(trials)

@@ -16,6 +16,7 @@ import numpy as np
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.models.spring_run import paper_system, run_steps
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.study.compare import measured_order
 
@@ -61,6 +62,8 @@ def springs(spins, bar, n=20, seconds=8):
     run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, t, 1e-3)
     return line(t, run.axes[0, :, 0], natural_rate(scene) or 1.0)[0]
 
+
+scene_of((20, 20), BAR)
 
 # %% [markdown]
 # ## C20: one rotor at 16
@@ -156,6 +159,8 @@ def decide_c21(m):
         )
     return Finding("confirmed-if", how, "; ".join(needed)) if needed else Finding("confirmed", how)
 
+
+{"J/(a + b)": scene_of((20, 20), BAR).rotor.J / sum(scene_of((20, 20), BAR).inertias)}
 
 # %% [markdown]
 # ## C22: the anti-spin pair at 5.7
@@ -293,3 +298,4 @@ trials = [
     Trial("C22", (10, -10), (10, 10), "exact pair (spheres) and spring-linked bodies", measure_c22, decide_c22),
     Trial("C23", (10, -10), (10, 10), "exact orbits; exact pair (minimal)", measure_c23, decide_c23),
 ]
+Heard(trials)

@@ -14,6 +14,7 @@ import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.spring_run import paper_system, run_solver, run_steps
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.study.compare import measured_order
 
@@ -36,6 +37,8 @@ def turned(run):
 def angle(run):
     return 2 * np.arcsin(np.linalg.norm(run.axes[1] - run.axes[0], axis=-1) / 2)
 
+
+Scene((10, -10), link=BAR, shock=Shock((50, 0, 0), AT, WIDTH))
 
 # %% [markdown]
 # ## C10: no spin
@@ -319,3 +322,4 @@ trials = [
     Trial("C12", (10, -10), (10, 10), "exact pair (spheres), bar m = 1, K = 1 to 1000", measure_c12, decide_c12),
     Trial("C13", (10, -10), (0, 0), EXACT, measure_c13, decide_c13),
 ]
+Heard(trials)

@@ -9,11 +9,13 @@
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
+from lagrotor.paper.shown import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.rotors.closed_forms import linear_pair
 from lagrotor.symbols import G_1, G_2, a, b, k
 
 BAR = Link(mass=1, inertia=1)
+Scene((10, -10), link=BAR)
 
 # %% [markdown]
 # ## C24
@@ -80,3 +82,4 @@ def decide_c24(m):
 trials = [
     Trial("C24", (10, -10), (10, 10), "linear pair; exact pair (spheres), bar m = K = 1", measure_c24, decide_c24),
 ]
+Heard(trials)

@@ -113,3 +113,7 @@ tables = [
         "Predicted from all joints together, h < 4/(w D + sqrt((w D)² + 4 w S)); a joint taken alone is too hopeful.",
     ),
 ]
+tables[0]
+
+# %%
+tables[1]

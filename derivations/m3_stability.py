@@ -12,6 +12,7 @@ from lagrotor.paper.tables import Table
 from lagrotor.study.stability import limits
 
 found = limits(quick=True)
+list(dict.fromkeys(x.regime for x in found))
 
 # %% [markdown]
 # ## Predicted and found
@@ -29,3 +30,4 @@ tables = [
         "than over many, where they grow as time. Full runs: `lagrotor stability`.",
     )
 ]
+tables[0]

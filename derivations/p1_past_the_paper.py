@@ -40,6 +40,7 @@ cancelling = equal(p_y, cancelling_impulse().expressions[0])
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])
 twist = equal(growth, t9["grown"].subs({G_1: G, G_2: G}).replace(sp.Heaviside, lambda *_: sp.Integer(1)))
+sp.Tuple(frequency, series)
 
 # %% [markdown]
 # ## Rows
@@ -132,3 +133,4 @@ tables = [
         "share, k = ell/R, sigma = (a + b)/(a − b).",
     )
 ]
+tables[0]

@@ -16,6 +16,7 @@ import sympy as sp
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.lagrangians import axis, rotor_lagrangian
 from lagrotor.symbols import I3, ROTOR, I, J, R, m, omega, omega_1, omega_2
 
@@ -78,6 +79,7 @@ slowness = (
     "Slow means that r is a function of epsilon omega t. A force switched on at once also starts a nutation, whose "
     "acceleration J r x r'' is as large as the torque; the formula is then right for the mean motion only.",
 )
+Formula(sp.Eq(omega, spin))
 
 # %% [markdown]
 # ## The algebra of (3) to (7)
@@ -105,6 +107,7 @@ correct_g = (rho - 1) / (2 * (1 + rho)) * r.cross(F)
 printed_6 = 1 / (omega_1 * I) * r.cross((1 + rho - rho + 1) / (1 + rho) * F / 2)
 correct_6 = 1 / (omega_1 * I) * r.cross((1 + rho + rho - 1) / (1 + rho) * F / 2)
 ratio_6 = sp.cancel(printed_6[0] / w[0])
+sp.Tuple(sp.Eq(share, solved[share]), sp.Eq(turning, solved[turning]))
 
 # %%
 statements = [
@@ -210,3 +213,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

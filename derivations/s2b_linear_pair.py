@@ -17,6 +17,7 @@ from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import euler_lagrange, jacobian
 from lagrotor.paper import scripts
 from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.lagrangians import axes_pair
 from lagrotor.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 
@@ -57,6 +58,7 @@ assert decide_equal(reduced, sp.Matrix(expected)).answer == "zero"
 # With y_1 = y_2 the last two equations differ by what a force across the bar would have to supply.
 twisting = sp.expand((reduced[2] - reduced[1]).subs({y2_v: y1_v, y2_a: y1_a}))
 assert decide_zero(twisting - (G_1 - G_2) * X_v - R * F[1]).answer == "zero"
+Formula(sp.Eq(twisting, 0))
 
 # %% [markdown]
 # ## Linear response to a force on one tip, any two spins
@@ -99,6 +101,7 @@ free = (
 )
 assert all(decide_zero(e.subs(in_Omega)).answer == "zero" for e in free)
 impulse_response = tuple(e.subs(inertia_X, 2 * (a + b)) for e in (X_response, *y_response))
+sp.Eq(Omega**2, Omega_squared)
 
 # %% [markdown]
 # ## What the paper prints
@@ -158,3 +161,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

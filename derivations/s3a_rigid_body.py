@@ -16,6 +16,7 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import total_derivative
 from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.symbols import ROTOR
 
 
@@ -78,6 +79,7 @@ pair = dict.fromkeys(spinning_up.free_symbols | torque.free_symbols, sp.S.Zero)
 pair |= dict.fromkeys((m1, m2, m3, X1[0], s, sp.Symbol("n_12_y", real=True)), sp.S.One)
 spin_up, outside = spinning_up.subs(pair), torque.subs(pair)
 assert spin_up != outside == sp.zeros(3, 1)
+spin_up
 
 # %% [markdown]
 # ## The rigid velocity field
@@ -131,6 +133,7 @@ right, wrong = (e.subs(quarter) for e in (Q * unequal * Q.T, Q.T * unequal * Q))
 isotropic = sp.Symbol("I", positive=True) * sp.eye(3)
 assert decide_equal(Q * isotropic * Q.T, Q.T * isotropic * Q).answer == "zero"
 assert right != wrong
+sp.Tuple(right, wrong)
 
 # %% [markdown]
 # ## What the paper prints
@@ -210,3 +213,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

@@ -16,6 +16,7 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal, decide_zero
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.rotors.lagrangians import axis
 
 dt = sp.Symbol("Delta_t", positive=True)
@@ -65,6 +66,8 @@ def through(printed: sp.Matrix, exact: sp.Matrix, claimed: int) -> tuple[Relatio
     return tuple(Relation(p, e, dt, claimed) for p, e in zip(printed, exact, strict=True))
 
 
+sp.factor(lag.coefficient)
+
 # %% [markdown]
 # ## The finite rotation
 #
@@ -97,6 +100,7 @@ paper_spin = {Omega[0]: 0, Omega[1]: 0, Omega[2]: 10}
 too_large = (Omega * Omega.T).subs(paper_spin)[2, 2] / projector.subs(paper_spin)[2, 2]
 first_order = sp.eye(3) + dt * cross(Omega)
 stretch = sp.expand((first_order.T * first_order).subs(paper_spin)[0, 0])
+stretch
 
 # %% [markdown]
 # ## The inertia of the turned body, and rows
@@ -250,3 +254,4 @@ statements = [
     ),
     Statement("3.20", chain(on_2, -corrected_F12), depends_on=("3.19",)),
 ]
+Judged(statements)

@@ -15,6 +15,7 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import coordinates, energy
 from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.rotors.lagrangians import rotor_lagrangian
 from lagrotor.symbols import I3, ROTOR, J
 
@@ -91,6 +92,7 @@ as_rates = dict(zip(velocity_symbols, bodies.v, strict=True))
 held = sum(S * s**2 / 2 for s in lengths.q)
 total = energy(sum(K).subs(as_rates) - held, bodies).subs({v: u for u, v in as_rates.items()})
 first_run = held.subs(dict(zip(lengths.q, (0, 0, sp.S.Half, sp.S.Half), strict=True)))  # the bar set half a metre high
+held
 
 # %% [markdown]
 # ## Constants, first value, shock
@@ -127,6 +129,7 @@ assert decide_zero(impulse**2 - plane).answer == "zero"
 light = {M_2: 1, M_3: sp.Rational(1, 100)}
 excess = sp.factor(listed_E - printed_E)
 times = (M_2 / M_3).subs(light)
+excess
 
 # %% [markdown]
 # ## What the paper prints
@@ -191,3 +194,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

@@ -16,6 +16,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.closed_forms import linear_pair
 from lagrotor.study.compare import measured_order
 from lagrotor.symbols import AXES, G_1, G_2, G, Omega, R, a, b, t
@@ -55,6 +56,7 @@ loads = [R * (pair.basis * turn).T * tip for tip in (tip_1, tip_2)]
 # Opposite spins: nothing couples S; X and D hold each other.
 assert opposite[0, 1] == opposite[0, 2] == 0
 assert mass.is_diagonal()
+sp.Tuple(mass, opposite)
 
 # %% [markdown]
 # ## Exact responses
@@ -100,6 +102,7 @@ first = loads[0]
 steady_x, steady_y = (response(first.subs(kind), True) for kind in (along, across))
 shock_x, shock_y = (response(first.subs(kind), False) for kind in (along, across))
 both_y = response((loads[0] + loads[1]).subs(across), False)
+sp.Matrix([sum(part) for part in shock_x])
 
 # %% [markdown]
 # What the responses say, decided.
@@ -123,6 +126,7 @@ no_spin_topple = (R * (pair.basis * turn).T * tip_1)[0] / mass[0, 0]
 assert decide_zero(no_spin_topple.subs(F_x, 0) - topple).answer == "zero"
 no_spin_x = first[1].subs(F_y, 0) / mass[1, 1]  # acceleration of X without spin
 equal = gyroscopic.subs({G_1: G, G_2: G})
+decided
 
 # %% [markdown]
 # ## Against the exact pair
@@ -173,6 +177,7 @@ paper_over = float(np.degrees(paper.inclinations[:, -1]).mean())
 skew = Shock((40, -11, 0), at=2.0, width=1 / 20)
 left = {R: 1, G: 10, F_x: skew.impulse[0], F_y: skew.impulse[1]}
 skew_twist, skew_x = (float(mean.subs(left)) for mean in (shock_x[2][0], mean_y))
+orders
 
 # %% [markdown]
 # ## What stands in place of the diagrams
@@ -232,3 +237,4 @@ findings: list[tuple[str, str]] = [
         f"P**{orders['x']:.2f} along x and P**{orders['y']:.2f} across (exact pair).",
     ),
 ]
+findings_table(findings)

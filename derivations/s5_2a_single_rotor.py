@@ -16,6 +16,7 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import cyclic_coordinates, momenta, total_derivative
 from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.symbols import I1, I3, M_3, ROTOR, I, J, M, M_z, R, a_const, omega
 
@@ -45,6 +46,7 @@ kinetic = turning + M / 2 * centre_velocity.dot(centre_velocity)
 # The two-angle form with J in place of I_1 is the same function: decided, not simplified.
 reduced = rotor_lagrangian().subs(J, J_OF)
 assert decide_zero(kinetic - reduced).answer == "zero"
+Formula(reduced)
 
 # %% [markdown]
 # ## First integrals
@@ -57,6 +59,7 @@ assert set(cyclic_coordinates(L, ROTOR)) == {phi, psi}
 p_theta, p_phi, p_psi = momenta(L, ROTOR)
 rate = sp.solve([p_phi - M_z, p_psi - M_3], [phi_v, psi_v], dict=True)[0][phi_v]
 uniform = {I1: I, I3: I, J: I}
+Formula(sp.Eq(phi_v, rate))
 
 # %% [markdown]
 # ## What the paper prints
@@ -132,3 +135,4 @@ statements = [
         depends_on=("5.04",),
     ),
 ]
+Judged(statements)

@@ -18,6 +18,7 @@ from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.lagrangians import ansatz_lagrangian, axis, pair_lagrangian, pair_with_bar
 from lagrotor.rotors.orbit import paired_series
 from lagrotor.study.compare import measured_order
@@ -48,6 +49,7 @@ third_axis = (sp.rot_axis3(node).T * sp.rot_axis1(tilt).T)[:, 2]
 shift_is_minus = decide_equal(third_axis, axis(tilt, node - sp.pi / 2)).answer
 shift_is_plus = decide_equal(third_axis, axis(tilt, node + sp.pi / 2)).answer
 assert (shift_is_minus, shift_is_plus) == ("zero", "nonzero")
+Formula(L)
 
 # %% [markdown]
 # ## The bar
@@ -60,6 +62,7 @@ squared = (tips[1] - tips[0]).dot(tips[1] - tips[0])
 system = pair_with_bar()
 state = {th1: sp.Rational(1, 3), ph1: sp.Rational(2, 5), th2: sp.Rational(1, 4), ph2: sp.Rational(-3, 7), k: 1}
 freedom = degrees_of_freedom(system, {**dict.fromkeys(PAIR.q, 0), **state, a: 1, b: 0, I3: 1})
+sp.Eq(system.g[0], 0)
 
 # %% [markdown]
 # ## The ansatz in the Lagrangian
@@ -105,6 +108,7 @@ def largest_sum(amplitude: float) -> float:
 
 sums = [largest_sum(amplitude) for amplitude in amplitudes]
 order = measured_order(amplitudes, sums)
+sp.Eq(ph1 + ph2, r0 * azimuth_sum, evaluate=False)
 
 # %%
 statements = [
@@ -161,3 +165,4 @@ statements = [
         steps=("phi_1' = phi', phi_2' = −phi', psi_1' = psi', psi_2' = −psi' in the pair's Lagrangian",),
     ),
 ]
+Judged(statements)

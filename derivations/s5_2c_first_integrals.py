@@ -17,6 +17,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import cyclic_coordinates, noether_integral, noether_rate
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
 from lagrotor.study.compare import ansatz_A, measured_order, swing
 from lagrotor.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
@@ -36,6 +37,7 @@ equal = "equal inertias about the joint; the paper's rotor has J = 5/4 and I_3 =
 L = ansatz_lagrangian()
 assert set(cyclic_coordinates(L, ANSATZ)) == {phi, psi}
 integral_A, integral_B = ansatz_integrals()
+Formula(sp.Matrix([integral_A, integral_B]).expand())
 
 # %% [markdown]
 # ## On the exact pair
@@ -56,6 +58,7 @@ first, second = (theta_1, phi, psi), (theta_2, -phi, -psi)
 first_v, second_v = (ANSATZ.v[0], phi_v, psi_v), (ANSATZ.v[1], -phi_v, -psi_v)
 on_ansatz = dict(zip((*PAIR.q, *PAIR.v), (*first, *second, *first_v, *second_v), strict=True))
 assert decide_zero(exact_B.subs(on_ansatz) - integral_B).answer == "zero"
+conserved
 
 # %% [markdown]
 # How A drifts is measured on two kinds of motion: the periodic orbit, and the motion after a shock from rest.
@@ -85,6 +88,7 @@ orbit_order = measured_order(amplitudes, orbit_drift)
 shocks = (0.0025, 0.005, 0.01)
 shock_drift = [after_shock(scale) for scale in shocks]
 shock_order = measured_order(shocks, shock_drift)
+{"on the orbit": orbit_order, "after a shock": shock_order}
 
 # %% [markdown]
 # ## What the paper prints
@@ -138,3 +142,4 @@ statements = [
         evidence=("Holds where cos theta_1 + cos theta_2 is not zero.",),
     ),
 ]
+Judged(statements)

@@ -14,6 +14,7 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.algebra import decide_zero
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.closed_forms import natural_frequency, pair_precession_rate
 from lagrotor.rotors.lagrangians import ansatz_integrals
 from lagrotor.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
@@ -29,6 +30,7 @@ uniform = {J: I, I1: I, I3: I}
 # %%
 rate = pair_precession_rate().expressions[0]
 printed_rate = (2 * A - B * total) / (I * (4 - total**2))
+Formula(sp.Eq(phi_v, rate))
 
 # %% [markdown]
 # ## The values of the integrals
@@ -42,6 +44,7 @@ integral_A, integral_B = (e.subs(uniform).subs(psi_v, omega - phi_v * total / 2)
 value_A, value_B = integral_A.subs(apart), integral_B.subs(apart)
 printed_A = 2 * I * (phi_v * sp.sin(mean) ** 2 + omega * sp.cos(mean))
 printed_B = 2 * omega
+Formula(sp.Matrix([value_A, value_B]).subs(half, 0).expand())
 
 # %% [markdown]
 # ## What the formula then says
@@ -92,3 +95,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.rotors.lagrangians import axis
 from lagrotor.symbols import PAIR, r0, theta_0
 
@@ -21,6 +22,7 @@ half = sp.Rational(1, 2)
 joint = sp.Matrix([half, 0, 0])
 bar = (joint + axis(th2, ph2)) - (-joint + axis(th1, ph1))
 squared = bar.dot(bar)
+bar
 
 # %% [markdown]
 # ## Projected on the plane
@@ -35,6 +37,7 @@ left_out = sp.cos(th1) - sp.cos(th2)
 assert decide_zero(squared - flat - left_out**2).answer == "zero"
 small, v1, v2 = sp.symbols("varepsilon vartheta_1 vartheta_2", real=True)
 scaled = {th1: small * v1, th2: small * v2}
+left_out**2
 
 # %% [markdown]
 # ## Under the ansatz, and at one constant inclination
@@ -83,3 +86,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

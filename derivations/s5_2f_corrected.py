@@ -17,6 +17,7 @@ from lagrotor import Scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.rotors.closed_forms import corrected_inclinations, corrected_trajectories, natural_rate, paired_frequency
 from lagrotor.rotors.orbit import paired_series
 from lagrotor.study.compare import measured_order
@@ -38,6 +39,7 @@ sines = tuple(sp.collect(sp.expand(e.subs(k, 1)), r0) for e in corrected_inclina
 frequency = paired_frequency(3).expressions[0]
 massless = paired_series(9, sp.Integer(1), sp.Integer(1))
 massless_frequency = massless.expression(massless.frequency)
+massless_frequency
 
 # %% [markdown]
 # ## The paper's correction
@@ -54,6 +56,7 @@ paper_r0 = sp.Rational(204, 1000)
 lengths = [float(sp.sqrt(length_squared.subs({r0: paper_r0, Phi: angle}))) for angle in (0, sp.pi / 2)]
 
 corrected_sines = (r0 + half * r0**2 * sp.sin(Phi) ** 2 * cosine, r0 - half * r0**2 * sp.sin(Phi) ** 2 * cosine)
+sp.Matrix([printed_sines, corrected_sines])
 
 # %% [markdown]
 # ## The trajectories
@@ -70,6 +73,7 @@ offset = sp.expand(corrected_x[0] - printed_x[0] - r0**2)
 assert decide_zero(offset).answer == "zero"
 centres = [sp.integrate(x + half, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi) for x in (printed_x[0], corrected_x[0])]
 in_y = [Relation(p, q, r0, 2) for p, q in zip(corrected_y, (y1, y2), strict=True)]
+sp.Matrix([printed_x, corrected_x])
 
 # %% [markdown]
 # The orders are measured too, against the periodic orbit of the exact model found by shooting.
@@ -99,6 +103,7 @@ slopes = {name: measured_order(amplitudes, values) for name, values in errors.it
 rate_slope = measured_order(amplitudes, [1 - rate for rate in rates])
 coefficient = (rates[0] - 1) / amplitudes[0] ** 2
 at_paper = float(massless_frequency.subs(r0, paper_r0))
+slopes
 
 # %% [markdown]
 # ## The rate after the correction
@@ -191,3 +196,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

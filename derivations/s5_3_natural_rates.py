@@ -20,6 +20,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import euler_lagrange, jacobian
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.shown import Judged
 from lagrotor.rotors.closed_forms import free_precession_rate, natural_frequency, paired_frequency
 from lagrotor.rotors.lagrangians import INERTIAS, J_OF, axes_pair
 from lagrotor.rotors.orbit import paired_series
@@ -58,6 +59,7 @@ gentle = Shock((0.4, 0, 0), at=2.0, width=1 / 20)
 one = Scene(spins=(20, 0), link=None, shock=shock)
 one_rate, one_amplitude = rate_after(one)
 one_gentle, _ = rate_after(Scene(spins=(20, 0), link=None, shock=gentle))
+single
 
 # %% [markdown]
 # ## Equal spins
@@ -106,6 +108,7 @@ cone = Scene(
 steady = simulate(cone, np.linspace(0, 4 * 2 * np.pi / turning, 41), "minimal", 1e-11)
 apart = float(np.abs(steady.axes[0] - steady.axes[1]).max())
 steady_rate = float((steady.azimuths[0, -1] - steady.azimuths[0, 0]) / steady.t[-1])
+sp.Tuple(constant_equal, c_paper)
 
 # %% [markdown]
 # ## Opposite spins
@@ -129,6 +132,7 @@ printed_product = 10 * sp.Rational(4, 5) * sp.Rational(7125, 10000)
 bar_of_product = sp.solve(opposite_squared.subs(paper_rotor).subs(omega, 10) - printed_product**2, K)[0]
 mass_at_most = sp.solve(bar_of_product, m)[0]
 massless_bar = float(opposite_rate(sp.Integer(0), sp.Integer(0)))
+sp.Eq(Omega**2, opposite_squared)
 
 # %% [markdown]
 # ## The rate at an inclination
@@ -156,6 +160,9 @@ for name, bar in {"m = 1, K = 1, ell = R": heavy, "massless, ell = 2 R": Link(le
     predicted = float(curvature.subs({sigma: (big + coupled) / (big - coupled), k: bar.length}))
     order = measured_order(amplitudes, np.abs(changes))
     slopes.append(f"{changes[0] / amplitudes[0] ** 2:+.4f} for {predicted:+.4f} ({name}; order {order:.2f})")
+
+
+sp.Eq(Omega / sp.Symbol("Omega_0"), ratio)
 
 # %% [markdown]
 # ## What the paper prints
@@ -294,3 +301,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

@@ -14,6 +14,7 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.paper.ledger import Relation, Statement
+from lagrotor.paper.shown import Formula, Judged
 from lagrotor.rotors.closed_forms import free_precession_rate, linear_pair, paired_frequency
 from lagrotor.rotors.lagrangians import INERTIAS, J_OF, axes_pair, pair_with_bar
 from lagrotor.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, J, K, M, R, a, b, ell, k, m, omega, r0, sigma
@@ -32,6 +33,7 @@ angles = [sp.Rational(1, 3), sp.Rational(2, 5), 0, sp.Rational(1, 4), sp.Rationa
 with_spins = degrees_of_freedom(pair_with_bar(), {**dict(zip(PAIR.q, angles, strict=True)), a: 1, b: 0, I3: 1, k: 1})
 upright = {**dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True)), k: 1, a: 1, b: 0}
 without_spins = degrees_of_freedom(axes_pair()[0], upright)
+{"with the spins": with_spins, "without": without_spins}
 
 # %% [markdown]
 # ## Modes
@@ -64,6 +66,7 @@ assert len(growing) == chains
 assert toppling == sp.Matrix([0, 1, 0, 0, 1, 0])
 topplings, centres = chains, (zeros - 2 * chains) // 2
 modes = oscillations + topplings + centres
+characteristic
 
 # %% [markdown]
 # The centre: two quantities that the linear pair keeps. Both are zero for a precession about the upright position.
@@ -84,6 +87,7 @@ def drift(quantity: sp.Expr) -> sp.Expr:
 
 centre_is_kept = {name: decide_zero(drift(e)).answer for name, e in (("X", kept_X), ("D", kept_D))}
 assert set(centre_is_kept.values()) == {"zero"}
+Formula(sp.Matrix([kept_X, kept_D]))
 
 # %% [markdown]
 # ## The rate
@@ -158,3 +162,4 @@ statements = [
         ),
     ),
 ]
+Judged(statements)

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.closed_forms import natural_frequency
 from lagrotor.rotors.lagrangians import INERTIAS, axes_pair
 from lagrotor.rotors.response import impulse_matrices
@@ -36,6 +37,7 @@ squared = linear.frequency_squared
 expected = 2 * (a + b) * (a**2 - b**2) * s**4 * (s**2 + squared)
 assert decide_zero(characteristic - expected).answer == "zero"
 assert all(decide_zero(e).answer == "zero" for e in C * n)
+sp.Tuple(M, C, n)
 
 # %% [markdown]
 # ## Limits
@@ -49,6 +51,7 @@ assert decide_zero(equal - G**2 / (a + b) ** 2).answer == "zero"
 assert decide_zero(single - G**2 / (2 * a**2)).answer == "zero"
 dumbbell = INERTIAS[b].subs(K, m * ell**2 / 4)
 assert decide_zero(dumbbell).answer == "zero"
+sp.Tuple(opposite, equal, single)
 
 # %% [markdown]
 # ## The zero modes and the static equilibria
@@ -79,3 +82,4 @@ findings.append(
         "never x. Every position at rest is an equilibrium.",
     )
 )
+findings_table(findings)

@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.response import impulse_matrices, shock_displacement, shock_energy, shock_response
 from lagrotor.study.compare import measured_order
 from lagrotor.symbols import G_1, G_2, P_1, P_2, P_X, G, Omega, t
@@ -40,6 +41,7 @@ residuals = [
 assert all(decide_zero(e).answer == "zero" for matrix in residuals for e in matrix)
 # The twin with one sign changed is not zero.
 assert any(decide_zero(e).answer == "nonzero" for e in M * S + C * D)
+sp.Tuple(drift, D)
 
 # %% [markdown]
 # ## The pulse's width
@@ -63,6 +65,7 @@ equal_x = sp.factor((along + across).subs({G_1: G, G_2: G, P_1: 0, P_2: 0}))
 paper = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))
 answer = shock_response(paper)
 exact = simulate(paper, np.array([3.0]), tol=1e-11).energy[0]
+equal_x
 
 # %% [markdown]
 # ## Order of the error
@@ -102,3 +105,4 @@ findings.append(
         "displacement along x.",
     )
 )
+findings_table(findings)

@@ -14,6 +14,7 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.orbit import exact_orbit
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.closed_forms import paired_frequency
 from lagrotor.rotors.momentum import paired_momentum
 from lagrotor.study.compare import measured_order
@@ -32,6 +33,7 @@ momentum = paired_momentum(4)
 second = momentum.expressions[0].coeff(r0, 2)
 assert decide_zero(second - sigma / k).answer == "zero"
 frequency = paired_frequency(3).expressions[0]
+frequency
 
 # %% [markdown]
 # ## Against exact orbits of a bar not used elsewhere
@@ -67,3 +69,4 @@ findings.append(
         f"Omega/Omega_0 = {frequency}; the error's slope at sigma = {shape:.4f}, k = 1.3 is {slopes['frequency']:.2f}.",
     )
 )
+findings_table(findings)

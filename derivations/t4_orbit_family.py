@@ -11,6 +11,7 @@
 import numpy as np
 
 from lagrotor import Link, Scene, natural_rate
+from lagrotor.paper.shown import findings_table
 from lagrotor.study.family import OrbitFamily, orbit_family, trace_family
 
 statements: list = []
@@ -34,6 +35,8 @@ def ends() -> dict[str, OrbitFamily]:
     return {name: trace_family(scene_of(link)) for name, link in BARS.items()}
 
 
+BARS
+
 # %% [markdown]
 # ## The frequency curve
 
@@ -54,3 +57,4 @@ findings.append(
         "r_0 = 0.99 without a turn (`ends`, slow): they end where the axes come to lie along the joint line, r_0 = 1.",
     )
 )
+findings_table(findings)

@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.averaged import slow_rates, slow_stiffness
 from lagrotor.study.compare import measured_order
 from lagrotor.study.floquet import floquet, leading_square
@@ -34,6 +35,7 @@ in_x, in_twist = slow_stiffness()
 assert decide_zero(in_x).answer == "zero"
 assert decide_zero(in_twist - b * G**2 * SWING**2 / (8 * (a**2 - b**2))).answer == "zero"
 assert decide_zero(slow_rates()[1]).answer == "zero"
+in_twist
 
 # %% [markdown]
 # ## Measured on exact orbits
@@ -87,3 +89,4 @@ findings.append(
         "b > 0 gives a hyperbolic orbit.",
     )
 )
+findings_table(findings)

@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import Formula, findings_table
 from lagrotor.rotors.drift import (
     cancelling_force,
     cancelling_impulse,
@@ -34,6 +35,7 @@ findings: list[tuple[str, str]] = []
 y1, y2, v1, v2 = AXES.q[1], AXES.q[4], AXES.v[1], AXES.v[4]
 expected = -(a + b) * (v1 + v2) + G * (y1 - y2) ** 2 / (2 * k)
 assert decide_zero(second_order_momentum() - expected).answer == "zero"
+Formula(expected)
 
 # %% [markdown]
 # ## The rate, and the force that cancels it
@@ -66,6 +68,8 @@ def exact_forces(forces: tuple[float, ...] = (10, 20, 40)) -> tuple[list[float],
     return exact, measured_order(forces[:2], off[:2])
 
 
+rate
+
 # %% [markdown]
 # ## Against the exact motion
 
@@ -94,3 +98,4 @@ findings.append(
         f"{at_second:+.4f} with the second order's, {at_paper:+.4f} with −11.",
     )
 )
+findings_table(findings)

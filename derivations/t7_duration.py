@@ -12,6 +12,7 @@
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.averaged import slow_rates
 from lagrotor.rotors.drift import shock_wander, toppling_after_shock, wander_after_shock
 from lagrotor.study.after_shock import run_after, turning_rate, wandering_rate
@@ -34,6 +35,7 @@ assert decide_zero(twisting).answer == "zero"
 alone = shock_wander().expressions[0].subs(p_y, 0)
 law = P_X**3 / (8 * (a + b) * G**2) * ((2 + att**2) / k**2 - att**2 * b / (a - b))
 assert decide_zero(alone - law).answer == "zero"
+law
 
 # %% [markdown]
 # ## Measured over a decade
@@ -75,3 +77,4 @@ findings.append(
         f"cancels the drift leaves {spared:.3f} of that rate.",
     )
 )
+findings_table(findings)

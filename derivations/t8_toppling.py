@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.response import shock_response
 from lagrotor.rotors.toppling import toppling_growth, toppling_polynomial, toppling_residual, toppling_threshold
 from lagrotor.symbols import G_1, G_2, G, a, b, k, nu
@@ -29,6 +30,7 @@ left = toppling_residual()
 assert all(decide_zero(e.subs(G_2, -G_1)).answer == "zero" for e in left)
 assert decide_zero(left[0] + (G_1 + G_2) * nu).answer == "zero"
 assert decide_zero(left[0]).answer == "nonzero"
+left[0]
 
 # %% [markdown]
 # ## Stability
@@ -46,6 +48,7 @@ discriminant = (A * D * nu**2 - 2 * A * e) ** 2 + G**4 + 2 * G**2 * (A * D * nu*
 assert decide_zero(one**2 - 4 * two * zero - discriminant).answer == "zero"
 edge = toppling_threshold().expressions[0]
 small = sp.factor(sp.limit(-zero / one / nu**3, nu, 0))
+sp.Eq(nu, edge)
 
 # %% [markdown]
 # ## Predicted and measured
@@ -67,6 +70,7 @@ pairs = {
     "m = 1, K = 1, nu = −15": measured(Link(1, 1, 1), -15.0),
 }
 assert all(abs(p / q - 1) < 0.01 for p, q in pairs.values())
+pairs
 
 # %% [markdown]
 # ## A shock of +50 and one of −50 along y
@@ -108,3 +112,4 @@ findings.append(
         + ".",
     )
 )
+findings_table(findings)

@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.response import shock_response
 from lagrotor.rotors.twist import (
     parallel_residual,
@@ -33,6 +34,7 @@ findings: list[tuple[str, str]] = []
 along, across, about = parallel_residual()
 assert decide_zero(across.subs(G_2, G_1)).answer == "zero"
 assert decide_zero(across).answer == "nonzero"
+across
 
 # %% [markdown]
 # ## The equation of a small twist
@@ -48,6 +50,7 @@ inertia, stiffness = twist_coefficients()
 assert decide_zero(inertia - (a - b) / 2 * (1 - x**2)).answer == "zero"
 assert decide_zero(stiffness - b * (speed + x * x_a)).answer == "zero"
 grown = twist_growth().expressions[0]
+grown.subs({G_1: G, G_2: G})
 
 # %% [markdown]
 # ## Predicted and measured
@@ -94,3 +97,4 @@ findings.append(
         "'necessarily aligned at all times'.",
     )
 )
+findings_table(findings)

@@ -15,6 +15,7 @@ import sympy as sp
 from ..algebra import Decision, agreement_order, decide_equal
 from ..errors import InputError, NotExactError
 from .catalogue import equation
+from .tables import Cell, Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
@@ -95,6 +96,21 @@ class Verdict:
     def id(self) -> str:
         """The equation's id in the catalogue."""
         return self.statement.id
+
+    def _repr_html_(self) -> str:
+        return verdict_table([self])._repr_html_()
+
+
+def verdict_table(verdicts: Iterable[Verdict]) -> Table:
+    """Verdicts below each other, each with its condition or order, what was wrong and the evidence."""
+    return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
+
+
+def _row(v: Verdict) -> tuple[Cell, ...]:
+    order = f"through order {v.order} in {v.small}" if v.verdict == "holds-to-order" else ""
+    corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
+    decided = tuple(filter(None, (v.verdict, v.condition, order, corrected)))
+    return f"{v.id}: {equation(v.id).title}", decided, tuple(filter(None, (v.statement.wrong, *v.evidence)))
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,8 @@
 """Tables that the report shows: runs side by side (scripts m…), and what holds beyond the paper (scripts p…)."""
 
+import re
 from dataclasses import dataclass
+from html import escape
 from typing import TypeAlias
 
 import sympy as sp
@@ -18,6 +20,9 @@ class FigureLink:
 # Text, a formula, a link, or several of them one below the other.
 Cell: TypeAlias = "str | sp.Basic | FigureLink | tuple[str | sp.Basic, ...]"
 
+# A letter named in LaTeX, which sympy's MathML does not read.
+_DOTTED = re.compile(r"<mi>\\dot\{(\w+)\}</mi>")
+
 
 @dataclass(frozen=True)
 class Table:
@@ -27,6 +32,26 @@ class Table:
     head: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     note: str = ""
+
+    def _repr_html_(self) -> str:
+        lines = "".join(f"<tr>{''.join(_html(cell, 'td') for cell in row)}</tr>" for row in self.rows)
+        head = "".join(_html(name, "th") for name in self.head)
+        note = f"<p><small>{escape(self.note)}</small></p>" if self.note else ""
+        return f"<table><caption>{escape(self.title)}</caption><tr>{head}</tr>{lines}</table>{note}"
+
+
+def _html(cell: Cell, tag: str) -> str:
+    # Notebooks set numbers to the right, and sentences with them.
+    return f'<{tag} style="text-align:left">{_inside(cell)}</{tag}>'
+
+
+def _inside(cell: Cell) -> str:
+    if isinstance(cell, tuple):
+        return "<br>".join(map(_inside, cell))
+    if isinstance(cell, sp.Basic):
+        drawn = _DOTTED.sub(r"<mover><mi>\1</mi><mo>˙</mo></mover>", sp.mathml(cell, printer="presentation"))
+        return f'<math displaystyle="true">{drawn}</math>'
+    return escape(f"figure {cell.key}" if isinstance(cell, FigureLink) else cell)
 
 
 def tables(prefix: str = "m") -> list[Table]:

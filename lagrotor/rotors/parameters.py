@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from html import escape
 from math import fsum, hypot, isfinite, nan, pi, sqrt
 
 from ..errors import InputError
@@ -218,3 +219,16 @@ class Scene:
             return J, 0.0
         whole, twist = self.link.mass * R**2 / 4, self.link.inertia * (R / self.link.length) ** 2
         return J + whole + twist, whole - twist
+
+    def _repr_html_(self) -> str:
+        rotor, bar, shock = self.rotor, self.link, self.shock
+        vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
+        told = {
+            "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",
+            "rotors": f"{rotor.length:g} m, {rotor.mass:g} kg, I1 = {rotor.I1:g}, I3 = {rotor.I3:g} kg m²",
+            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
+            "shock": f"{shock.force} N on rotor {shock.body}, {shock.at:g} ± {shock.width:g} s" if shock else "none",
+            "r_1, r_2, r_1', r_2'": ", ".join(vectors),
+        }
+        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in told.items())
+        return f"<table><caption>Scene</caption>{rows}</table>"

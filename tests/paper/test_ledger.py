@@ -86,3 +86,13 @@ def test_a_record_has_the_promised_keys() -> None:
     keys = "id section title printed derived verdict condition order small domain correction correction_verdict"
     keys += " depends_on reaches_result evidence seconds"
     assert list(record(verdict_of(x, x))) == keys.split()
+
+
+def test_a_verdict_is_shown_with_what_it_rests_on() -> None:
+    held = verdict_of(x * n, x, given={n: sp.Integer(1)}, condition="a < b", evidence=("c & <d>",))._repr_html_()
+    assert "5.01: " in held
+    assert "holds-if<br>n = 1 (a &lt; b)" in held
+    assert "c &amp; &lt;d&gt;" in held
+    assert "the correction" not in held
+    near = judge(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))._repr_html_()
+    assert "holds-to-order<br>through order 3 in x" in near

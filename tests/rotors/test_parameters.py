@@ -192,3 +192,13 @@ def test_the_shocked_rotor_is_kept_as_an_integer() -> None:
     """1.0 equals 1, yet indexes nothing."""
     assert type(shock(body=1.0).body) is int
     assert type(shock(body=np.int64(2)).body) is int
+
+
+def test_a_scene_is_shown_with_its_numbers() -> None:
+    html = scene(link=Link(1.5, 0.01, 0.1), shock=shock())._repr_html_()
+    assert "10, -10" in html
+    assert "1.5 m, 0.01 kg, 0.1 kg m²" in html
+    assert "(40.0, -11.0, 0.0) N on rotor 1, 2 ± 0.05 s" in html
+    assert "r_1&#x27;" in html, "text is escaped"
+    bare = scene(link=None)._repr_html_()
+    assert all(f"<th>{name}</th><td>none</td>" in bare for name in ("bar", "shock"))
