@@ -102,16 +102,12 @@ class Trajectory:
     def summary(self) -> dict[str, str]:
         """What the run is and how well it kept what it should keep, name → words."""
         first, last = float(self.energy[0]), float(self.energy[-1])
-        scene, bar, shock = self.scene, self.scene.link, self.scene.shock
-        return {
-            "spins [rad/s]": f"{scene.spins[0]:g}, {scene.spins[1]:g}",
-            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
-            "shock": f"{shock.force} N on rotor {shock.body} at {shock.at:g} s" if shock else "none",
+        return self.scene.summary() | {
             "model": f"{self.model}: {self.why}",
             "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
             "evaluations": str(self.evaluations),
             "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
-            "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if bar else "none",
+            "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
         }
 
     def _repr_html_(self) -> str:

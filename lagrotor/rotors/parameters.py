@@ -220,15 +220,18 @@ class Scene:
         whole, twist = self.link.mass * R**2 / 4, self.link.inertia * (R / self.link.length) ** 2
         return J + whole + twist, whole - twist
 
-    def _repr_html_(self) -> str:
+    def summary(self) -> dict[str, str]:
+        """What is spun, joined and struck, name → words."""
         rotor, bar, shock = self.rotor, self.link, self.shock
-        vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
-        told = {
+        return {
             "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",
             "rotors": f"{rotor.length:g} m, {rotor.mass:g} kg, I1 = {rotor.I1:g}, I3 = {rotor.I3:g} kg m²",
             "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
             "shock": f"{shock.force} N on rotor {shock.body}, {shock.at:g} ± {shock.width:g} s" if shock else "none",
-            "r_1, r_2, r_1', r_2'": ", ".join(vectors),
         }
+
+    def _repr_html_(self) -> str:
+        vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
+        told = self.summary() | {"r_1, r_2, r_1', r_2'": ", ".join(vectors)}
         rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in told.items())
         return f"<table><caption>Scene</caption>{rows}</table>"
