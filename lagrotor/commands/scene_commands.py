@@ -52,7 +52,8 @@ def simulate_command(given: argparse.Namespace) -> int:
 
     from ..models.simulate import simulate
 
-    run = simulate(scene, np.linspace(0.0, given.t_end, given.samples), model=given.model, tol=given.tol)
+    times = np.linspace(0.0, given.t_end, given.samples)
+    run = simulate(scene, times, given.model, given.tol, given.engine)
     if given.out:
         run.save(given.out)
     summary = {

@@ -83,6 +83,7 @@ BAD: dict[str, tuple[list[str], str]] = {
     "figure none": (["figure"], "required"),
     "figure folder missing": (["figure", "17", "--out", "missing"], "no folder missing"),
     "report below a missing folder": (["reproduce", "--out", "missing/report"], "is missing"),
+    "unknown engine": ([*SCENE, "--engine", "quick"], "'quick' is neither core nor fast"),
     "no spins": (["simulate"], "--spins"),
     "one spin": (["simulate", "--spins", "10"], "expected 2 arguments"),
     "spin not a number": (["simulate", "--spins", "fast", "10"], "'fast'"),
