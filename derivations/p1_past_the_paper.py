@@ -13,8 +13,8 @@ from lagrotor.paper import scripts
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.rotors.closed_forms import natural_frequency
 from lagrotor.rotors.drift import cancelling_impulse
+from lagrotor.rotors.growth import leading_square
 from lagrotor.rotors.toppling import toppling_threshold
-from lagrotor.study.floquet import leading_square
 from lagrotor.symbols import G_1, G_2, G, Omega, P, att, k, nu, p_y, r0, sigma
 
 _stems = scripts.names("derivations", "t")

@@ -16,8 +16,9 @@ from lagrotor import Link, Scene
 from lagrotor.algebra import decide_zero
 from lagrotor.paper.shown import findings_table
 from lagrotor.rotors.averaged import slow_rates, slow_stiffness
+from lagrotor.rotors.growth import leading_square
 from lagrotor.study.compare import measured_order
-from lagrotor.study.floquet import floquet, leading_square
+from lagrotor.study.floquet import floquet
 from lagrotor.symbols import SWING, G, a, b
 
 statements: list = []

@@ -111,7 +111,9 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
     says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
-    added.add_argument("--tol", type=float, default=1e-9, help="error of the axes, or the solver's of a named model (default: 1e-9)")
+    added.add_argument(
+        "--tol", type=float, default=1e-9, help="error of the axes, or the solver's of a named model (default: 1e-9)"
+    )
     says = "core, or fast where lagrotor[fast] is installed (default: core)"
     added.add_argument("--engine", default="core", help=says)
     added.add_argument(

@@ -13,8 +13,8 @@ from .minimal import MODEL as MINIMAL
 # The linear motion's error is foreseen to leading order: two per cent off where it is small.
 MARGIN = 1.5
 # An integrated run gathers more than its local errors: what is wanted over what the solver is asked for, for a motion that
-# the linear one resembles, and for a wide one, whose neighbours part.
-NEAR, WIDE = 10.0, 3e3
+# the linear one resembles to SMALL, and for a wide one, whose neighbours part.
+NEAR, WIDE, SMALL = 10.0, 3e3, 0.01
 SHORT = 20.0  # turns after which the error is taken to grow with the run
 
 
@@ -55,7 +55,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
             missed = f"normal modes would miss by {error:.1e}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]
-    solver_tol = max(tol / ((NEAR if error < 0.1 else WIDE) * max(1.0, turns / SHORT)), TIGHTEST)
+    solver_tol = max(tol / ((NEAR if error < SMALL else WIDE) * max(1.0, turns / SHORT)), TIGHTEST)
     try:
         MINIMAL.start(scene)
     except LagrotorError as refusal:

@@ -9,7 +9,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import inf, pi, sqrt
+from math import exp, inf, pi, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..errors import DomainError
 from ..mechanics.fourier import FourierSeries
 from ..rotors.closed_forms import natural_rate
+from ..rotors.growth import most_growth
 from ..rotors.orbit import paired_series, shape_of
 from ..rotors.parameters import Link, Rotor, Scene
 from .linear import struck
@@ -33,6 +34,7 @@ _MAY_PART = 1e-9  # what rounding may have grown to
 LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 _ROUND = 4e-16  # relative, of an angle
+_SMALL = 0.1  # of an error, foreseen to first order
 # What exchanging the rotors, half a period later, does to an axis.
 _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
@@ -223,8 +225,9 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
 
     The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
-    series' last terms, which are larger than those left out. Each order costs more to derive than the one before; where
-    the terms fall too slowly for `tol` no further one is, unless the `best` is asked for.
+    series' last terms, which are larger than those left out; both grow exponentially where the orbit is hyperbolic. Each
+    order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
+    the `best` is asked for.
     """
     own, shared = scene.inertias
     width, natural = sqrt((own + shared) / (own - shared)), natural_rate(scene)
@@ -235,18 +238,20 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     error, before = inf, inf
     orders = (*ORDERS, *FURTHER) if best else ORDERS
     r0 = float(guess[0])
+    growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
     for order in orders:
         series = _series(order, shape, ratio)
         last = range(order - 1, order + 1)
         tail = sum(r0**n * series.wave_sizes[n] for n in last)
         slip = sum(r0**n * series.frequency_sizes[n] for n in last) * r0 * max(1.0, width)
-        before, error = error, tail + slip * turned
+        before, error = error, tail * growth + slip * turned
         fall = (error / before) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
         if error <= tol / 4 or (error * fall > tol and not best):
             break
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
-    error += (mismatch + _ROUND) * (1 + turned)
+    error += (mismatch + _ROUND) * (turned + growth)
+    error = error if error < _SMALL else 2.0  # a large slip says nothing but that two axes are at most opposite
     frequency = signed * float(powers @ series.frequency)
     return _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
 

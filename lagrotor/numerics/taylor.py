@@ -2,7 +2,8 @@
 
 heyoka takes its order from the tolerance that it is compiled for, and a step that leaves this tolerance times the largest
 component of the state. A component that stands still, of a size chosen at each run, sets the step apart from the order:
-three orders serve every tolerance, each in the steps that pay. What is compiled is kept for the process, some tenths of a
+three orders serve every tolerance, each in the steps that pay. A cyclic coordinate, which may grow without end, is carried
+so small that it is never the largest. What is compiled is kept for the process, some tenths of a
 second a program and order. The read-out at any time is as exact as the run.
 """
 
@@ -63,7 +64,8 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
         if pulse and driven:
             values = (*values, *pulse.force, width)
         solver.time = left
-        solver.state[:d], solver.state[d] = y, _size(tol)
+        scales = _scales(program, d)
+        solver.state[:d], solver.state[d] = y * scales, _size(tol)
         solver.pars[: len(values)] = values
         until = int(np.searchsorted(asked, right, side="right"))
         grid = asked[done:until]
@@ -75,8 +77,9 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
         )
         if "time_limit" not in str(outcome) or not np.isfinite(states).all():
             raise IntegrationError(f"the Taylor solver stopped near t = {at + solver.time:.6g} s; use engine='core'")
-        found.append(states[before : before + until - done, :d])
-        done, y = until, states[-1, :d]
+        states = states[:, :d] / scales
+        found.append(states[before : before + until - done])
+        done, y = until, states[-1]
         evaluations += steps * solver.order
     return Solution(found[0] if len(found) == 1 else np.concatenate(found), evaluations)
 
@@ -90,17 +93,18 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     (d, n), m = start.shape, len(times)
     states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
     solver = _solver(program, d, False, taylor_order(tol), LANES, get_ident())
-    first = int(times[0] == 0)
+    first, scales = int(times[0] == 0), _scales(program, d)[:, None]
     grid = np.repeat(np.concatenate([[0.0], times[first:]])[:, None], LANES, axis=1)
     for begin in range(0, n, LANES):
         lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
         solver.set_time(np.zeros(LANES))
-        solver.state[:d], solver.state[d], solver.pars[:] = start[:, lanes], _size(tol), parameters[:, lanes]
+        solver.state[:d], solver.state[d] = start[:, lanes] * scales, _size(tol)
+        solver.pars[:] = parameters[:, lanes]
         _, found = solver.propagate_grid(grid, max_steps=_MOST_STEPS)
         kept = min(LANES, n - begin)
         steps = [steps for _, _, _, steps in solver.propagate_res[:kept]]
         stopped = ["time_limit" not in str(outcome) for outcome, *_ in solver.propagate_res[:kept]]
-        states[begin : begin + kept] = found[1 - first :, :d, :kept].transpose(2, 0, 1)
+        states[begin : begin + kept] = (found[1 - first :, :d, :kept] / scales).transpose(2, 0, 1)
         states[begin : begin + kept][stopped] = np.nan
         spent[begin : begin + kept] = np.array(steps) * solver.order
     return states, spent
@@ -141,6 +145,14 @@ def _compiled_for(order: int) -> float:
     return exp(-2 * (order - 1)) * (1 + 1e-9)
 
 
+@lru_cache(maxsize=64)
+def _scales(program: Program, states: int) -> Array:
+    """(d,): 1, or a millionth, rounded to a power of two, for a state on which no rate depends."""
+    stages, outputs = reduce_common(program)
+    used = {s for e in (*(e for _, e in stages), *outputs) for s in e.free_symbols}
+    return np.array([1.0 if s in used else 2.0**-20 for s in program.arguments[:states]])
+
+
 def _heyoka() -> Any:
     try:
         import heyoka
@@ -163,7 +175,8 @@ def _solver(program: Program, states: int, driven: bool, order: int, lanes: int,
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
     rates = _translated(program, known, heyoka)
-    equations = [(known[s], rate) for s, rate in zip(names, rates, strict=True)]
+    scales = _scales(program, states).tolist()
+    equations = [(known[s], rate * scale) for s, rate, scale in zip(names, rates, scales, strict=True)]
     equations.append((heyoka.make_vars("size"), heyoka.expression(0.0)))
     given = {"tol": _compiled_for(order), "fast_math": True}
     if lanes > 1:

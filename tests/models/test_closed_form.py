@@ -88,6 +88,20 @@ def test_a_start_off_the_orbit_is_in_the_error() -> None:
     assert check(scene, 1e-2) > 1e-5
 
 
+@pytest.mark.parametrize(("r0", "t_end"), [(0.4, 200.0), (0.45, 200.0), (0.4, 2000.0), (0.48, 400.0)])
+def test_where_the_orbit_is_hyperbolic_what_is_foreseen_grows(r0: float, t_end: float) -> None:
+    """Over hundreds of turns a start that is off by the series' last terms parts from the orbit."""
+    scene, times = paired_scene(Scene((-5.1, 5.1), link=Link(1.3, 0.5, 0.2)), r0, 15), np.linspace(0, t_end, 60)
+    exact = simulate(scene, times, "minimal", 1e-12).axes
+    for best in (False, True):
+        told = closed_form(scene, t_end, 1e-4, best)
+        assert np.linalg.norm(told.motion(times)[0] - exact, axis=-1).max() < told.error
+    if t_end > 300:  # a slip that large says only that two axes are at most opposite
+        assert told.error == 2.0
+        assert "up to 2.0e+00 is foreseen, more than tol" in simulate(scene, times, "closed_form", 1e-4).why
+    assert closed_form(scene, 0.1, 1e-4).error < 0.1
+
+
 def test_at_rest_nothing_moves() -> None:
     run = simulate(Scene((10, -3), axes=(LEANING[0],) * 2), T, "closed_form")
     assert (run.axes == run.axes[:, :1]).all() and not run.rates.any()

@@ -70,6 +70,19 @@ def test_within_an_order_the_step_follows_the_tolerance(heyoka) -> None:
     assert spent[2] / spent[1] == pytest.approx(100**0.1, rel=0.1)
 
 
+def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
+    """alpha is cyclic: ten thousand turns more change neither the motion nor the steps; twin: any other state does."""
+    scene = Scene((10, -7), **MOVING)
+    start, (form, values) = minimal.MODEL.start(scene), minimal.generated(scene, False)
+    far = start + np.array([0, 0, 2e4 * np.pi, 0, 0, 0])
+    near_run, far_run = (taylor.integrate_taylor(lambda _: (form, values), y, None, TIMES, 1e-11) for y in (start, far))
+    assert far_run.evaluations == near_run.evaluations
+    assert far_run.states[:, :2] == pytest.approx(near_run.states[:, :2], abs=1e-13)
+    assert taylor._scales(form, 6).tolist() == [1, 1, 2.0**-20, 1, 1, 1]
+    driven, _ = minimal.generated(Scene((10, -7), shock=SHOCK_PAIRED), True)
+    assert taylor._scales(driven, 6).tolist() == [1.0] * 6
+
+
 def test_more_points_than_a_block_are_observed_alike(heyoka) -> None:
     """Blocks are put together in order; as numpy has them, with a bar's length that matters."""
     states = np.random.default_rng(3).uniform(-0.5, 0.5, (2 * taylor._BLOCK + 3, 6))

@@ -8,11 +8,12 @@ from lagrotor import Link, Rotor, Scene, natural_rate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models.orbit import exact_orbit
 from lagrotor.models.simulate import simulate
+from lagrotor.rotors.growth import leading_square, most_growth
 from lagrotor.rotors.momentum import paired_momentum
 from lagrotor.rotors.orbit import paired_series
 from lagrotor.study.compare import measured_order
 from lagrotor.study.family import orbit_family, trace_family
-from lagrotor.study.floquet import floquet, leading_square
+from lagrotor.study.floquet import floquet
 from lagrotor.study.variational import flow
 
 # sigma = 5/9, 7/5 and 11/8, with k = 13/10, 4/5 and 1.
@@ -127,6 +128,21 @@ def test_multipliers(link, kind, amplitude):
     square = leading_square(amplitude, (a + b) / (a - b), link.length)
     measured = (found.growth**2 - found.turning**2) / (4 * np.pi**2)
     assert measured == pytest.approx(square, rel=0.1)
+
+
+@pytest.mark.parametrize("link", [
+    Link(1), Link(0.6), Link(1.6), Link(1, 1, 1), Link(1, 0.01, 0.1), Link(1.3, 0.5, 0.2), Link(1, 1, 0.3), Link(1, 1, 0.2),
+    Link(0.7, 1, 0.02), Link(1, 0.1, 0.02),
+])  # fmt: skip
+def test_no_orbit_grows_faster_than_both_laws_together(link):
+    scene, bounded = Scene(spins=(10, -10), link=link), []
+    a, b = scene.inertias
+    for amplitude in (0.2, 0.5):
+        growth = floquet(scene, amplitude).growth / (2 * np.pi)
+        bound = most_growth(amplitude, (a + b) / (a - b), link.length)
+        assert growth <= bound
+        bounded.append(growth > bound / 3)
+    assert any(bounded)  # twin: a third of the bound is none
 
 
 def test_elliptic_turns_hyperbolic_where_the_leading_terms_balance():
