@@ -27,6 +27,7 @@ from .solve import PULSE_REACH, Solution
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 _MOST_STEPS = 1_000_000  # between two edges, beyond which a run is taken to crawl
+_CARRIED = 2.0**-20  # of a cyclic coordinate: a millionth, that rounds nothing
 _BLOCK = 512  # points at once: for more, heyoka wakes threads, which do not pay
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
@@ -64,8 +65,9 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
         if pulse and driven:
             values = (*values, *pulse.force, width)
         solver.time = left
-        scales = _scales(program, d)
-        solver.state[:d], solver.state[d] = y * scales, _size(tol)
+        cyclic = _cyclic(program, d)
+        solver.state[:d], solver.state[d] = y, _size(tol)
+        solver.state[cyclic] *= _CARRIED
         solver.pars[: len(values)] = values
         until = int(np.searchsorted(asked, right, side="right"))
         grid = asked[done:until]
@@ -77,9 +79,9 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
         )
         if "time_limit" not in str(outcome) or not np.isfinite(states).all():
             raise IntegrationError(f"the Taylor solver stopped near t = {at + solver.time:.6g} s; use engine='core'")
-        states = states[:, :d] / scales
-        found.append(states[before : before + until - done])
-        done, y = until, states[-1]
+        states[:, cyclic] /= _CARRIED
+        found.append(states[before : before + until - done, :d])
+        done, y = until, states[-1, :d]
         evaluations += steps * solver.order
     return Solution(found[0] if len(found) == 1 else np.concatenate(found), evaluations)
 
@@ -93,18 +95,20 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     (d, n), m = start.shape, len(times)
     states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
     solver = _solver(program, d, False, taylor_order(tol), LANES, get_ident())
-    first, scales = int(times[0] == 0), _scales(program, d)[:, None]
+    first, cyclic = int(times[0] == 0), _cyclic(program, d)
     grid = np.repeat(np.concatenate([[0.0], times[first:]])[:, None], LANES, axis=1)
     for begin in range(0, n, LANES):
         lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
         solver.set_time(np.zeros(LANES))
-        solver.state[:d], solver.state[d] = start[:, lanes] * scales, _size(tol)
+        solver.state[:d], solver.state[d] = start[:, lanes], _size(tol)
+        solver.state[cyclic] *= _CARRIED
         solver.pars[:] = parameters[:, lanes]
         _, found = solver.propagate_grid(grid, max_steps=_MOST_STEPS)
+        found[:, cyclic] /= _CARRIED
         kept = min(LANES, n - begin)
         steps = [steps for _, _, _, steps in solver.propagate_res[:kept]]
         stopped = ["time_limit" not in str(outcome) for outcome, *_ in solver.propagate_res[:kept]]
-        states[begin : begin + kept] = (found[1 - first :, :d, :kept] / scales).transpose(2, 0, 1)
+        states[begin : begin + kept] = found[1 - first :, :d, :kept].transpose(2, 0, 1)
         states[begin : begin + kept][stopped] = np.nan
         spent[begin : begin + kept] = np.array(steps) * solver.order
     return states, spent
@@ -146,11 +150,11 @@ def _compiled_for(order: int) -> float:
 
 
 @lru_cache(maxsize=64)
-def _scales(program: Program, states: int) -> Array:
-    """(d,): 1, or a millionth, rounded to a power of two, for a state on which no rate depends."""
+def _cyclic(program: Program, states: int) -> list[int]:
+    """Which of the states no rate depends on."""
     stages, outputs = reduce_common(program)
     used = {s for e in (*(e for _, e in stages), *outputs) for s in e.free_symbols}
-    return np.array([1.0 if s in used else 2.0**-20 for s in program.arguments[:states]])
+    return [i for i, s in enumerate(program.arguments[:states]) if s not in used]
 
 
 def _heyoka() -> Any:
@@ -175,8 +179,9 @@ def _solver(program: Program, states: int, driven: bool, order: int, lanes: int,
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
     rates = _translated(program, known, heyoka)
-    scales = _scales(program, states).tolist()
-    equations = [(known[s], rate * scale) for s, rate, scale in zip(names, rates, scales, strict=True)]
+    for i in _cyclic(program, states):
+        rates[i] *= _CARRIED
+    equations = [(known[s], rate) for s, rate in zip(names, rates, strict=True)]
     equations.append((heyoka.make_vars("size"), heyoka.expression(0.0)))
     given = {"tol": _compiled_for(order), "fast_math": True}
     if lanes > 1:
