@@ -62,15 +62,16 @@ def test_spectrum_of_the_exact_model_at_small_amplitude(scene):
     Omega = natural_rate(scene)
     times = 1.5 + np.linspace(0, 2 * np.pi / Omega, 129)
     # What is even in the shock (second order, growing with time) drops out of the half difference.
-    there, back = (simulate(resized(scene, sign), times, "spheres", 1e-13).rates[0, :, 0] for sign in (1, -1))
-    x = (there - back) / 2
+    there, back = (simulate(resized(scene, sign), times, "spheres", 1e-13) for sign in (1, -1))
+    x = (there.rates[0, :, 0] - back.rates[0, :, 0]) / 2
+    reach = np.abs(there.axes[..., :2]).max()
 
     waves = np.column_stack([np.cos(Omega * times), np.sin(Omega * times), np.ones_like(times)])
     coefficients = np.linalg.lstsq(waves, x, rcond=None)[0]
     slope = times * (coefficients[1] * waves[:, 0] - coefficients[0] * waves[:, 1])
     full = np.column_stack([waves, slope])
     shift = np.linalg.lstsq(full, x, rcond=None)[0][3]
-    assert abs(shift) / Omega < 1e-6
+    assert abs(shift) / Omega < 1e-8 + reach**2  # what is left is of third order, where the pair drifts off upright
 
 
 @settings(max_examples=20, deadline=None)
