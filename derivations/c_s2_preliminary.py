@@ -12,7 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.paper.shown import Heard
+from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 BAR, WIDTH, AT = Link(mass=1, inertia=1), 1 / 50, 0.2

@@ -11,10 +11,10 @@ import numpy as np
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.errors import IntegrationError
-from lagrotor.models.rigid_body import finite_rotation, printed_rotation
-from lagrotor.models.spring_link import step_limit
-from lagrotor.models.spring_run import paper_system, run_steps
-from lagrotor.paper.shown import Heard
+from lagrotor.models.spring_link.system.rigid_body import finite_rotation, printed_rotation
+from lagrotor.models.spring_link.system.system import step_limit
+from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 BAR, LIGHT, DT = Link(mass=1, inertia=1), Link(mass=0.01, inertia=0.1), 1e-3

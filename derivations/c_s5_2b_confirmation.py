@@ -12,7 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.paper.shown import Heard
+from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
 
 LIGHT, PAPER_R0 = Link(mass=0.01, inertia=0.1), 0.204

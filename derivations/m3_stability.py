@@ -9,7 +9,7 @@
 
 # %%
 from lagrotor.paper.tables import Table
-from lagrotor.study.stability import limits
+from lagrotor.benchmark.limits.step_size import limits
 
 found = limits(quick=True)
 list(dict.fromkeys(x.regime for x in found))

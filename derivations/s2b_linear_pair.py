@@ -17,9 +17,9 @@ from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import euler_lagrange, jacobian
 from lagrotor.paper import scripts
 from lagrotor.paper.ledger import Statement, chain
-from lagrotor.paper.shown import Formula, Judged
-from lagrotor.rotors.lagrangians import axes_pair
-from lagrotor.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
+from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 
 eps = sp.Symbol("epsilon", positive=True)
 premises = scripts.run("derivations", "s2a_parallel_pair")

@@ -16,8 +16,8 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import total_derivative
 from lagrotor.paper.ledger import Statement, chain
-from lagrotor.paper.shown import Judged
-from lagrotor.symbols import ROTOR
+from lagrotor.paper.notebook import Judged
+from lagrotor.pair.symbols import ROTOR
 
 
 def vector(name: str) -> sp.Matrix:

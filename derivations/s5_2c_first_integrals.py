@@ -15,12 +15,13 @@ import sympy as sp
 from lagrotor import Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import cyclic_coordinates, noether_integral, noether_rate
-from lagrotor.models.orbit import exact_orbit
+from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.paper.ledger import Statement, chain
-from lagrotor.paper.shown import Formula, Judged
-from lagrotor.rotors.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
-from lagrotor.study.compare import ansatz_A, measured_order, swing
-from lagrotor.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
+from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.pair.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
+from lagrotor.pair.trajectory import ansatz_A
+from lagrotor.numerics.convergence import measured_order, swing
+from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
 
 theta_1, theta_2, phi, psi = ANSATZ.q
 _, _, phi_v, psi_v = ANSATZ.v

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.numerics.attitude import body_rotations
+from lagrotor.numerics.rotations import body_rotations
 from lagrotor.pictures.diagram import arc, arrow, canvas, draw_wheel, ground, label, path_arrow
 from lagrotor.pictures.wheel import BAR, INK, RADIUS, ROTORS, Camera
 

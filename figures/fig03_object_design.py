@@ -13,9 +13,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
-from lagrotor.models import spring_link, spring_run
-from lagrotor.models.rigid_body import RigidBody
-from lagrotor.models.spring_link import RigidBodySystem
+from lagrotor.models.spring_link.system import system as spring_link, run as spring_run
+from lagrotor.models.spring_link.system.rigid_body import RigidBody
+from lagrotor.models.spring_link.system.system import RigidBodySystem
 from lagrotor.pictures.diagram import arrow, bare
 from lagrotor.pictures.style import CORRECTED, MODEL, OKABE_ITO
 

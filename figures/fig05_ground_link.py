@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
 from lagrotor import Scene
-from lagrotor.models.spring_run import paper_system
+from lagrotor.models.spring_link.system.run import paper_system
 from lagrotor.pictures.diagram import arrow, canvas, label
 from lagrotor.pictures.wheel import GROUND, INK, MARK, ROTORS
 

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.pictures.style import EXACT, MODEL
-from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.study.struck import paper_run
+from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.paper.shocked_runs import paper_run
 
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"

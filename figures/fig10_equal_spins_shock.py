@@ -11,11 +11,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.models.spring_link import step_limit
-from lagrotor.models.spring_run import paper_system
+from lagrotor.models.spring_link.system.system import step_limit
+from lagrotor.models.spring_link.system.run import paper_system
 from lagrotor.pictures.style import EXACT, MODEL, OKABE_ITO
-from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.study.struck import paper_run, pulse
+from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.paper.shocked_runs import paper_run, pulse
 
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.pictures.panels import shock_figure
-from lagrotor.rotors.scenes import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.study.struck import centre_numbers, centre_off, centre_runs
+from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.paper.shocked_runs import centre_numbers, centre_off, centre_runs
 
 SCENE = SCENES["no-spin"].scene
 TITLE = "No spin, shock along the bar"

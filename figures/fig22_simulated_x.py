@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.pictures.style import EXACT, MODEL, OKABE_ITO
-from lagrotor.rotors.scenes import SCENES
+from lagrotor.pair.examples import SCENES
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
-from lagrotor.rotors.closed_forms import corrected_trajectories, paired_frequency
-from lagrotor.rotors.response import shock_response
-from lagrotor.rotors.scenes import SCENES
-from lagrotor.study.rates import turn_means
+from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
+from lagrotor.theory.shock_response import shock_response
+from lagrotor.pair.examples import SCENES
+from lagrotor.numerics.spectrum import turn_means
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

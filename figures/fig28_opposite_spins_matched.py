@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
 from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.rotors.scenes import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
-from lagrotor.study.rates import peak, spectrum
-from lagrotor.study.struck import paper_run
+from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
+from lagrotor.numerics.spectrum import peak, spectrum
+from lagrotor.paper.shocked_runs import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 BARS = {"heavy": HEAVY, "light": LIGHT}

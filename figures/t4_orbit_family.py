@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
 from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.rotors.orbit import evaluate, paired_series, shape_of
+from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
 
 BARS = {
     "massless, ell = R": Link(1, 0, 0),

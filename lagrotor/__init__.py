@@ -3,34 +3,35 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .rotors.parameters import Link, Rotor, Scene, Shock
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
-    from .models.simulate import simulate
-    from .paper.audit import audit
-    from .rotors.closed_forms import natural_rate
-    from .rotors.consistent import consistent_scene, paired_scene
-    from .rotors.drift import cancelling_force, toppling_after_shock
-    from .rotors.momentum import paired_momentum
-    from .rotors.precession import precession_orbit
-    from .rotors.response import shock_response
-    from .study.family import orbit_family
-    from .study.floquet import floquet
+    from lagrotor.models.simulate import simulate
+    from lagrotor.paper.audit import audit
+    from lagrotor.theory.natural_frequency import natural_rate
+    from lagrotor.pair.initial_conditions import consistent_scene
+    from lagrotor.theory.paired_precession.closed_forms import paired_scene
+    from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
+    from lagrotor.theory.paired_precession.closed_forms import paired_momentum
+    from lagrotor.theory.paired_precession.evaluate import precession_orbit
+    from lagrotor.theory.shock_response import shock_response
+    from lagrotor.models.orbits.continuation import orbit_family
+    from lagrotor.models.orbits.floquet import floquet
 
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
 _LATER = {
     "audit": "lagrotor.paper.audit",
-    "cancelling_force": "lagrotor.rotors.drift",
-    "consistent_scene": "lagrotor.rotors.consistent",
-    "floquet": "lagrotor.study.floquet",
-    "natural_rate": "lagrotor.rotors.closed_forms",
-    "orbit_family": "lagrotor.study.family",
-    "paired_momentum": "lagrotor.rotors.momentum",
-    "paired_scene": "lagrotor.rotors.consistent",
-    "precession_orbit": "lagrotor.rotors.precession",
-    "shock_response": "lagrotor.rotors.response",
+    "cancelling_force": "lagrotor.theory.drift_after_shock",
+    "consistent_scene": "lagrotor.pair.initial_conditions",
+    "floquet": "lagrotor.models.orbits.floquet",
+    "natural_rate": "lagrotor.theory.natural_frequency",
+    "orbit_family": "lagrotor.models.orbits.continuation",
+    "paired_momentum": "lagrotor.theory.paired_precession.closed_forms",
+    "paired_scene": "lagrotor.theory.paired_precession.closed_forms",
+    "precession_orbit": "lagrotor.theory.paired_precession.evaluate",
+    "shock_response": "lagrotor.theory.shock_response",
     "simulate": "lagrotor.models.simulate",
-    "toppling_after_shock": "lagrotor.rotors.drift",
+    "toppling_after_shock": "lagrotor.theory.drift_after_shock",
 }
 
 __version__ = "0.1.0"

@@ -2,6 +2,6 @@
 
 import sys
 
-from .commands.command_line import main
+from lagrotor.commands.command_line import main
 
 sys.exit(main())

@@ -8,11 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .options import check_folder
-from .terminal import progress, table
+from lagrotor.commands.options import check_folder
+from lagrotor.commands.terminal import progress, table
 
 if TYPE_CHECKING:
-    from ..study.measure import Chart
+    from lagrotor.benchmark.runner import Chart
 
 _MARKS = "osD^vp*XP<>hd"
 # Family → what it is called, and its colour's name; in the order of the legend.
@@ -40,9 +40,9 @@ def add_chart(added: argparse.ArgumentParser) -> None:
 
 def chart_command(given: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
-    from ..numerics.files import write_beside, write_text
-    from ..pictures.style import paper_style
-    from ..study.chart import charts
+    from lagrotor.files import write_beside, write_text
+    from lagrotor.pictures.style import paper_style
+    from lagrotor.benchmark.scenes_and_methods import charts
 
     check_folder(given.out)
     with progress(4) as step:
@@ -65,15 +65,15 @@ def chart_command(given: argparse.Namespace) -> int:
 
 def as_data(found: "list[Chart]") -> dict[str, Any]:
     """The charts and the ratios of the displaced scene, for JSON."""
-    from ..study.chart import ratios
+    from lagrotor.benchmark.scenes_and_methods import ratios
 
     return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0])}
 
 
 def in_words(found: "list[Chart]") -> str:
     """The front of each scene, set-up, what failed, and the ratios, as tables."""
-    from ..study.chart import LADDERS, ratios
-    from ..study.measure import front, listed
+    from lagrotor.benchmark.scenes_and_methods import LADDERS, ratios
+    from lagrotor.benchmark.runner import front, listed
 
     parts = []
     for one in found:
@@ -101,8 +101,8 @@ def draw(one: "Chart") -> Any:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-    from ..pictures.style import OKABE_ITO
-    from ..study.measure import front, listed
+    from lagrotor.pictures.style import OKABE_ITO
+    from lagrotor.benchmark.runner import front, listed
 
     families = {p.method: p.family for p in one.points}
     names = [name for family in _FAMILIES for name in families if families[name] == family]

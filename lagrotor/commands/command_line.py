@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from .. import __version__
-from ..errors import LagrotorError
-from .chart_command import add_chart, chart_command
-from .options import Parser, add_pair, add_shock, add_start, check_folder
-from .paper_commands import audit_command, claims_command, reproduce_command
-from .scene_commands import animate_command, rate_command, simulate_command
-from .stability_command import stability_command
-from .terminal import say
+from lagrotor import __version__
+from lagrotor.errors import LagrotorError
+from lagrotor.commands.chart_command import add_chart, chart_command
+from lagrotor.commands.options import Parser, add_pair, add_shock, add_start, check_folder
+from lagrotor.commands.paper_commands import audit_command, claims_command, reproduce_command
+from lagrotor.commands.scene_commands import animate_command, rate_command, simulate_command
+from lagrotor.commands.stability_command import stability_command
+from lagrotor.commands.terminal import say
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
@@ -124,7 +124,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
-    from ..rotors.scenes import SCENES
+    from lagrotor.pair.examples import SCENES
 
     added = command(
         "animate",
@@ -160,8 +160,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _figure(given: argparse.Namespace) -> int:
-    from ..pictures.figures import check_keys, draw
-    from .terminal import progress
+    from lagrotor.pictures.figures import check_keys, draw
+    from lagrotor.commands.terminal import progress
 
     check_folder(given.out)
     keys = check_keys(given.keys)

@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..errors import InputError
-from ..numerics.files import FILMS, PICTURES
-from ..rotors.parameters import Link, Rotor, Scene, Shock
+from lagrotor.errors import InputError
+from lagrotor.files import FILMS, PICTURES
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 
 class Parser(argparse.ArgumentParser):

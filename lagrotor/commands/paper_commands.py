@@ -4,19 +4,19 @@ import argparse
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from ..errors import InputError
-from .terminal import progress, say, table, wrapped
+from lagrotor.errors import InputError
+from lagrotor.commands.terminal import progress, say, table, wrapped
 
 if TYPE_CHECKING:
-    from ..paper.ledger import Statement
+    from lagrotor.paper.ledger import Statement
 
 _LONGEST = 100  # characters of a correction that is shown in a terminal
 
 
 def reproduce_command(given: argparse.Namespace) -> int:
-    from ..report.content import told
-    from ..report.formulas.mathml_latex import converter
-    from ..report.reproduce import recorded, reproduce
+    from lagrotor.report.content import told
+    from lagrotor.report.formulas.mathml_latex import converter
+    from lagrotor.report.reproduce import recorded, reproduce
 
     made = reproduce(given.out, progress)
     page = given.out / "index.html"
@@ -37,10 +37,10 @@ def reproduce_command(given: argparse.Namespace) -> int:
 
 
 def audit_command(given: argparse.Namespace) -> int:
-    from ..paper import audit, scripts
-    from ..paper.catalogue import equation, equations
-    from ..report.content import note, word
-    from ..report.reproduce import changes, outcomes, recorded
+    from lagrotor.paper import audit, scripts
+    from lagrotor.paper.catalogue import equation, equations
+    from lagrotor.report.content import note, word
+    from lagrotor.report.reproduce import changes, outcomes, recorded
 
     for identifier in given.ids:
         equation(identifier)
@@ -72,10 +72,10 @@ def in_a_line(statement: "Statement") -> str:
 
 
 def claims_command(given: argparse.Namespace) -> int:
-    from ..paper import trials
-    from ..paper.catalogue import claims
-    from ..report.content import word
-    from ..report.reproduce import changes, outcomes, recorded
+    from lagrotor.paper import trials
+    from lagrotor.paper.catalogue import claims
+    from lagrotor.report.content import word
+    from lagrotor.report.reproduce import changes, outcomes, recorded
 
     if unknown := [i for i in given.ids if i not in claims()]:
         raise InputError(f"claim {unknown[0]!r} is not in the catalogue: ids run from C01 to C{len(claims()):02d}")

@@ -6,17 +6,17 @@ import math
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..numerics.files import FILMS
-from .options import check_file, check_folder, scene_of, shock_of
+from lagrotor.errors import InputError
+from lagrotor.files import FILMS
+from lagrotor.commands.options import check_file, check_folder, scene_of, shock_of
 
 _MOST_SAMPLES = 10_000_000
 
 
 def animate_command(given: argparse.Namespace) -> int:
-    from ..pictures.animate import animate, check_film
-    from ..rotors.scenes import SCENES
-    from .terminal import progress
+    from lagrotor.pictures.animate import animate, check_film
+    from lagrotor.pair.examples import SCENES
+    from lagrotor.commands.terminal import progress
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
     t_end = ready.duration if given.t_end is None else given.t_end
@@ -25,7 +25,7 @@ def animate_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
-    from ..models.simulate import simulate
+    from lagrotor.models.simulate import simulate
 
     with progress(1 + math.ceil(t_end)) as step:
         step("motion")
@@ -43,14 +43,14 @@ def simulate_command(given: argparse.Namespace) -> int:
     if given.out:
         check_file(given.out)
     if given.out and given.out.suffix in FILMS:
-        from ..pictures.animate import check_film
+        from lagrotor.pictures.animate import check_film
 
         check_film(given.out, given.t_end, 25.0)
     scene = scene_of(given, shock_of(given))
 
     import numpy as np
 
-    from ..models.simulate import simulate
+    from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
     run = simulate(scene, times, given.model, given.tol, given.engine)
@@ -78,7 +78,7 @@ def simulate_command(given: argparse.Namespace) -> int:
 
 
 def _run_table(run: dict[str, Any]) -> str:
-    from .terminal import table
+    from lagrotor.commands.terminal import table
 
     def point(tip: list[float]) -> str:
         return "  ".join(f"{x:.9f}" for x in tip)
@@ -98,9 +98,9 @@ def _run_table(run: dict[str, Any]) -> str:
 def rate_command(given: argparse.Namespace) -> int:
     scene = scene_of(given)
 
-    from ..rotors.closed_forms import natural_rate
-    from ..rotors.rate_limits import natural_rate_limits
-    from .terminal import table
+    from lagrotor.theory.natural_frequency import natural_rate
+    from lagrotor.theory.natural_frequency import natural_rate_limits
+    from lagrotor.commands.terminal import table
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None

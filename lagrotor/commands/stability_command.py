@@ -8,11 +8,11 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from .options import check_folder
+from lagrotor.commands.options import check_folder
 
 if TYPE_CHECKING:
-    from ..study.limits import Limit
-    from ..study.throughput import Throughput
+    from lagrotor.benchmark.limits.threshold import Limit
+    from lagrotor.benchmark.throughput import Throughput
 
 LIMIT_HEAD = ("regime", "what", "predicted", "found", "ratio", "what the tool does")
 THROUGHPUT_HEAD = ("what", "a second", "share", "of")
@@ -24,10 +24,10 @@ def stability_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
-    from ..numerics.files import write_text
-    from ..study.stability import LIMITS, limits
-    from ..study.throughput import throughput
-    from .terminal import progress, table
+    from lagrotor.files import write_text
+    from lagrotor.benchmark.limits.step_size import LIMITS, limits
+    from lagrotor.benchmark.throughput import throughput
+    from lagrotor.commands.terminal import progress, table
 
     with progress(len(LIMITS) + 1 + bool(given.out)) as step:
         found = limits(given.quick, step)
@@ -39,8 +39,8 @@ def stability_command(given: argparse.Namespace) -> int:
             "throughput": [asdict(rate) for rate in rates],
         }
         if given.out:
-            from ..pictures.stability_figure import draw_stability
-            from ..study.usefulness import usefulness
+            from lagrotor.pictures.stability_figure import draw_stability
+            from lagrotor.benchmark.limits.error_map import usefulness
 
             step("figure")
             n, m = (8, 9) if given.quick else (24, 40)

@@ -11,10 +11,10 @@ import sympy as sp
 from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
-from ..errors import SingularError
-from .constraints import Constrained, jacobian
-from .fourier import Coefficient, FourierSeries, constant
-from .lagrangian import euler_lagrange, force_column
+from lagrotor.errors import SingularError
+from lagrotor.mechanics.constraints import Constrained, jacobian
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, constant
+from lagrotor.mechanics.lagrangian import euler_lagrange, force_column
 
 Residual = Callable[[Sequence[FourierSeries], FourierSeries], list[FourierSeries]]
 

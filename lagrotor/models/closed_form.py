@@ -16,14 +16,14 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from ..errors import DomainError
-from ..mechanics.fourier import FourierSeries
-from ..rotors.closed_forms import natural_rate
-from ..rotors.growth import most_growth
-from ..rotors.orbit import paired_series, shape_of
-from ..rotors.parameters import Link, Rotor, Scene
-from .linear import struck
-from .model import Array, Observed, constant_momenta
+from lagrotor.errors import DomainError
+from lagrotor.mechanics.fourier import FourierSeries
+from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.paired_precession.closed_forms import most_growth
+from lagrotor.theory.paired_precession.series import paired_series, shape_of
+from lagrotor.pair.scene import Link, Rotor, Scene
+from lagrotor.models.linear import struck
+from lagrotor.models.model import Array, Observed, constant_momenta
 
 Waves = NDArray[np.complex128]
 ORDERS = (3, 5, 7, 9, 11, 13, 15)

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import SingularError
-from ..numerics.codegen import Program, compile_program
-from ..numerics.rates import rate_factory
-from ..numerics.solve import Rate
-from ..rotors.parameters import Scene
-from .elimination import Ratio, observation, program
-from .model import Array, Model, Observed, constant_momenta, python_rate
+from lagrotor.errors import SingularError
+from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.numerics.rhs import rate_factory
+from lagrotor.numerics.integrate import Rate
+from lagrotor.pair.scene import Scene
+from lagrotor.models.minimal_program import Ratio, observation, program
+from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
 
 
 @lru_cache(maxsize=32)
@@ -101,7 +101,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 def observe_fast(scene: Scene, states: Array) -> Observed:
     """What the model observes, by the fast extra."""
-    from ..numerics.taylor import compile_taylor
+    from lagrotor.numerics.taylor import compile_taylor
 
     value, ratio = _ratio(scene)
     return _observed(scene, compile_taylor(observation(ratio), 6)(states, (value,)))

@@ -7,9 +7,9 @@ from math import exp
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.engines import LOST
-from ..numerics.solve import Projection, Rate
-from ..rotors.parameters import Scene
+from lagrotor.numerics.integrators import LOST
+from lagrotor.numerics.integrate import Projection, Rate
+from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -7,39 +7,39 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, IntegrationError
-from ..numerics.solve import TIGHTEST, Problem, check_tolerance, integrate
-from ..numerics.trajectory import Array, Trajectory
-from ..rotors.parameters import Scene
-from .model import Model, Observed
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics.integrate import TIGHTEST, Problem, check_tolerance, integrate
+from lagrotor.pair.trajectory import Array, Trajectory
+from lagrotor.pair.scene import Scene
+from lagrotor.models.model import Model, Observed
 
 
 def _minimal() -> Model:
-    from .minimal import MODEL
+    from lagrotor.models.minimal import MODEL
 
     return MODEL
 
 
 def _spheres() -> Model:
-    from .spheres import MODEL
+    from lagrotor.models.spheres import MODEL
 
     return MODEL
 
 
 def _euler() -> Model:
-    from .euler import MODEL
+    from lagrotor.models.euler import MODEL
 
     return MODEL
 
 
 def _closed_form(scene: Scene, times: Array, tol: float) -> Observed:
-    from .closed_form import closed_form_run
+    from lagrotor.models.closed_form import closed_form_run
 
     return closed_form_run(scene, times, tol)
 
 
 def _linear(scene: Scene, times: Array, tol: float) -> Observed:
-    from .linear import linear_run
+    from lagrotor.models.linear import linear_run
 
     return linear_run(scene, times)
 
@@ -103,7 +103,7 @@ def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
     """Why, and how far off, a model that was asked for by name; it may miss `tol`."""
     if model != "closed_form":
         return "asked for"
-    from .closed_form import closed_form
+    from lagrotor.models.closed_form import closed_form
 
     answer = closed_form(scene, t_end, tol, best=True)
     missed = ", more than tol" if answer.error > tol else ""
@@ -111,7 +111,7 @@ def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
 
 
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
-    from .choose import choose
+    from lagrotor.models.simulate import choose
 
     choice = choose(scene, float(times[-1]), tol, engine)
     if choice.model in DIRECT:
@@ -130,7 +130,7 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
 def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
     felt = scene
     if scene.shock:
-        from .linear import struck
+        from lagrotor.models.linear import struck
 
         # Time is counted from the pulse: one far off that is not felt would only cost digits.
         felt = scene if struck(scene, float(times[-1])) else replace(scene, shock=None)
@@ -155,8 +155,8 @@ def problem_of(model: Model, scene: Scene, t_end: float) -> Problem:
 
 
 def _fast(model: Model, scene: Scene, times: Array, tol: float) -> tuple[Observed, int]:
-    from ..numerics.taylor import Pulse, integrate_taylor
-    from . import minimal, spheres
+    from lagrotor.numerics.taylor import Pulse, integrate_taylor
+    from lagrotor.models import minimal, spheres
 
     offered = {"minimal": minimal.generated} | ({} if scene.link else {"spheres": spheres.generated})
     if model.name not in offered:

@@ -15,15 +15,15 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..mechanics import acceleration_bias, bias, jacobian, mass_matrix, velocity_residual
-from ..mechanics.lagrangian import linear_solve
-from ..numerics.codegen import Program, Stage, compile_program, solve_symmetric
-from ..numerics.rates import rate_factory
-from ..numerics.solve import Projection, Rate
-from ..rotors.lagrangians import axes_pair
-from ..rotors.parameters import Scene
-from ..symbols import AXES, G_1, G_2, a, b, k
-from .model import Array, Model, Observed, constant_momenta, python_rate
+from lagrotor.mechanics import acceleration_bias, bias, jacobian, mass_matrix, velocity_residual
+from lagrotor.mechanics.lagrangian import linear_solve
+from lagrotor.numerics.codegen import Program, Stage, compile_program, solve_symmetric
+from lagrotor.numerics.rhs import rate_factory
+from lagrotor.numerics.integrate import Projection, Rate
+from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair.scene import Scene
+from lagrotor.pair.symbols import AXES, G_1, G_2, a, b, k
+from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 CLEARANCE = 0.01  # rad; a solver's steps are shorter than that only at tight tolerances

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from .engines import Array, Run, StopError, Stretch
+from lagrotor.numerics.integrators import Array, Run, StopError, Stretch
 
 _BLOCK = 100
 _SWEEPS = 25

@@ -13,7 +13,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.utilities.iterables import topological_sort
 
-from ..errors import SingularError
+from lagrotor.errors import SingularError
 
 Array = NDArray[np.float64]
 Stage = tuple[sp.Symbol, sp.Expr]

@@ -20,9 +20,9 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from ..errors import InputError, IntegrationError
-from .codegen import Program, reduce_common
-from .solve import PULSE_REACH, Solution
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics.codegen import Program, reduce_common
+from lagrotor.numerics.integrate import PULSE_REACH, Solution
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]

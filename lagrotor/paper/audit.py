@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from ..symbols import latex
-from . import scripts
-from .catalogue import equation, equations
-from .ledger import Relation, Statement, Verdict, follow_errors, judge
+from lagrotor.pair.symbols import latex
+from lagrotor.paper import scripts
+from lagrotor.paper.catalogue import equation, equations
+from lagrotor.paper.ledger import Relation, Statement, Verdict, follow_errors, judge
 
 Progress = Callable[[str], None]
 

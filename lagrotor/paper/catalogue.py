@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
+from lagrotor.errors import InputError
 
 _FOLDER = Path(__file__).parent
 # The paper's headings over its equations.

@@ -12,10 +12,10 @@ from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
-from ..algebra import Decision, agreement_order, decide_equal
-from ..errors import InputError, NotExactError
-from .catalogue import equation
-from .tables import Cell, Table
+from lagrotor.algebra import Decision, agreement_order, decide_equal
+from lagrotor.errors import InputError, NotExactError
+from lagrotor.paper.catalogue import equation
+from lagrotor.paper.tables import Cell, Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix

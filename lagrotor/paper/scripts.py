@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import LagrotorError
+from lagrotor.errors import LagrotorError
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 

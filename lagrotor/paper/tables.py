@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from . import scripts
+from lagrotor.paper import scripts
 
 
 @dataclass(frozen=True)

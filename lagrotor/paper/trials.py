@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
 
-from . import scripts
-from .catalogue import claims
+from lagrotor.paper import scripts
+from lagrotor.paper.catalogue import claims
 
 Outcome = Literal["confirmed", "confirmed-if", "refuted"]
 Spins = tuple[float, float]

@@ -17,13 +17,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from ..errors import InputError, LagrotorError
-from ..numerics.attitude import Array, between_samples, body_rotations
-from ..numerics.files import write_beside
-from ..numerics.trajectory import Trajectory
-from ..rotors.parameters import Scene
-from .style import paper_style
-from .wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
+from lagrotor.errors import InputError, LagrotorError
+from lagrotor.numerics.rotations import Array, between_samples, body_rotations
+from lagrotor.files import write_beside
+from lagrotor.pair.trajectory import Trajectory
+from lagrotor.pair.scene import Scene
+from lagrotor.pictures.style import paper_style
+from lagrotor.pictures.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
 
 SUFFIXES = (".gif", ".mp4")
 FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least

@@ -10,9 +10,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InputError
-from ..numerics.files import write_beside
-from ..paper import scripts
+from lagrotor.errors import InputError
+from lagrotor.files import write_beside
+from lagrotor.paper import scripts
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def draw(key: str, folder: Path) -> Picture:
 
     Raises InputError when the folder cannot be written to.
     """
-    from .style import paper_style
+    from lagrotor.pictures.style import paper_style
 
     stem = stems()[key]
     with paper_style():

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .style import paper_style
-from .wheel import ROTORS
+from lagrotor.pictures.style import paper_style
+from lagrotor.pictures.wheel import ROTORS
 
 if TYPE_CHECKING:
-    from ..numerics.trajectory import Trajectory
+    from lagrotor.pair.trajectory import Trajectory
 
 
 class RunFigure(Figure):

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..numerics.files import write_beside
-from ..study.usefulness import USEFUL, Usefulness
-from .style import OKABE_ITO, paper_style
+from lagrotor.files import write_beside
+from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
+from lagrotor.pictures.style import OKABE_ITO, paper_style
 
 STEM = "stability"
 

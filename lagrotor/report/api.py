@@ -12,18 +12,18 @@ from typing import Any
 
 import lagrotor
 
-from .page_pieces import code, prose
+from lagrotor.report.page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
-    "Ensemble": "lagrotor.study.ensemble",
-    "Trajectory": "lagrotor.numerics.trajectory",
-    "choose": "lagrotor.models.choose",
-    "sweep": "lagrotor.study.ensemble",
-    "exact_orbit": "lagrotor.models.orbit",
-    "ClosedForm": "lagrotor.rotors.closed_forms",
-    "corrected_trajectories": "lagrotor.rotors.closed_forms",
-    "paired_frequency": "lagrotor.rotors.closed_forms",
+    "Ensemble": "lagrotor.models.ensemble",
+    "Trajectory": "lagrotor.pair.trajectory",
+    "choose": "lagrotor.models.simulate",
+    "sweep": "lagrotor.models.ensemble",
+    "exact_orbit": "lagrotor.models.orbits.shooting",
+    "ClosedForm": "lagrotor.theory.closed_form",
+    "corrected_trajectories": "lagrotor.theory.paired_precession.closed_forms",
+    "paired_frequency": "lagrotor.theory.paired_precession.closed_forms",
 }
 
 

@@ -2,7 +2,7 @@
 
 import re
 
-from ..paper import scripts
+from lagrotor.paper import scripts
 
 
 def citation() -> tuple[list[str], str]:

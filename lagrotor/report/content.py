@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..paper.catalogue import SECTIONS, Equation, claims, equation, equations
-from ..paper.catalogue import figures as papers_figures
-from ..paper.ledger import Relation, Verdict
-from ..paper.tables import Table
-from ..paper.trials import Result
-from ..pictures.figures import Picture
-from .errata import corrected
+from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equations
+from lagrotor.paper.catalogue import figures as papers_figures
+from lagrotor.paper.ledger import Relation, Verdict
+from lagrotor.paper.tables import Table
+from lagrotor.paper.trials import Result
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.errata import corrected
 
 TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"

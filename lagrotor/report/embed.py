@@ -5,7 +5,7 @@ As a PNG in a palette of 256 most figures are larger, and blurred on a good scre
 
 import re
 
-from ..pictures.figures import Picture
+from lagrotor.pictures.figures import Picture
 
 # Coordinates in points to a hundredth: a fortieth of a pixel on a screen of twice the usual density.
 _DECIMALS = 2

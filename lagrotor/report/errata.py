@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..paper.catalogue import equation
-from ..paper.ledger import Relation, Statement, Verdict
-from ..symbols import latex
-from .latex import END, head, printed, prose
+from lagrotor.paper.catalogue import equation
+from lagrotor.paper.ledger import Relation, Statement, Verdict
+from lagrotor.pair.symbols import latex
+from lagrotor.report.latex import END, head, printed, prose
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import InputError
+from lagrotor.errors import InputError
 
 # How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
 TIMES, MADE = "times.json", "made.json"

@@ -4,25 +4,17 @@ from collections.abc import Callable
 from html import escape
 from pathlib import Path
 
-from ..paper.catalogue import equation
-from ..paper.tables import Table
-from ..pictures.figures import Picture
-from .cite import citation
-from .content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, made_beside, note
-from .errata import errata
-from .formulas.font import font_face
-from .interactive.interactive import interactive
-from .page_parts import (
-    claim_entry,
-    count_entry,
-    equation_entry,
-    erratum_entry,
-    finding_entry,
-    headline_entry,
-    picture_entry,
-)
-from .page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
-from .results import balance, headlines
+from lagrotor.paper.catalogue import equation
+from lagrotor.paper.tables import Table
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.cite import citation
+from lagrotor.report.content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, made_beside, note
+from lagrotor.report.errata import errata
+from lagrotor.report.formulas.font import font_face
+from lagrotor.report.interactive.interactive import interactive
+from lagrotor.report.page_parts import claim_entry, count_entry, equation_entry, erratum_entry, finding_entry, headline_entry, picture_entry
+from lagrotor.report.page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
+from lagrotor.report.results import balance, headlines
 
 _HERE = Path(__file__).parent
 # Hidden until the script shows it: without the script there is nothing that could search.

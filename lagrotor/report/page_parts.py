@@ -2,15 +2,15 @@
 
 from html import escape
 
-from ..paper.catalogue import claims, equation
-from ..paper.ledger import Verdict
-from ..paper.trials import Result
-from ..pictures.figures import Picture
-from .content import Report, anchor, facts, figure_facts, linked_facts, sides
-from .embed import embedded, size
-from .errata import Erratum
-from .page_pieces import badge, code, fact_list, fold, formulas, heading, link, links, numbers, prose, typeset
-from .results import Headline
+from lagrotor.paper.catalogue import claims, equation
+from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.trials import Result
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
+from lagrotor.report.embed import embedded, size
+from lagrotor.report.errata import Erratum
+from lagrotor.report.page_pieces import badge, code, fact_list, fold, formulas, heading, link, links, numbers, prose, typeset
+from lagrotor.report.results import Headline
 
 # Characters of MathML beyond which the derived form stands below the printed one, not beside it.
 _WIDEST = 2_000

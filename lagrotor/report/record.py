@@ -5,10 +5,10 @@ with, `python -m lagrotor.report.record speed` the seconds that the report tells
 import json
 import sys
 
-from ..numerics.files import write_text
-from ..paper import audit, trials
-from ..study.recorded import renew_speed
-from .reproduce import RECORDED, outcomes
+from lagrotor.files import write_text
+from lagrotor.paper import audit, trials
+from lagrotor.benchmark.recorded_speed import renew_speed
+from lagrotor.report.reproduce import RECORDED, outcomes
 
 
 def renew() -> None:

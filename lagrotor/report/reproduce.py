@@ -9,25 +9,25 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from ..errors import LagrotorError
-from ..numerics.files import write_text
-from ..paper import audit, catalogue, scripts, tables, trials
-from ..paper.ledger import Verdict
-from ..paper.scripts import beside
-from ..paper.trials import Result
-from ..pictures import figures
-from ..pictures.figures import Picture
-from . import reuse
-from .api import api_page
-from .content import Report
-from .errata import latex_document
-from .folder import TIMES, check_target, replaced
-from .formulas.mathml_latex import converter
-from .interactive.interactive import interactive
-from .markdown import errata_blocks, markdown
-from .page import page
-from .reuse import Kept, digest
-from .supplement import supplement
+from lagrotor.errors import LagrotorError
+from lagrotor.files import write_text
+from lagrotor.paper import audit, catalogue, scripts, tables, trials
+from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.scripts import beside
+from lagrotor.paper.trials import Result
+from lagrotor.pictures import figures
+from lagrotor.pictures.figures import Picture
+from lagrotor.report import reuse
+from lagrotor.report.api import api_page
+from lagrotor.report.content import Report
+from lagrotor.report.errata import latex_document
+from lagrotor.report.folder import TIMES, check_target, replaced
+from lagrotor.report.formulas.mathml_latex import converter
+from lagrotor.report.interactive.interactive import interactive
+from lagrotor.report.markdown import errata_blocks, markdown
+from lagrotor.report.page import page
+from lagrotor.report.reuse import Kept, digest
+from lagrotor.report.supplement import supplement
 
 RECORDED = Path(catalogue.__file__).with_name("recorded.json")
 # Derivations that state no equation: tables, benchmarks, theory past the paper, the table of it.

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..paper.ledger import Verdict
-from ..symbols import K, m
-from .content import Report, word
+from lagrotor.paper.ledger import Verdict
+from lagrotor.pair.symbols import K, m
+from lagrotor.report.content import Report, word
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from .. import __version__
-from ..numerics.files import write_text
-from ..paper import scripts
-from .folder import MADE
+from lagrotor import __version__
+from lagrotor.files import write_text
+from lagrotor.paper import scripts
+from lagrotor.report.folder import MADE
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")

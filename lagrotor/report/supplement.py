@@ -4,33 +4,16 @@ from collections.abc import Callable, Iterable
 
 import sympy as sp
 
-from ..paper.catalogue import claims, equation
-from ..paper.ledger import Verdict
-from ..paper.tables import Cell, FigureLink, Table
-from ..paper.trials import Result
-from ..pictures.figures import Picture
-from .cite import citation
-from .content import (
-    CLAIM_MEANINGS,
-    HOW_TO_READ,
-    MEANINGS,
-    SUBTITLE,
-    TITLE,
-    Fact,
-    Report,
-    anchor,
-    contents,
-    facts,
-    figure_facts,
-    linked_facts,
-    made_beside,
-    note,
-    sides,
-    word,
-)
-from .errata import errata, latex_block
-from .latex import END, derived, head, inline, printed, prose, table
-from .results import Headline, balance, headlines
+from lagrotor.paper.catalogue import claims, equation
+from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.tables import Cell, FigureLink, Table
+from lagrotor.paper.trials import Result
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.cite import citation
+from lagrotor.report.content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Fact, Report, anchor, contents, facts, figure_facts, linked_facts, made_beside, note, sides, word
+from lagrotor.report.errata import errata, latex_block
+from lagrotor.report.latex import END, derived, head, inline, printed, prose, table
+from lagrotor.report.results import Headline, balance, headlines
 
 
 def supplement(report: Report) -> str:

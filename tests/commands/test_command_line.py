@@ -21,9 +21,9 @@ from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.pictures import figures
 from lagrotor.report import folder, page, reproduce, reuse
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.study import chart as chart_module
-from lagrotor.study.measure import Chart, Point
-from lagrotor.symbols import M, R
+from lagrotor.benchmark import scenes_and_methods as chart_module
+from lagrotor.benchmark.runner import Chart, Point
+from lagrotor.pair.symbols import M, R
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SCENE = ["simulate", "--spins", "10", "-10"]

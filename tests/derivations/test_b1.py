@@ -7,8 +7,8 @@ import pytest
 
 from lagrotor.paper import scripts
 from lagrotor.pictures.style import paper_style
-from lagrotor.study.chart import METHODS
-from lagrotor.study.measure import chart
+from lagrotor.benchmark.scenes_and_methods import METHODS
+from lagrotor.benchmark.runner import chart
 
 
 @pytest.fixture(scope="module")

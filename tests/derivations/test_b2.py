@@ -6,8 +6,8 @@ import pytest
 
 from lagrotor.errors import LagrotorError
 from lagrotor.paper import scripts
-from lagrotor.study import recorded
-from lagrotor.study.chart import LADDERS
+from lagrotor.benchmark import recorded_speed as recorded
+from lagrotor.benchmark.scenes_and_methods import LADDERS
 
 
 @pytest.fixture(scope="module")

@@ -7,12 +7,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Scene, paired_scene, simulate
-from lagrotor.models.orbit import exact_orbit
+from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Verdict, follow_errors, judge
-from lagrotor.rotors.closed_forms import paired_frequency
-from lagrotor.study.compare import ansatz_A, measured_order, swing
+from lagrotor.theory.paired_precession.closed_forms import paired_frequency
+from lagrotor.pair.trajectory import ansatz_A
+from lagrotor.numerics.convergence import measured_order, swing
 
 VERDICTS = {
     **dict.fromkeys(("5.01", "5.02", "5.03", "5.04", "5.05"), "holds-if"),
@@ -53,8 +54,8 @@ def test_which_errors_reach_a_result(verdicts: dict[str, Verdict]) -> None:
 
 def test_the_energy_of_a_rotor_from_its_rotation() -> None:
     """Against scipy's rotations: kinetic energy of a spinning, tilting body that stands on its joint."""
-    from lagrotor.rotors.lagrangians import rotor_lagrangian
-    from lagrotor.symbols import I3, ROTOR, J
+    from lagrotor.pair.lagrangians import rotor_lagrangian
+    from lagrotor.pair.symbols import I3, ROTOR, J
 
     rng = np.random.default_rng(5)
     I1, axial, mass, length, step = 1.1, 0.7, 1.3, 0.9, 1e-6

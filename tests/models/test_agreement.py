@@ -13,7 +13,7 @@ from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import IntegrationError
 from lagrotor.mechanics import project_position, project_velocity, solve_constrained
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.numerics.trajectory import Trajectory
+from lagrotor.pair.trajectory import Trajectory
 
 TIMES = np.linspace(0, 10, 41)
 TOL = 1e-11

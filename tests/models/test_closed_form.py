@@ -9,8 +9,8 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import DomainError
 from lagrotor.models.closed_form import closed_form
-from lagrotor.models.orbit import exact_orbit
-from lagrotor.rotors.twist import parallel_scene
+from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.theory.parallel_precession import parallel_scene
 
 T = np.linspace(0, 5, 101)
 ROTOR = Rotor(1.3, 0.9, 0.7, 1.1)

@@ -9,18 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models.rigid_body import (
-    RigidBody,
-    finite_rotation,
-    inertia_transform,
-    printed_inertia_transform,
-    printed_rotation,
-    rotation_between,
-    skew,
-)
-from lagrotor.models.spring_link import RigidBodySystem, link_force, printed_link_force, step_limit
-from lagrotor.models.spring_run import paper_system, run_solver, run_steps
-from lagrotor.study.stability import found_step_limit, step_grows
+from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation, inertia_transform, printed_inertia_transform, printed_rotation, rotation_between, skew
+from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force, printed_link_force, step_limit
+from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
+from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)

@@ -9,9 +9,9 @@ import pytest
 from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
-from lagrotor.models.elimination import observation, program
+from lagrotor.models.minimal_program import observation, program
 from lagrotor.numerics import taylor
-from lagrotor.rotors.scenes import SHOCK_PAIRED
+from lagrotor.pair.examples import SHOCK_PAIRED
 
 TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
 MOVING = {"rates": ((0.4, 1, 0), (0.4, -0.5, 0))}

@@ -26,7 +26,7 @@ from lagrotor.report.folder import CONTENTS
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page
-from lagrotor.symbols import ANSATZ, ROTOR, M, r0
+from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}

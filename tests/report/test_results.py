@@ -13,7 +13,7 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
 from lagrotor.report.results import balance, headlines
-from lagrotor.symbols import J, M, R, m
+from lagrotor.pair.symbols import J, M, R, m
 
 MEASURED = {
     "C16": {"corrected_shortest": 1.0811, "corrected_longest": 1.0822},

@@ -9,9 +9,9 @@ import sympy as sp
 from sympy.printing.mathml import MathMLPresentationPrinter
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from ...symbols import GLOSSARY
-from .mathml_break import math
-from .mathml_layout import join, laid_out, leaf
+from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.report.formulas.mathml_break import math
+from lagrotor.report.formulas.mathml_layout import join, laid_out, leaf
 
 # A glossary letter: \dot{\theta}_{1} is an accent, a stem and an index.
 _LETTER = re.compile(r"(?:\\(d?dot)\{)?\\?([A-Za-z]+)\}?(?:_\{?(\w+)\}?)?$")

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, tostring
 
-from .mathml_layout import RELATIONS, SIGNS, bracketed, core, join, leaf, row
+from lagrotor.report.formulas.mathml_layout import RELATIONS, SIGNS, bracketed, core, join, leaf, row
 
 # A line of the page in em of its mathematics.
 WIDTH = 36.0

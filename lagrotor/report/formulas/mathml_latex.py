@@ -3,8 +3,8 @@
 from html import unescape
 from importlib.metadata import PackageNotFoundError, version
 
-from .mathml_break import math
-from .mathml_layout import laid_out
+from lagrotor.report.formulas.mathml_break import math
+from lagrotor.report.formulas.mathml_layout import laid_out
 
 
 def converter() -> str:

@@ -15,7 +15,7 @@ from lagrotor.paper.catalogue import equations
 from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
-from lagrotor.symbols import GLOSSARY
+from lagrotor.pair.symbols import GLOSSARY
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
 pytest.importorskip("brotli", reason="brotli unpacks WOFF2")

@@ -1,0 +1,93 @@
+"""What the fast extra could have been: compiled right-hand sides for solvers made by others. heyoka was taken.
+
+Both run the minimal right-hand side, its generated Python compiled by numba; what that takes is in the chart's set-up.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models import minimal
+from lagrotor.numerics.codegen import reduce_common
+from lagrotor.pair.scene import Scene
+from lagrotor.benchmark.runner import Method, Run, tips
+
+Array = NDArray[np.float64]
+_STEP = 12  # evaluations of a step of DOP853, those of its read-out left out
+_LEAST = 3e-14  # what LSODA takes for a tolerance
+
+
+def _compiled(scene: Scene) -> Callable[..., Any]:
+    """y_1 … y_6 ↦ their six rates, as a tuple, compiled by numba for a scene without shock."""
+    import numba
+
+    if scene.shock is not None:
+        raise InputError("takes no shock")
+    program, parameters = minimal.generated(scene, False)
+    stages, outputs = reduce_common(program)
+    function = numba.njit(
+        sp.lambdify(program.arguments, tuple(outputs), "math", cse=lambda _: (stages, tuple(outputs)))
+    )
+
+    @numba.njit
+    def rates(y):  # type: ignore[no-untyped-def]
+        return function(y[0], y[1], y[2], y[3], y[4], y[5], *parameters)
+
+    return rates
+
+
+def cyrk(scene: Scene, times: Array) -> Run:
+    """CyRK: DOP853 in C++, called with the address of a compiled right-hand side. Local error: a tenth of tol."""
+    from CyRK import nb_diffeq_addr, nbsolve2_ivp
+
+    rates, start = _compiled(scene), minimal.MODEL.start(scene)
+
+    def fill(out, t, y, p):  # type: ignore[no-untyped-def]
+        out[0], out[1], out[2], out[3], out[4], out[5] = rates(y)
+
+    address = nb_diffeq_addr(fill)
+
+    def run(tol: float) -> tuple[Array, int]:
+        found = nbsolve2_ivp(
+            address, (0.0, float(times[-1])), start, "DOP853", t_eval=times, rtol=tol / 10, atol=tol / 10
+        )
+        try:
+            if not found.success:
+                raise IntegrationError(f"CyRK stopped with status {found.status}")
+            states, steps = found.y.T.copy(), int(found.steps_taken)
+        finally:
+            found.free()
+        return tips(scene, minimal.MODEL.observe(scene, states).axes), _STEP * steps
+
+    return run
+
+
+def numba_odeint(scene: Scene, times: Array) -> Run:
+    """numba's compiled right-hand side in scipy's odeint. Local error: a hundredth of tol, as LSODA leaves more."""
+    import numba
+    from scipy.integrate import odeint
+
+    rates, start = _compiled(scene), minimal.MODEL.start(scene)
+
+    @numba.njit
+    def rate(t, y):  # type: ignore[no-untyped-def]
+        return np.array(rates(y))
+
+    def run(tol: float) -> tuple[Array, int]:
+        error = max(tol / 100, _LEAST)
+        states, log = odeint(rate, start, times, tfirst=True, rtol=error, atol=error, full_output=True)
+        if log["message"] != "Integration successful.":
+            raise IntegrationError(log["message"])
+        return tips(scene, minimal.MODEL.observe(scene, states).axes), int(log["nfe"][-1])
+
+    return run
+
+
+CANDIDATES: dict[str, Method] = {
+    "minimal, CyRK": Method("candidate", cyrk, extra="candidates"),
+    "minimal, numba": Method("candidate", numba_odeint, extra="candidates"),
+}

@@ -1,0 +1,158 @@
+"""Where coordinates and formulas run out of digits: Euler angles at the pole, the joint line, a printed projection."""
+
+from functools import cache
+from math import cos, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import IntegrationError
+from lagrotor.models import euler, minimal
+from lagrotor.models.model import Model
+from lagrotor.models.spring_link.system.rigid_body import printed_rotation
+from lagrotor.models.simulate import simulate
+from lagrotor.models.spheres import CLEARANCE
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.models.ensemble import started
+from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.benchmark.scipy_solvers import run_by
+
+Array = NDArray[np.float64]
+_EPS = float(np.finfo(float).eps)
+_TINIEST = float(np.finfo(float).smallest_subnormal)
+# Both axes lean by this, and sweep past the pole in 1 s.
+_LEAN, _PASS = 0.5, 1.0
+
+
+def passing(miss: float) -> Scene:
+    """No spins, both axes parallel on one great circle that misses the pole by `miss` rad after 0.5 s.
+
+    Nothing acts on them, as the bar only travels along: they turn uniformly by 1 rad/s, so the motion is known exactly.
+    """
+    start, slope = (r[0] for r in _great_circle(miss, np.array([0.0])))
+    axis, rate = tuple(map(float, start)), tuple(map(float, slope))
+    return Scene((0.0, 0.0), axes=(axis, axis), rates=(rate, rate))  # type: ignore[arg-type]
+
+
+def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
+    """r, r' (n, 3) on the circle through (0, sin miss, cos miss) at t = 0.5 s, towards +x."""
+    nearest, ahead = np.array([0.0, sin(miss), cos(miss)]), np.array([1.0, 0.0, 0.0])
+    phase = (t - _LEAN)[:, None]
+    return np.cos(phase) * nearest + np.sin(phase) * ahead, np.cos(phase) * ahead - np.sin(phase) * nearest
+
+
+@cache
+def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[float, int]:
+    """Error of the axes (rad) after passing the pole by `miss` rad, and evaluations, by DOP853 with a local error of tol."""
+    scene = passing(miss)
+    states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
+    seen = model.observe(scene, states[1:]).axes[:, 0]
+    return float(np.abs(seen - _great_circle(miss, np.array([_PASS]))[0]).max()), spent
+
+
+def euler_limits(quick: bool) -> list[Limit]:
+    """Cost and lost digits of the Euler angles on paths that miss theta = 0."""
+    tol, wanted = 1e-12, 1e-10
+    far, near, nearest = 1e-2, 1e-3, 1e-5
+    spent = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
+    cost = spent[near] + (spent[near] - spent[far]) * np.log(near / nearest) / np.log(far / near)
+
+    def lost(miss: float) -> bool:
+        return max(past_the_pole(miss * share, tol)[0] for share in (1.0, 1.1, 1.2)) > wanted
+
+    found = threshold(lost, _EPS / wanted / 100, 100 * _EPS / wanted, 0.3 if quick else 0.03)
+    tool = "euler refuses a start within 1e-3 rad; auto never takes it"
+    regular = past_the_pole(nearest, tol, minimal.MODEL)[1]
+    return [
+        Limit(
+            "Euler angles near theta = 0: cost",
+            f"evaluations over 1 rad that misses the pole by {nearest:g} rad (minimal: {regular})",
+            "N + c log(1/miss), N and c from 1e-2 and 1e-3",
+            float(cost),
+            float(spent[nearest]),
+            tool,
+        ),
+        Limit(
+            "Euler angles near theta = 0: digits",
+            f"least miss (rad) with an error under {wanted:g}, the local error being {tol:g}",
+            "error = eps/(4 miss): psi' and phi', each 1/miss there and rounded, make up the spin",
+            _EPS / (4 * wanted),
+            found,
+            tool,
+        ),
+    ]
+
+
+def joint_line_limits(quick: bool) -> list[Limit]:
+    """The minimal model's coordinates near the joint line, where x = tanh u comes within rounding of 1."""
+    wanted, tol = 1e-6, 1e-10
+
+    def lost(distance: float) -> bool:
+        """By the model's own start and its own reading of it."""
+        off = []
+        for d in distance * np.linspace(1, 1.5, 40):
+            axis = (float(np.sqrt(1 - d * d)), 0.0, float(d))
+            scene = Scene((3.0, -3.0), axes=(axis, axis))
+            seen = minimal.MODEL.observe(scene, minimal.MODEL.start(scene)[None]).axes[0, 0]
+            off.append(abs(np.hypot(seen[1], seen[2]) / d - 1))
+        return max(off) > wanted
+
+    return [
+        Limit(
+            "an axis near the joint line",
+            f"distance from it (rad) that the minimal model's U gives to {wanted:g} of itself",
+            "sqrt(eps/(4 share)): x = 1 − d²/2 is rounded by eps/4",
+            sqrt(_EPS / (4 * wanted)),
+            threshold(lost, 3e-6, 1e-3, 0.1 if quick else 0.01),
+            "minimal refuses a start within 1e-6 rad, auto goes on by spheres",
+        ),
+        Limit(
+            "a bar shorter than the axes, folding over (chi past pi/2)",
+            "difference between minimal and spheres through the fold (R)",
+            "none: chi is regular there; no more than the tolerance",
+            tol,
+            fold_difference(tol),
+            "nothing needs to be done",
+        ),
+        Limit(
+            "the constraints where bar and axes are in line",
+            "how far from it (rad) a swinging pair must pass for spheres to go on",
+            f"{CLEARANCE:g}/sqrt(2), both axes counted: within it the three gradients are as good as dependent",
+            CLEARANCE / sqrt(2),
+            threshold(lambda miss: not passes(miss), 1e-3, 0.1, 0.1 if quick else 0.01),
+            "spheres stops, and says where; closed_form refuses",
+        ),
+    ]
+
+
+def passes(miss: float) -> bool:
+    """Whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
+    swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
+    try:
+        simulate(swing, [2.0], "spheres", 1e-8)
+    except IntegrationError:
+        return False
+    return True
+
+
+def fold_difference(tol: float) -> float:
+    """Largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
+    scene = started(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
+    one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol).axes for model in ("minimal", "spheres"))
+    return float(np.abs(one - other).max())
+
+
+def projection_limits(quick: bool) -> list[Limit]:
+    """The printed projection Omegaᵀ Omega / |Omega|² (3.16) when the square underflows."""
+    return [
+        Limit(
+            "the printed projection at tiny angular velocity",
+            "|Omega| (rad/s) below which it is 0/0",
+            "sqrt(least double / 2): |Omega|² is rounded to zero",
+            sqrt(0.5) * sqrt(_TINIEST),
+            threshold(
+                lambda size: not np.isnan(printed_rotation(np.array([[0.0, 0.0, size]]), 1e-3)).any(), 1e-170, 1e-150
+            ),
+            "finite_rotation divides by hypot: right for every Omega",
+        )
+    ]

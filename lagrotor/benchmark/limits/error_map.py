@@ -1,0 +1,58 @@
+"""The error of the paired orbit's closed forms over amplitude and spin ratio: one ensemble, run exactly, beside each."""
+
+from dataclasses import dataclass, replace
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import InputError
+from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.pair.scene import Scene
+from lagrotor.models.ensemble import sweep
+from lagrotor.benchmark.limits.range_of_validity import series_axes
+
+Array = NDArray[np.float64]
+USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction
+_TIMES = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Usefulness:
+    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, errors (orders, m, n) in R.
+
+    error: largest distance over the first turn between the axes of the series, which holds for opposite spins, and of
+    the exact pair started alike.
+    """
+
+    amplitudes: Array
+    departures: Array
+    orders: tuple[int, ...]
+    errors: Array
+
+
+def usefulness(
+    amplitudes: Array, departures: Array, orders: tuple[int, ...] = (1, 3, 5), spin: float = 10.0, tol: float = 1e-10
+) -> Usefulness:
+    """Run every scene of the grid over one turn and hold each series to it, in time, with the series' own frequency.
+
+    Raises InputError for amplitudes or departures that are not rows of numbers.
+    """
+    from lagrotor.theory.natural_frequency import natural_rate
+    from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
+
+    if np.ndim(amplitudes) != 1 or np.ndim(departures) != 1 or not len(amplitudes) or not len(departures):
+        raise InputError("usefulness: amplitudes and departures must be rows of numbers")
+    base = Scene((spin, -spin))
+    starts = [exact_orbit(base, float(r0)).scene for r0 in amplitudes]
+    scenes = [replace(scene, spins=(spin, -spin * (1 - float(d)))) for d in departures for scene in starts]
+    times = 2 * pi / natural_rate(base) * np.arange(1, _TIMES + 1) / _TIMES
+    exact = sweep(scenes, times, tol).axes.reshape(len(departures), len(amplitudes), 2, _TIMES, 3)
+    errors = np.empty((len(orders), len(departures), len(amplitudes)))
+    for i, order in enumerate(orders):
+        series = paired_series(order, *shape_of(base))
+        for j, r0 in enumerate(amplitudes):
+            phases = natural_rate(base) * float(evaluate(series.frequency, float(r0), 0.0)) * times
+            off = exact[:, j] - series_axes(base, order, float(r0), phases)
+            errors[i, :, j] = np.linalg.norm(off, axis=-1).max((1, 2))
+    return Usefulness(np.asarray(amplitudes, float), np.asarray(departures, float), orders, errors)

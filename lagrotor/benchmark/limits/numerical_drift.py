@@ -1,0 +1,145 @@
+"""What grows with time: constraints that are only kept as accelerations, energy and phase over thousands of turns."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.models import spheres
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.simulate import simulate
+from lagrotor.pair.trajectory import Trajectory
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.benchmark.scipy_solvers import run_by
+
+Array = NDArray[np.float64]
+# A displaced start in large motion; a bar of which the paired precession is elliptic, so that errors only grow slowly.
+DRIFTING = Scene((10.0, -10.0), rates=((1.5, 1.0, 0.0), (1.5, -0.5, 0.0)))
+STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))
+
+
+def constraint_drift(scene: Scene, step: float, count: int, every: int, projected: bool = False) -> Array:
+    """Distance of the `spheres` state from its constraints after every `every` of `count` classical Runge–Kutta steps.
+
+    The largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R, (count // every,).
+    """
+    rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
+    assert scene.link is not None and spheres.MODEL.projection is not None
+    project, off = spheres.MODEL.projection(scene), []
+    k = scene.link.length / scene.rotor.length
+    for number in range(1, count + 1):
+        one = np.array(rate(0.0, y))
+        two = np.array(rate(0.0, y + step / 2 * one))
+        three = np.array(rate(0.0, y + step / 2 * two))
+        four = np.array(rate(0.0, y + step * three))
+        y = y + step / 6 * (one + 2 * two + 2 * three + four)
+        if projected:
+            y = np.array(project(y))
+        if number % every == 0:
+            r1, r2 = y[:3], y[3:6]
+            bar = np.linalg.norm(np.array([k, 0, 0]) + r2 - r1) - k
+            off.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
+    return np.array(off)
+
+
+def drift_limits(quick: bool) -> list[Limit]:
+    """Drift of the `spheres` equations, which hold the constraints' second derivatives at zero, in time and step."""
+    step, end, allowed = 0.005, 16.0, 1e-6
+    steps = np.array([4, 2, 1]) * step
+    ends = np.array([constraint_drift(DRIFTING, h, round(end / h), round(end / h))[0] for h in steps])
+    along = constraint_drift(DRIFTING, step, round(end / step), round(end / step) // 16)
+    times = end * np.arange(1, 17) / 16
+    leading = ends[0] / (end**2 * steps[0] ** 4)
+    law = "g'' = 0, so an error h^5 a step in g' gives g ~ t² h⁴"
+    regime = "drift of index-reduced equations"
+    tool = "spheres is projected; minimal has no constraint"
+    kept = constraint_drift(DRIFTING, step, 200, 1, projected=True).max()
+    crossing = np.interp(np.log(allowed), np.log(along), np.log(times))
+    return [
+        Limit(regime, "power of time, fourth-order steps", law, 2.0, measured_order(times, along), tool),
+        Limit(regime, "power of the step", law, 4.0, measured_order(steps, ends), tool),
+        Limit(
+            regime,
+            f"time (s) to {allowed:g} R with steps of {1e3 * step:g} ms",
+            f"the same, from steps of {1e3 * steps[0]:g} ms over {end:g} s",
+            float(np.sqrt(allowed / (leading * step**4))),
+            float(np.exp(crossing)),
+            tool,
+        ),
+        Limit(
+            regime,
+            "most that is left after each projection (R)",
+            "rounding: eps",
+            float(np.finfo(float).eps),
+            float(kept),
+            "projects by one Newton step",
+        ),
+    ]
+
+
+@dataclass(frozen=True)
+class LongRun:
+    """Drift after `turns`: of the energy (relative), of the momentum P (against G), of the phase (rad, while small)."""
+
+    turns: Array
+    energy: Array
+    momentum: Array
+    phase: Array
+    evaluations: int
+
+
+def long_run(turns: int, solver: str, tol: float) -> LongRun:
+    """The paired precession of STEADY at r0 = 0.2 by "simulate" or one of SOLVERS, read at a hundred whole turns.
+
+    The orbit is periodic and elliptic: every turn ends where it began, and what is off is the method's.
+    """
+    orbit = exact_orbit(STEADY, 0.2)
+    times = 2 * pi / abs(orbit.frequency) * np.linspace(0, turns, 101)
+    if solver == "simulate":
+        run = simulate(orbit.scene, times, "minimal", tol)
+    else:
+        states, spent = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
+        seen = MODEL.observe(orbit.scene, states)
+        run = Trajectory(orbit.scene, "minimal", solver, times, seen.axes, seen.rates, seen.momenta, spent)
+    spinning = (run.momenta[:, 0] ** 2).sum() / (2 * run.scene.rotor.I3)
+    momentum = run.joint_line_momentum
+    off, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
+    phase = abs(orbit.frequency) * (off * ahead).sum((0, 2)) / (ahead**2).sum()
+    return LongRun(
+        np.linspace(0, turns, 101),
+        np.abs(run.energy / run.energy[0] - 1) * run.energy[0] / (run.energy[0] - spinning),
+        np.abs(momentum - momentum[0]) / abs(run.momenta[0, 0]),
+        np.abs(phase),
+        run.evaluations,
+    )
+
+
+def long_limits(quick: bool) -> list[Limit]:
+    """Energy, momentum and phase after 10,000 turns (200 when quick) against what the first tenth promises."""
+    turns = 200 if quick else 10_000
+    runs = [("simulate", 1e-9), ("DOP853", 1e-8)]
+    runs += [] if quick else [("Adams (VODE)", 1e-8), ("Dormand–Prince 5", 1e-7)]
+    rows = []
+    for solver, tol in runs:
+        run = long_run(turns, solver, tol)
+        for name, values, power, law in (
+            ("energy, relative", run.energy, 1, "ten times that after a tenth: it grows as t"),
+            ("momentum P / G", run.momentum, 1, "ten times that after a tenth: it grows as t"),
+            ("phase (rad)", run.phase, 2, "a hundred times that after a tenth: it grows as t²"),
+        ):
+            rows.append(
+                Limit(
+                    f"{turns:,} turns by {solver} at {tol:g}",
+                    f"drift of {name}",
+                    law,
+                    float(values[:11].max()) * 10**power,
+                    float(values.max()),
+                    f"auto takes the closed form where one holds; else the run's own integrals tell ({run.evaluations:,} "
+                    "evaluations)",
+                )
+            )
+    return rows

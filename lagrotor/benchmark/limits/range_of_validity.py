@@ -1,0 +1,169 @@
+"""How far closed forms, and predictions at all, reach: amplitude, spins that are not quite opposite, no spin, time."""
+
+from dataclasses import replace
+from functools import lru_cache
+from math import exp, log, pi, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
+from lagrotor.models.simulate import simulate
+from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.paired_precession.series import PairedSeries, evaluate, paired_series, shape_of
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.parallel_precession import parallel_scene
+from lagrotor.models.ensemble import started
+from lagrotor.models.orbits.floquet import floquet_of
+from lagrotor.benchmark.limits.threshold import Limit, threshold
+
+Array = NDArray[np.float64]
+PAIR = Scene((10.0, -10.0))
+_PHASES = np.linspace(0, 2 * pi, 25)
+
+
+def _series(scene: Scene, order: int) -> PairedSeries:
+    return paired_series(order, *shape_of(scene))
+
+
+def series_axes(scene: Scene, order: int, r0: float, phases: ArrayLike) -> Array:
+    """Axes (2, n, 3) of the paired precession of amplitude r0 at phases (n,), by the series through r0**order."""
+    series, widths = _series(scene, order), np.array([1.0, sqrt(shape_of(scene)[0]), 1.0])
+    at = np.asarray(phases, dtype=float)
+    first, second = (
+        np.stack([evaluate(part, r0, at + shift) for part in (series.x, series.Y, series.z)], axis=-1) * widths
+        for shift in (0.0, pi)
+    )
+    return np.stack([first, second * [-1.0, 1.0, 1.0]])
+
+
+def series_error(scene: Scene, order: int, r0: float) -> float:
+    """Largest distance between the axes of the series and of the exact orbit at equal phases, over a turn."""
+    orbit = _orbit(scene, r0)
+    times = _PHASES / abs(orbit.frequency)
+    exact = simulate(orbit.scene, times, "minimal", 1e-11).axes
+    return float(np.linalg.norm(series_axes(scene, order, r0, _PHASES) - exact, axis=-1).max())
+
+
+@lru_cache(maxsize=256)
+def _orbit(scene: Scene, r0: float) -> ExactOrbit:
+    return exact_orbit(scene, r0)
+
+
+def next_term(scene: Scene, order: int) -> float:
+    """Largest size over a turn of the coefficient of r0**(order + 1) in the axes."""
+    phases, small = np.linspace(0, 2 * pi, 181), 0.5
+    more, less = (series_axes(scene, n, small, phases) for n in (order + 1, order))
+    return float(np.linalg.norm(more - less, axis=-1).max()) / small ** (order + 1)
+
+
+def amplitude_limits(quick: bool) -> list[Limit]:
+    """The amplitude at which the series of an order is off by a given distance."""
+    from scipy.optimize import brentq
+
+    rows = []
+    for order, wanted in ((1, 1e-2), (3, 1e-3), (5, 1e-4)) if quick else ((1, 1e-2), (3, 1e-3), (5, 1e-4), (9, 1e-6)):
+        predicted = (wanted / next_term(PAIR, order)) ** (1 / (order + 1))
+
+        def beyond(x: float, order: int = order, wanted: float = wanted) -> float:
+            return log(series_error(PAIR, order, exp(x)) / wanted)
+
+        near, far = log(predicted / 1.5), log(min(1.5 * predicted, 0.8))
+        rows.append(
+            Limit(
+                "amplitude of the closed form",
+                f"r0 at which order {order} is off by {wanted:g} R at equal phase",
+                f"(error / c)^(1/{order + 1}), c the next coefficient",
+                predicted,
+                exp(brentq(beyond, near, far, xtol=0.02 if quick else 1e-4)),
+                "states its order; refuses |r0| >= 1",
+            )
+        )
+    return rows
+
+
+def off_opposite(share: float, r0: float = 0.1, turns: float = 1.0) -> float:
+    """Distance from the periodic orbit after `turns` when spin 2 is −(1 − share) times spin 1."""
+    orbit = _orbit(PAIR, r0)
+    first = PAIR.spins[0]
+    times = turns * _PHASES[1:] / abs(orbit.frequency)
+    exact = simulate(orbit.scene, times, "minimal", 1e-12).axes
+    moved = simulate(replace(orbit.scene, spins=(first, -first * (1 - share))), times, "minimal", 1e-12).axes
+    return float(np.linalg.norm(moved - exact, axis=-1).max())
+
+
+def off_equal(share: float, r0: float) -> float:
+    """How far apart the axes of a parallel pair twist within a turn when spin 2 is (1 − share) times spin 1."""
+    start = parallel_scene(Scene((10.0, 10.0)), r0)
+    times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
+    axes = simulate(replace(start, spins=(10.0, 10.0 * (1 - share))), times, "minimal", 1e-12).axes
+    return float(np.linalg.norm(axes[1] - axes[0], axis=-1).max())
+
+
+def spin_limits(quick: bool) -> list[Limit]:
+    """Spins that are not quite opposite, and spins too slow to hold the pair up."""
+    wanted, tiny, r0 = 1e-2, 1e-5, 0.1
+    found = threshold(lambda share: off_opposite(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01)
+    push, bar = 1.0, Scene((1.0, 1.0))
+    heavy = sum(bar.inertias)
+
+    def falls(spin: float) -> bool:
+        scene = Scene((spin, spin), rates=((0.0, push, 0.0), (0.0, push, 0.0)))
+        turn = 2 * pi / max(natural_rate(scene), push)
+        return bool(simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-8).axes[..., 2].min() < 0)
+
+    return [
+        Limit(
+            "spins nearly opposite",
+            f"(G_1 + G_2)/G_1 that puts the pair {wanted:g} R off the closed orbit of r0 = {r0:g} in a turn",
+            f"error ~ (G_1 + G_2), its slope from {tiny:g}",
+            wanted * tiny / off_opposite(tiny, r0),
+            found,
+            "refuses spins that are not exactly opposite",
+        ),
+        Limit(
+            "spins nearly equal",
+            f"(G_1 − G_2)/G_1 that twists parallel axes {wanted:g} R apart in a turn, inclined by {r0:g}",
+            f"error ~ (G_1 − G_2), its slope from {tiny:g}",
+            wanted * tiny / off_equal(tiny, r0),
+            threshold(lambda share: off_equal(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01),
+            "closed_form refuses spins that are not exactly equal or opposite",
+        ),
+        Limit(
+            "spins going to zero",
+            f"equal spins (rad/s) below which a push of {push:g} R/s lays the upright axes flat",
+            "(a + b) push / I_3: the largest inclination is 2 atan((a + b) push / G)",
+            heavy * push / bar.rotor.I3,
+            threshold(falls, 0.5 * heavy, 2 * heavy, 0.01 if quick else 0.001),
+            "none: parallel equal spins are one rotor in closed form at any inclination",
+        ),
+    ]
+
+
+def horizon_limits(quick: bool) -> list[Limit]:
+    """When two solutions 1e-11 apart have nothing left in common but the energy."""
+    apart, lost, rows = 1e-11, 1e-2, []
+    for r0 in (0.6,) if quick else (0.6, 0.5):
+        orbit = _orbit(PAIR, r0)
+        predicted = log(lost / apart) / floquet_of(orbit).growth
+        turn = 2 * pi / abs(orbit.frequency)
+        rows.append(
+            Limit(
+                "the horizon of prediction",
+                f"turns until two starts {apart:g} apart at r0 = {r0:g} differ by {lost:g}",
+                "log(1/delta)/lambda, lambda of the exact Floquet multipliers",
+                predicted,
+                _parting(orbit.scene, turn * np.arange(0, 1.1 * predicted, 0.02), apart, lost) / turn,
+                "nothing goes beyond it: only means hold there",
+            )
+        )
+    return rows
+
+
+def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
+    """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
+    state = MODEL.start(scene)
+    one, other = (simulate(s, times, "minimal", 1e-12).axes for s in started(scene, [state, state + apart]))
+    away = np.linalg.norm(one - other, axis=-1).max(0) > lost
+    return float(times[np.argmax(away)]) if away.any() else float("inf")

@@ -1,0 +1,98 @@
+"""Where methods fail: each threshold predicted by a formula, and found by trying."""
+
+from collections.abc import Callable
+from copy import deepcopy
+
+import numpy as np
+
+from lagrotor.models.spring_link.system.rigid_body import RigidBody
+from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
+from lagrotor.models.spring_link.system.run import paper_system
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STIFFNESS
+from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joint_line_limits, projection_limits
+from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
+from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
+
+
+def step_grows(system: RigidBodySystem, dt: float, steps: int = 1000) -> bool:
+    """Whether a disturbance of 1e-9 m in the bodies' places has opened a joint beyond 1e-5 m after so many steps of dt."""
+    moving = deepcopy(system)
+    moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(steps):
+            moving.compute_forces()
+            moving.step(dt)
+            if not np.abs(moving.gaps(moving.X, moving.R)).max() < 1e-5:
+                return True
+    return False
+
+
+def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
+    """The longest stable step (s) by bisection between 0.8 and 1.2 of the predicted one; to 0.4 / 2**halvings of it."""
+    predicted = step_limit(system).whole
+    low, high = 0.8 * predicted, 1.2 * predicted
+    for _ in range(halvings):
+        middle = (low + high) / 2
+        low, high = (low, middle) if step_grows(system, middle) else (middle, high)
+    return (low + high) / 2
+
+
+def _bar_on_rotor(bar: Link) -> RigidBodySystem:
+    """A rotor's tip joined to an end of the bar, and nothing else: the tip joint as if the others were cut."""
+    zero, one, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
+    rotor = RigidBody(z, np.array([-z, z]), one, one, 1.0, zero, zero)
+    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * one, one, bar.mass, zero, zero)
+    system = RigidBodySystem([rotor, link], STIFFNESS, DAMPING)
+    system.link(1, 2, 2, 1)
+    return system
+
+
+def step_limits(quick: bool) -> list[Limit]:
+    """The longest stable step of the paper's method: each kind of joint by itself, and all together."""
+    systems = {
+        "a ground joint alone": paper_system(Scene((0.0, 0.0), link=None), STIFFNESS, DAMPING),
+        "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY),
+        "a tip joint alone, bar of 0.01 kg": _bar_on_rotor(LIGHT),
+        "all joints, bar of 1 kg": paper_system(Scene((10.0, -10.0), link=HEAVY), STIFFNESS, DAMPING),
+        "all joints, bar of 0.01 kg": paper_system(Scene((10.0, -10.0), link=LIGHT), STIFFNESS, DAMPING),
+    }
+    law = "4/(w D + sqrt((w D)² + 4 w S)), w the largest mobility"
+    tool = "run_steps stops where the state blows up, and names the limit"
+    return [
+        Limit(
+            "explicit steps on stiff links",
+            f"longest stable step (s): {name}",
+            law,
+            step_limit(system).whole,
+            found_step_limit(system, 4 if quick else 7),
+            tool,
+        )
+        for name, system in systems.items()
+    ]
+
+
+LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
+    "stiff links": step_limits,
+    "Euler angles": euler_limits,
+    "joint line": joint_line_limits,
+    "projection": projection_limits,
+    "drift": drift_limits,
+    "amplitude": amplitude_limits,
+    "spins": spin_limits,
+    "long runs": long_limits,
+    "horizon": horizon_limits,
+}
+
+
+def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Limit]:
+    """Every limit: in a minute or two, or in seconds, with shorter runs and coarser thresholds, when `quick`.
+
+    step: called with the name of each regime before it is tried.
+    """
+    rows = []
+    for name, tried in LIMITS.items():
+        step(name)
+        rows += tried(quick)
+    return rows

@@ -1,0 +1,108 @@
+"""The slow motion after a shock, measured on exact runs: mean rates, the force that cancels a drift, times to leave.
+
+What oscillates is wiped out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: a term of n turns within
+it leaves about exp(−sqrt(4 pi n)) of itself.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import DomainError, InputError
+from lagrotor.models.simulate import simulate
+from lagrotor.pair.trajectory import Trajectory
+from lagrotor.theory.drift_after_shock import cancelling_force
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.shock_response import shock_response
+
+Array = NDArray[np.float64]
+_SAMPLES = 32  # a turn of the swing
+
+
+def mean_over(t: Array, values: Array) -> float:
+    """Mean of values (n,) at evenly spaced times t (n,), oscillations wiped out. Raises DomainError for n < 8."""
+    if len(t) < 8:
+        raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
+    u = (t[1:-1] - t[0]) / (t[-1] - t[0])
+    weight = np.exp(-1 / (u * (1 - u)))
+    return float((weight * values[1:-1]).sum() / weight.sum())
+
+
+def turning_rate(run: Trajectory) -> float:
+    """Mean alpha' (rad/s) of both axes over a run of evenly spaced times."""
+    r, v = run.axes, run.rates
+    rate = (r[..., 1] * v[..., 2] - r[..., 2] * v[..., 1]) / (r[..., 1] ** 2 + r[..., 2] ** 2)
+    return mean_over(run.t, rate.mean(0))
+
+
+def wandering_rate(run: Trajectory) -> float:
+    """Mean x' (1/s) of both axes over a run of evenly spaced times."""
+    return mean_over(run.t, run.rates[..., 0].mean(0))
+
+
+def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
+    """An exact run over `turns` swings from the end of the scene's shock, evenly sampled.
+
+    Raises InputError without a shock or spin.
+    """
+    response = shock_response(scene)
+    if scene.shock is None or response.frequency == 0:
+        raise InputError("run_after: the scene needs a shock and a spin")
+    begin = scene.shock.at + 6.5 * scene.shock.width
+    t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, turns * _SAMPLES + 1)
+    return simulate(scene, t, "minimal", tol)
+
+
+def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
+    """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes."""
+    from scipy.optimize import newton
+
+    if scene.shock is None:
+        raise InputError("exact_cancelling_force: the scene has no shock")
+    shock, guess = scene.shock, cancelling_force(scene)
+
+    def turning(force: float) -> float:
+        moved = replace(shock, force=(shock.force[0], force, 0.0))
+        return turning_rate(run_after(replace(scene, shock=moved), turns))
+
+    return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
+
+
+def time_to_lean(scene: Scene, angle: float, longest: float) -> float:
+    """Time (s) from the shock's peak until the mean of both alpha reaches ± `angle` (rad), swings of alpha averaged out.
+
+    Raises DomainError when it does not within `longest` s.
+    """
+    return _first_time(scene, angle, longest, lambda run: np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2])))
+
+
+def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
+    """Time (s) from the shock's peak until the mean of both x reaches ± `bound`, the swing averaged out.
+
+    Raises DomainError when it does not within `longest` s.
+    """
+    return _first_time(scene, bound, longest, lambda run: run.axes[..., 0])
+
+
+def _first_time(scene: Scene, bound: float, longest: float, read: Callable[[Trajectory], Array]) -> float:
+    response = shock_response(scene)
+    if scene.shock is None or response.frequency == 0:
+        raise InputError("time_to_wander: the scene needs a shock and a spin")
+    turn = 2 * np.pi / response.frequency
+    begin = scene.shock.at + 6.5 * scene.shock.width
+    t = np.arange(begin, begin + longest + 6 * turn, turn / _SAMPLES)
+    values = read(simulate(scene, t, "minimal", 1e-9)).mean(0)
+    u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
+    weight = np.exp(-1 / (u * (1 - u)))
+    mean = np.convolve(values, weight / weight.sum(), "valid")
+    centre = t[0] + (np.arange(len(mean)) + (len(u) - 1) / 2) * (t[1] - t[0])
+    beyond = np.abs(mean) >= bound
+    if not beyond.any():
+        raise DomainError(f"the bound {bound:g} is not reached within {longest:g} s")
+    i = int(np.argmax(beyond))
+    if i == 0:
+        raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")
+    share = (bound - abs(mean[i - 1])) / (abs(mean[i]) - abs(mean[i - 1]))
+    return float(centre[i - 1] + share * (centre[i] - centre[i - 1]) - scene.shock.at)

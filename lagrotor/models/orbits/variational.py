@@ -1,0 +1,95 @@
+"""The variational equations of the minimal model: its Jacobian, generated from the same program, along a motion."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrotor.errors import SingularError
+from lagrotor.models.minimal_program import Ratio, program
+from lagrotor.models.minimal import MODEL
+from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.pair.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+def tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
+    """The program that also gives the Jacobian of its outputs by the arguments `by`: outputs, then rows of the Jacobian.
+
+    Forward differentiation, stage by stage: exact, and no longer than len(by) times the program.
+    """
+    tangents: dict[sp.Symbol, list[sp.Expr]] = {
+        s: [sp.Integer(1 if s == direction else 0) for direction in by] for s in by
+    }
+    stages = []
+
+    def slopes(e: sp.Expr) -> list[sp.Expr]:
+        partial = {s: e.diff(s) for s in e.free_symbols if s in tangents}
+        return [sum((d * tangents[s][j] for s, d in partial.items()), sp.Integer(0)) for j in range(len(by))]
+
+    for name, expression in source.stages:
+        stages.append((name, expression))
+        row: list[sp.Expr] = []
+        for j, slope in enumerate(slopes(expression)):
+            if not slope.is_Atom:
+                symbol = sp.Symbol(f"{name}_by_{by[j]}", real=True)
+                stages.append((symbol, slope))
+                slope = symbol
+            row.append(slope)
+        tangents[name] = row
+    rows = [slope for e in source.outputs for slope in slopes(e)]
+    return Program(source.arguments, tuple(stages), (*source.outputs, *rows))
+
+
+@lru_cache(maxsize=8)
+def _compiled(massive: bool, ratio: Ratio) -> Any:
+    source = program(massive, ratio, 0)
+    return compile_program(tangent_program(source, source.arguments[:6]))
+
+
+@dataclass(frozen=True)
+class Flow:
+    """The minimal model's flow from a state: `end` (6,), `slope` (6, 6) its derivative by the start, `rate` (6,) there."""
+
+    end: Array
+    slope: Array
+    rate: Array
+
+
+def flow(scene: Scene) -> Callable[[Array, float], Flow]:
+    """(state (U, chi, alpha, rates), time in s) → Flow, for the scene's rotor, bar and spins, without shock.
+
+    Raises SingularError without a bar; IntegrationError when the motion meets a singular position.
+    """
+    if scene.link is None:
+        raise SingularError("flow: the scene has no bar to eliminate")
+    inertia_a, inertia_b = scene.inertias
+    value = scene.link.length / scene.rotor.length
+    ratio: Ratio = "equal" if value == 1 else "short" if value < 1 else "long"
+    parameters = [inertia_a]
+    parameters += [inertia_b] if inertia_b != 0 else []
+    parameters += [value] if ratio != "equal" else []
+    parameters += scene.momenta
+    function = _compiled(inertia_b != 0, ratio)
+    plain = MODEL.rate(scene, False)
+
+    def rate(s: float, y: Array) -> list[float]:
+        try:
+            out = function(*y[:6].tolist(), *parameters)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return [float("nan")] * 42
+        jacobian = np.array(out[6:]).reshape(6, 6)
+        return [*out[:6], *(jacobian @ y[6:].reshape(6, 6)).ravel().tolist()]
+
+    def through(state: Array, time: float) -> Flow:
+        start = np.concatenate([state, np.eye(6).ravel()])
+        end = integrate(Problem(rate, start, 12_000), np.array([time]), TIGHTEST).states[0]
+        return Flow(end[:6], end[6:].reshape(6, 6), np.array(plain(time, end[:6])))
+
+    return through

@@ -1,0 +1,240 @@
+"""Running spring-linked bodies: the paper's scene as three of them, its fixed step, and a stiff solver beside it."""
+
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass
+from itertools import pairwise
+from math import exp, isfinite
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics.integrate import PULSE_REACH, check_tolerance
+from lagrotor.pair.scene import Scene, Shock
+from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, rotation_between, skew
+from lagrotor.models.simulate import check_times
+from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
+
+TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 stands on the ground
+LOST = 1e100  # a state as large as this has blown up; its energies are still finite
+
+
+def paper_system(
+    scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
+) -> RigidBodySystem:
+    """The paper's program for `scene` (listings of 4.1 and 5.2.1): bodies 1 and 2 the rotors, 3 the bar; four links.
+
+    Rotors: centre half way up the axis, vertices at ∓R/2 along it, inertia diag(I1, I1, I3), vertex 1 grounded. Bar:
+    centre midway between the tips, vertices at ∓ell/2 along it, inertia K·1 as in the paper: its axial inertia is K
+    too, which nothing feels, as no force acts off its line. A scene without a bar gives two rotors and two links.
+
+    bar_height (m) puts the bar's centre at that z instead. The paper's z starts at the rotors' centres (grounds at
+    −0.5, tips at 0.5), ours at the ground joints: its right 0.5 is our 1.0, its mistaken 1 (section 4.1) our 1.5.
+    `laws`: the `force`, `rotation` and `transform` of RigidBodySystem.
+
+    Raises InputError for a bar without mass or without inertia, which no third body can be.
+    """
+    rotor, link = scene.rotor, scene.link
+    if link is not None and not (link.mass > 0 and link.inertia > 0):
+        raise InputError(
+            f"paper_system: a bar of mass {link.mass:g} kg and inertia {link.inertia:g} kg m² cannot be a third body, "
+            "moved by force over mass; give it both, as Link(mass=0.01, inertia=0.1), or use lagrotor.simulate"
+        )
+    half = (link.length if link else rotor.length) / 2
+    inertia, ends = np.diag([rotor.I1, rotor.I1, rotor.I3]), rotor.length / 2 * np.array([[0, 0, -1.0], [0, 0, 1.0]])
+    axes, rates = np.array(scene.axes), np.array(scene.rates)
+    bodies = []
+    for r, v, spin, x in zip(axes, rates, scene.spins, (-half, half), strict=True):
+        centre, R = np.array([x, 0, 0]) + rotor.length / 2 * r, rotation_between(np.array([0, 0, 1.0]), r)
+        bodies.append(RigidBody(centre, ends, inertia, R, rotor.mass, np.cross(r, v) + spin * r, rotor.length / 2 * v))
+    if link is not None:
+        centre = rotor.length * axes.mean(0)
+        centre[2] = centre[2] if bar_height is None else bar_height
+        e = np.array([1.0, 0, 0]) + rotor.length / link.length * (axes[1] - axes[0])
+        e /= np.linalg.norm(e)
+        Omega = np.cross(e, rotor.length / link.length * (rates[1] - rates[0]))
+        ends, R = half * np.array([[-1.0, 0, 0], [1.0, 0, 0]]), rotation_between(np.array([1.0, 0, 0]), e)
+        bodies.append(
+            RigidBody(centre, ends, link.inertia * np.eye(3), R, link.mass, Omega, rotor.length * rates.mean(0))
+        )
+    system = RigidBodySystem(bodies, stiffness, damping, **laws)
+    system.ground(2, 1)
+    system.ground(1, 1)
+    if link is not None:
+        system.link(1, 3, TIP, 1)
+        system.link(2, 3, TIP, 2)
+    return system
+
+
+@dataclass(frozen=True, eq=False)
+class SpringRun:
+    """A run of n_b bodies, the first two the rotors, and n_l links, read at n times t (n,) in s.
+
+    axes, rates, tips (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertex 2 (m);
+    centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
+    energies in J: translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n);
+    evaluations: how often the forces were computed.
+    """
+
+    t: Array
+    axes: Array
+    rates: Array
+    tips: Array
+    centres: Array
+    rotations: Array
+    stretches: Array
+    translation: Array
+    rotation: Array
+    spring: Array
+    evaluations: int
+
+    @property
+    def paper_energy(self) -> Array:
+        """What the paper records (4.02), the kinetic energy alone, (n,) in J: the springs' share is missing."""
+        return self.translation.sum(0) + self.rotation.sum(0)
+
+    @property
+    def energy(self) -> Array:
+        """Kinetic energy and that of the springs, (n,) in J: conserved without damping, shock and external force."""
+        return self.paper_energy + self.spring.sum(0)
+
+
+def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
+    """Move a copy of `system` from t = 0 by the paper's step and read it at the times `t` (n,), whole multiples of dt.
+
+    The shock of step k has its strength at k dt, as in the paper's loop. `step_limit` says which dt is stable; one
+    above it is run all the same, for as long as it lasts.
+
+    Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
+    miss it); IntegrationError when the state is not a number, or beyond LOST.
+    """
+    times = check_times(t)
+    if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
+        raise InputError(f"run_steps: dt = {dt!r} s must be a finite number above zero")
+    counts = np.rint(times / dt).astype(int)
+    if (abs(counts * dt - times) > 1e-6 * dt * np.maximum(counts, 1)).any():
+        raise InputError(f"run_steps: t holds times between the steps of dt = {dt:g} s: give whole multiples of dt")
+    if shock is not None and dt > shock.width:
+        raise InputError(
+            f"run_steps: dt = {dt:g} s steps over a shock of width {shock.width:g} s; take dt well below it"
+        )
+    moving, k = deepcopy(system), 0
+    seen: list[tuple[Array, ...]] = []
+    with np.errstate(over="ignore", invalid="ignore"):
+        for count in counts:
+            while k < count:
+                moving.compute_forces()
+                _shake(moving, shock, k * dt - shock.at if shock else 0.0)
+                moving.step(dt)
+                k += 1
+            if not max(abs(moving.X).max(), abs(moving.U).max(), abs(moving.R).max(), abs(moving.L).max()) < LOST:
+                raise IntegrationError(
+                    f"run_steps: the state is not a number, or beyond {LOST:g}, at t = {k * dt:.6g} s with dt = {dt:g} "
+                    f"s; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
+                )
+            seen.append((moving.X.copy(), moving.U.copy(), moving.R, moving.L.copy()))
+    X, U, R, L = (np.array(part) for part in zip(*seen, strict=True))
+    return _read(system, times, X, U, R, L, k)
+
+
+def run_solver(
+    system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8, method: str = "LSODA"
+) -> SpringRun:
+    """Move a copy of `system` from t = 0 by one of scipy's solvers, the same forces without the error of a fixed step.
+
+    State X, U, R, L of every body, with R' = [Omega]× R. tol: relative and absolute local error / 20. The run is cut at
+    the shock's edges, ± PULSE_REACH widths, within which no step is longer than the width. LSODA changes to a stiff
+    method where damping asks for it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
+
+    Raises InputError for bad times, tolerance or method, IntegrationError when the solver cannot go on.
+    """
+    from scipy.integrate import solve_ivp
+
+    times, error = check_times(t), check_tolerance(tol) / 20
+    if method not in ("LSODA", "Radau", "BDF", "DOP853"):
+        raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
+    moving, n = deepcopy(system), len(system.vertices)
+
+    def load(y: Array) -> None:
+        X, U, L, R = np.split(y, [3 * n, 6 * n, 9 * n])
+        moving.X[:n], moving.U[:n], moving.L[:n] = X.reshape(n, 3), U.reshape(n, 3), L.reshape(n, 3)
+        moving.R[:n] = R.reshape(n, 3, 3)
+
+    def rate(s: float, y: Array, struck: Shock | None) -> Array:
+        load(y)
+        moving.Omega = moving.angular_velocity()
+        moving.compute_forces()
+        _shake(moving, struck, s)
+        parts = moving.U, moving.F * moving.inverse_mass, moving.tau, skew(moving.Omega) @ moving.R
+        return np.concatenate([part[:n].ravel() for part in parts])
+
+    at, reach = (shock.at, PULSE_REACH * shock.width) if shock else (0.0, 0.0)
+    asked = times - at
+    begin, end = -at, float(asked[-1])
+    edges = [begin, *(s for s in (-reach, reach) if shock and begin < s < end), end]
+    y = np.concatenate([part[:n].ravel() for part in (moving.X, moving.U, moving.L, moving.R)])
+    states, evaluations = np.empty((len(times), len(y))), 0
+    states[asked == begin] = y
+    for left, right in pairwise(edges):
+        if right <= left:
+            continue
+        struck = shock if shock and abs(left + right) / 2 < reach else None
+        options: dict[str, Any] = {"max_step": shock.width} if struck and shock else {}
+        inside = (asked > left) & (asked <= right)
+        found = solve_ivp(
+            rate, (left, right), y, method=method, args=(struck,), t_eval=np.union1d(asked[inside], [right]),
+            rtol=max(error, 2.3e-14), atol=error, **options,
+        )  # fmt: skip
+        if not found.success or not np.isfinite(found.y).all():
+            raise IntegrationError(
+                f"run_solver: {method} stopped between t = {at + left:.6g} and {at + right:.6g} s ({found.message}); "
+                "lower S or D, or take a larger tol"
+            )
+        states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
+        evaluations += found.nfev
+    history: dict[str, list[Array]] = {"X": [], "U": [], "R": [], "L": []}
+    for state in states:
+        load(state)
+        for name, kept in history.items():
+            kept.append(getattr(moving, name).copy())
+    X, U, R, L = (np.array(kept) for kept in history.values())
+    return _read(system, times, X, U, R, L, evaluations)
+
+
+def _shake(system: RigidBodySystem, shock: Shock | None, s: float) -> None:
+    """The shock on the tip of its rotor, s after its peak (4.04); nothing once it underflows to zero."""
+    if shock is None:
+        return
+    ratio = s / shock.width
+    strength = exp(-ratio * ratio)
+    if strength > 0:
+        system.push(shock.body, TIP, strength * np.array(shock.force))
+
+
+def _read(system: RigidBodySystem, t: Array, X: Array, U: Array, R: Array, L: Array, evaluations: int) -> SpringRun:
+    """A run from states (n, n_b + 1, …), whose last body is the ground; Omega follows from L and R (3.17)."""
+    if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
+        raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
+    Omega = (system.transform(R, system.inverse_inertia) @ L[..., None])[..., 0]
+    axes, rates, tips = [], [], []
+    for i, vertices in enumerate(system.vertices[:2]):
+        bottom, top = vertices[0], vertices[TIP - 1]
+        axes.append(R[:, i] @ ((top - bottom) / np.linalg.norm(top - bottom)))
+        rates.append(np.cross(Omega[:, i], axes[i]))
+        tips.append(X[:, i] + R[:, i] @ top)
+    stretches = np.linalg.norm(system.gaps(X, R), axis=-1).T
+    return SpringRun(
+        t=t,
+        axes=np.array(axes),
+        rates=np.array(rates),
+        tips=np.array(tips),
+        centres=X[:, :-1].swapaxes(0, 1),
+        rotations=R[:, :-1].swapaxes(0, 1),
+        stretches=stretches,
+        translation=((U[:, :-1] ** 2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
+        rotation=(Omega * L).sum(-1)[:, :-1].T / 2,
+        spring=system.stiffness * stretches**2 / 2,
+        evaluations=evaluations,
+    )

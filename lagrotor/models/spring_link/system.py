@@ -1,0 +1,211 @@
+"""Rung 6: the paper's own simulator, rigid bodies whose vertices are joined by stiff springs of no rest length.
+
+All bodies are stepped at once in stacked arrays, the ground being one more body, whose inverse mass and inverse inertia
+are zero. A step costs about thirty array calls on some ten rows each: what limits it is the overhead of a call, not the
+number of bodies or links.
+"""
+
+from collections.abc import Callable
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, finite_array, finite_rotation, inertia_transform, skew
+
+LinkForce = Callable[[Array, Array, float, float], Array]
+
+
+def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
+    """Force on vertex 1 of each link, −S (X_1 − X_2) − D (U_1 − U_2), (n, 3) in N; on vertex 2 its opposite (3.20).
+
+    gap = X_1 − X_2 (n, 3) in m, rate = U_1 − U_2 (n, 3) in m/s. The sound reading of 3.19: linear, smooth where the
+    vertices coincide, which is where a joint is kept, and damping every relative motion. Its damper is not central: it
+    exerts the couple D gap × rate, which vanishes with the gap.
+    """
+    return -S * gap - D * rate
+
+
+def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
+    """Force on vertex 1 of each link, −(S |gap| + D rate · e) e with e = gap/|gap|, (n, 3) in N: 3.19 as printed.
+
+    Read as the only signs that hold together: F_12 is what vertex 1 does to 2, ê_21 points from 2 to 1, and the spring
+    term lacks its ê_21. The spring is that of `link_force`; the damper acts along the line of separation only. It
+    leaves a gap that circles undamped, and at gap = 0, where every joint starts, e is 0/0 (here 0: no damping there).
+    """
+    size = np.linalg.norm(gap, axis=1, keepdims=True)
+    e = gap / (size + (size == 0))
+    return -S * gap - D * (rate * e).sum(1, keepdims=True) * e
+
+
+class RigidBodySystem:
+    """Bodies, links between their vertices, and the paper's step. Bodies and vertices count from 1, as in the paper.
+
+    stiffness S in N/m and damping D in kg/s are those of every link. State, one row a body and the ground as the last:
+    X, U (n + 1, 3) of the centres, R (n + 1, 3, 3), L (n + 1, 3) about the centres, Omega (n + 1, 3). The ground's L
+    gathers what the links have handed to it. `force`, `rotation`, `transform` may be replaced by their printed twins.
+
+    Raises InputError for S not above zero, D below zero, no body, a body or vertex that is not there.
+    """
+
+    def __init__(
+        self,
+        bodies: list[RigidBody],
+        stiffness: float,
+        damping: float,
+        *,
+        force: LinkForce = link_force,
+        rotation: Callable[[Array, float], Array] = finite_rotation,
+        transform: Callable[[Array, Array], Array] = inertia_transform,
+    ) -> None:
+        self.stiffness = float(finite_array(stiffness, (), "RigidBodySystem: stiffness"))
+        self.damping = float(finite_array(damping, (), "RigidBodySystem: damping"))
+        if self.stiffness <= 0 or self.damping < 0 or not bodies:
+            raise InputError(
+                f"RigidBodySystem: S = {self.stiffness:g} N/m must be above zero, D = {self.damping:g} kg/s not below "
+                f"it, and there must be a body ({len(bodies)} given)"
+            )
+        self.force, self.rotation, self.transform = force, rotation, transform
+        self.vertices = [body.vertices for body in bodies]
+        nothing, one = np.zeros((1, 3)), np.eye(3)[None]
+        self.X = np.vstack([*(body.centre for body in bodies), nothing])
+        self.U = np.vstack([*(body.velocity for body in bodies), nothing])
+        self.L = np.vstack([*(body.momentum for body in bodies), nothing])
+        self.R = np.concatenate([*(body.rotation[None] for body in bodies), one])
+        self.inverse_mass = np.array([*(1 / body.mass for body in bodies), 0.0])[:, None]
+        self.inverse_inertia = np.concatenate([*(np.linalg.inv(body.inertia)[None] for body in bodies), 0 * one])
+        self.external = np.zeros_like(self.X)
+        self.F, self.tau = np.zeros_like(self.X), np.zeros_like(self.X)
+        self.Omega = self.angular_velocity()
+        self._ends: tuple[list[tuple[int, Array]], list[tuple[int, Array]]] = ([], [])
+        self._assemble()
+
+    def add_external(self, body: int, force: ArrayLike) -> None:
+        """A lasting force (3,) in N on the centre of mass of `body`, without torque; not counted in any energy."""
+        self.external[self._body(body)] += finite_array(force, (3,), "add_external: force")
+
+    def link(self, body1: int, body2: int, vertex1: int, vertex2: int) -> None:
+        """Join `vertex1` of `body1` to `vertex2` of `body2`."""
+        self._join(self._end(body1, vertex1), self._end(body2, vertex2))
+
+    def ground(self, body: int, vertex: int) -> None:
+        """Join `vertex` of `body` to the point of the ground where it now is."""
+        i, arm = self._end(body, vertex)
+        self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
+
+    def push(self, body: int, vertex: int, force: ArrayLike) -> None:
+        """A force (3,) in N on `vertex` of `body` for the step to come: after `compute_forces`, before `step`."""
+        i, arm = self._end(body, vertex)
+        given = finite_array(force, (3,), "push: force")
+        self.F[i] += given
+        self.tau[i] += np.cross(self.R[i] @ arm, given)
+
+    def angular_velocity(self) -> Array:
+        """Omega = R I₀⁻¹ Rᵀ L, (n + 1, 3) in rad/s: 3.17 in the right frames, from the stored I₀⁻¹."""
+        return (self.transform(self.R, self.inverse_inertia) @ self.L[:, :, None])[:, :, 0]
+
+    def compute_forces(self) -> None:
+        """F and tau (n + 1, 3): sums of the external and the link forces, and of X_r × F (3.02, 3.06)."""
+        arm, gap, rate = self._joints()
+        pull = self.force(gap, rate, self.stiffness, self.damping)
+        on_ends = np.concatenate((pull, -pull))
+        self.F = self.external + self._gather @ on_ends
+        self.tau = self._gather @ (skew(arm) @ on_ends[:, :, None])[:, :, 0]
+
+    def step(self, dt: float) -> None:
+        """The paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R. No matrix is inverted.
+
+        Semi-implicit: positions move with the new velocities, which the forces at the old state made.
+        """
+        if not (isfinite(dt) and dt > 0):
+            raise InputError(f"step: dt = {dt!r} s must be a finite number above zero")
+        self.L += self.tau * dt
+        self.U += self.F * self.inverse_mass * dt
+        self.Omega = self.angular_velocity()
+        self.X += self.U * dt
+        self.R = self.rotation(self.Omega, dt) @ self.R
+
+    def joint_mobility(self) -> Array:
+        """W (3 n_links, 3 n_links) in 1/kg: acceleration of the gaps by unit forces in the links, at this position.
+
+        W = B M⁻¹ Bᵀ, where the row of B for a vertex at r from its centre is (1, −[r]×): gap rate = B (U, Omega). Its
+        3 × 3 blocks on the diagonal are the sums over both ends of 1/M − [r]× I⁻¹ [r]×.
+        """
+        n = len(self._of) // 2
+        crossed, share = skew(self._joints()[0]), np.hstack((np.eye(n), -np.eye(n)))
+        turning = self.transform(self.R, self.inverse_inertia)[self._of]
+        same = self._of[:, None] == self._of[None, :]
+        moving = self.inverse_mass[self._of, 0][:, None, None, None] * np.eye(3)
+        blocks = same[:, :, None, None] * (moving - crossed[:, None] @ turning[:, None] @ crossed[None, :])
+        return np.einsum("la,abij,mb->limj", share, blocks, share).reshape(3 * n, 3 * n)
+
+    def gaps(self, X: Array, R: Array) -> Array:
+        """X_1 − X_2 of every link (…, n_links, 3) in m, for stacks of centres (…, n + 1, 3) and rotations."""
+        point = X[..., self._of, :] + (R[..., self._of, :, :] @ self._arm)[..., 0]
+        n = len(self._of) // 2
+        return point[..., :n, :] - point[..., n:, :]
+
+    def _joints(self) -> tuple[Array, Array, Array]:
+        """Arms of all ends from their centres (2 n_links, 3), gaps and gap rates (n_links, 3), in world components."""
+        arm = (self.R[self._of] @ self._arm)[:, :, 0]
+        velocity = self.U[self._of] + (skew(self.Omega)[self._of] @ arm[:, :, None])[:, :, 0]
+        n = len(arm) // 2
+        return arm, self.gaps(self.X, self.R), velocity[:n] - velocity[n:]
+
+    def _join(self, first: tuple[int, Array], second: tuple[int, Array]) -> None:
+        self._ends[0].append(first)
+        self._ends[1].append(second)
+        self._assemble()
+
+    def _assemble(self) -> None:
+        """Body and arm of every end, first ends before second ends, and the 0–1 matrix that gathers ends by body."""
+        ends = [*self._ends[0], *self._ends[1]]
+        self._of = np.array([i for i, _ in ends], dtype=np.intp)
+        self._arm = np.array([arm for _, arm in ends]).reshape(-1, 3, 1)
+        self._gather = (np.arange(len(self.X))[:, None] == self._of[None, :]).astype(float)
+
+    def _body(self, body: int) -> int:
+        if isinstance(body, bool) or not isinstance(body, int) or not 1 <= body <= len(self.vertices):
+            raise InputError(
+                f"RigidBodySystem: body = {body!r} is not there: they count from 1 to {len(self.vertices)}"
+            )
+        return body - 1
+
+    def _end(self, body: int, vertex: int) -> tuple[int, Array]:
+        i = self._body(body)
+        n = len(self.vertices[i])
+        if isinstance(vertex, bool) or not isinstance(vertex, int) or not 1 <= vertex <= n:
+            raise InputError(f"RigidBodySystem: vertex = {vertex!r} of body {body} is not there: they count 1 to {n}")
+        return i, self.vertices[i][vertex - 1]
+
+
+class StepLimit(NamedTuple):
+    """Longest stable steps, in s: of all joints together, and of each joint (n_links,) as if the others were cut."""
+
+    whole: float
+    joints: Array
+
+
+def step_limit(system: RigidBodySystem) -> StepLimit:
+    """The longest dt with which `step` is stable, from `joint_mobility` at the present position, with `link_force`.
+
+    Linearised, a gap x obeys x'' = −W (S x + D x'). Along an eigenvector of W with eigenvalue w the step reads
+    v ← (1 − h w D) v − h w S x, x ← x + h v: a map of determinant 1 − h w D and trace 2 − h w D − h² w S. Its
+    eigenvalues lie within the unit circle if and only if h² w S + 2 h w D < 4, that is
+
+        h < 4 / (w D + sqrt((w D)² + 4 w S)),
+
+    which is 2/sqrt(w S) without damping and 2/(w D) for damping alone. The largest w decides.
+
+    Raises InputError when the system has no link.
+    """
+    W = system.joint_mobility()
+    if not len(W):
+        raise InputError("step_limit: the system has no link, so every step is stable; link or ground a vertex first")
+    own = [W[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(len(W) // 3)]
+    w = np.array([np.linalg.eigvalsh(block)[-1] for block in (W, *own)])
+    S, D = system.stiffness, system.damping
+    h = 4 / (w * D + np.sqrt((w * D) ** 2 + 4 * w * S))
+    return StepLimit(float(h[0]), h[1:])

@@ -1,0 +1,158 @@
+"""The paper's system: one rotor, the pair, the bar, the ansatz with its A and B, and the pair on two unit spheres.
+
+Everything here is an expression in the glossary's symbols. The kinetic energy of the coupled pair is
+
+    T = a/2 (|r_1'|² + |r_2'|²) + b r_1' . r_2' + (G_1² + G_2²) / (2 I_3),
+    a = J + m R²/4 + K R²/ell²,   b = m R²/4 − K R²/ell²,   J = I_1 + M R²/4,
+
+and the bar keeps  ell (x_2 − x_1) + R (1 − r_1 . r_2) = 0.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import sympy as sp
+
+from lagrotor.mechanics import Constrained, Coordinates, momenta, total_derivative
+from lagrotor.pair.symbols import ANSATZ, AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, PAIR, ROTOR, J, K, M, R, a, b, ell, k, m
+
+JOINT_LINE = sp.Matrix([1, 0, 0])
+J_OF = I1 + M * R**2 / 4
+# What the bar adds: half its mass at each tip, and its turning.
+INERTIAS: dict[sp.Symbol, sp.Expr] = {
+    a: J + m * R**2 / 4 + K * R**2 / ell**2,
+    b: m * R**2 / 4 - K * R**2 / ell**2,
+    k: ell / R,
+}
+
+
+def axis(theta: sp.Expr, phi: sp.Expr) -> sp.Matrix:
+    """Unit vector of an axis of inclination theta and azimuth phi, from the ground joint to the tip."""
+    return sp.Matrix([sp.sin(theta) * sp.cos(phi), sp.sin(theta) * sp.sin(phi), sp.cos(theta)])
+
+
+def rotor_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
+    """L = J/2 (theta'² + phi'² sin² theta) + I_3/2 (psi' + phi' cos theta)²: a grounded rotor without gravity (5.01)."""
+    return _rotor_energy(inertia, ROTOR.q[0], *ROTOR.v)
+
+
+def _rotor_energy(inertia: sp.Expr, theta: sp.Expr, theta_v: sp.Expr, phi_v: sp.Expr, psi_v: sp.Expr) -> sp.Expr:
+    tilt = inertia / 2 * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2)
+    return tilt + I3 / 2 * (psi_v + phi_v * sp.cos(theta)) ** 2
+
+
+def pair_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
+    """Two uncoupled rotors in two sets of Euler angles: the kinetic energies of both (5.08)."""
+    q, v = PAIR.q, PAIR.v
+    return _rotor_energy(inertia, q[0], *v[:3]) + _rotor_energy(inertia, q[3], *v[3:])
+
+
+def pair_with_bar() -> Constrained:
+    """The exact pair in Euler angles: (6 coordinates, 1 constraint), the bar's energy included."""
+    q = PAIR.q
+    r1, r2 = axis(q[0], q[1]), axis(q[3], q[4])
+    v1, v2 = (r.applyfunc(lambda e: total_derivative(e, PAIR)) for r in (r1, r2))
+    lagrangian = pair_lagrangian(a) + b * sp.expand_trig(v1.dot(v2))
+    return Constrained(lagrangian, PAIR, (link_constraint(r1, r2),))
+
+
+def link_constraint(r1: sp.Matrix, r2: sp.Matrix) -> sp.Expr:
+    """g = k (x_2 − x_1) + 1 − r_1 . r_2 for unit vectors: (|ell e_x + R (r_2 − r_1)|² − ell²) / (2 R²), k = ell / R."""
+    return k * (r2[0] - r1[0]) + 1 - r1.dot(r2)
+
+
+def ansatz_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
+    """The pair's Lagrangian with phi_1' = −phi_2' = phi' and psi_1' = −psi_2' = psi' put in (5.11)."""
+    theta_1, theta_2 = ANSATZ.q[:2]
+    theta_1_v, theta_2_v, phi_v, psi_v = ANSATZ.v
+    first = _rotor_energy(inertia, theta_1, theta_1_v, phi_v, psi_v)
+    return first + _rotor_energy(inertia, theta_2, theta_2_v, -phi_v, -psi_v)
+
+
+def ansatz_integrals(inertia: sp.Expr = J) -> tuple[sp.Expr, sp.Expr]:
+    """(A, B) = (dL/dphi', dL/dpsi') of the ansatz Lagrangian (5.12, 5.13): exact for it, not for the pair with its bar."""
+    p = momenta(ansatz_lagrangian(inertia), ANSATZ)
+    return p[2], p[3]
+
+
+def axes_pair(bar: bool = True) -> tuple[Constrained, sp.Matrix]:
+    """The pair as two points on unit spheres: (system in the six components, gyroscopic forces (6, 1)).
+
+    After Routh reduction of the spins each axis feels G_i r_i × r_i'. Constraints: two unit lengths, and the bar's
+    if there is one. No coordinate is singular.
+    """
+    q, v = sp.Matrix(AXES.q), sp.Matrix(AXES.v)
+    r1, r2, v1, v2 = q[:3, :], q[3:, :], v[:3, :], v[3:, :]
+    lagrangian = a / 2 * (v1.dot(v1) + v2.dot(v2)) + b * v1.dot(v2)
+    units = ((r1.dot(r1) - 1) / 2, (r2.dot(r2) - 1) / 2)
+    constraints = (*units, link_constraint(r1, r2)) if bar else units
+    forces = (G_1 * r1.cross(v1)).col_join(G_2 * r2.cross(v2))
+    return Constrained(lagrangian, AXES, constraints), forces
+
+
+def mercator_axis(u: sp.Expr, alpha: sp.Expr) -> sp.Matrix:
+    """r = (tanh u, −sin(alpha) sech u, cos(alpha) sech u): Mercator coordinates about the joint line."""
+    return sp.Matrix([sp.tanh(u), -sp.sin(alpha) / sp.cosh(u), sp.cos(alpha) / sp.cosh(u)])
+
+
+def mercator_lagrangian() -> sp.Expr:
+    """The spin-reduced pair in (u_1, alpha_1, u_2, alpha_2), the bar's constraint not yet used.
+
+    The sphere's metric is sech² u (du² + dalpha²); the gyroscopic force derives from G tanh(u) alpha',
+    which is regular everywhere but on the joint line.
+    """
+    u1, al1, u2, al2 = MERCATOR.q
+    u1_v, al1_v, u2_v, al2_v = MERCATOR.v
+    s1, s2, t1, t2 = 1 / sp.cosh(u1), 1 / sp.cosh(u2), sp.tanh(u1), sp.tanh(u2)
+    c, s = sp.cos(al2 - al1), sp.sin(al2 - al1)
+    single = a / 2 * (s1**2 * (u1_v**2 + al1_v**2) + s2**2 * (u2_v**2 + al2_v**2))
+    along = (s1 * s2 + t1 * t2 * c) * u1_v * u2_v + c * al1_v * al2_v
+    across = t1 * s * u1_v * al2_v - t2 * s * u2_v * al1_v
+    return single + b * s1 * s2 * (along + across) + G_1 * t1 * al1_v + G_2 * t2 * al2_v
+
+
+@dataclass(frozen=True)
+class BarCurve:
+    """The bar's constraint solved by one parameter chi: twist Delta = alpha_2 − alpha_1, latitude w = u_1 − u_2.
+
+    In Mercator coordinates the constraint reads  cosh w − k sinh w = cos Delta  (k = ell / R), free of the mean
+    latitude, so that the pair keeps three free coordinates (U, chi, alpha). `rho` = k cosh w − sinh w.
+    """
+
+    twist: sp.Expr
+    rho: sp.Expr
+    latitude: sp.Expr
+
+
+def bar_curve(ratio: Literal["short", "equal", "long"]) -> BarCurve:
+    """The curve through the rest state chi = 0, for ell < R ("short"), ell = R and ell > R ("long").
+
+    long:   Delta = chi,                rho = sqrt(cos² chi + k² − 1)   for every chi
+    equal:  Delta = chi,                rho = cos chi                   for |chi| < pi/2, where w grows without bound
+    short:  sin Delta = k sin chi,      rho = k cos chi                 a closed curve: the bar can fold over
+    and  e^w = (k + 1) / (cos Delta + rho),  which for ell = R is 1 / cos chi.
+    """
+    chi = MINIMAL.q[1]
+    if ratio == "equal":
+        return BarCurve(chi, sp.cos(chi), -sp.log(sp.cos(chi)))
+    if ratio == "long":
+        twist, rho = chi, sp.sqrt(sp.cos(chi) ** 2 + k**2 - 1)
+    else:
+        twist, rho = sp.asin(k * sp.sin(chi)), k * sp.cos(chi)
+    return BarCurve(twist, rho, sp.log((k + 1) / (sp.cos(twist) + rho)))
+
+
+def minimal_embedding(twist: sp.Expr, latitude: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
+    """Mercator coordinates of the two axes: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
+    u1, al1, u2, al2 = MERCATOR.q
+    U, _, alpha = MINIMAL.q
+    return {u1: U + latitude / 2, al1: alpha - twist / 2, u2: U - latitude / 2, al2: alpha + twist / 2}
+
+
+def joint_line_momentum(c: Coordinates = AXES) -> sp.Expr:
+    """P = sum_i (dT/dr_i') . (e_x × r_i) + G_i x_i: the Noether integral of turning the pair about the joint line."""
+    q, v = sp.Matrix(c.q), sp.Matrix(c.v)
+    r1, r2, v1, v2 = q[:3, :], q[3:, :], v[:3, :], v[3:, :]
+    p1, p2 = a * v1 + b * v2, a * v2 + b * v1
+    turning = p1.dot(JOINT_LINE.cross(r1)) + p2.dot(JOINT_LINE.cross(r2))
+    return turning + G_1 * r1[0] + G_2 * r2[0]

@@ -1,0 +1,237 @@
+"""The scene: rotors, bar, shock and initial state, in SI units. What makes no sense is refused here, at the door."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from html import escape
+from math import fsum, hypot, isfinite, nan, pi, sqrt
+
+from lagrotor.errors import InputError
+
+Vector = tuple[float, float, float]
+SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
+CLOSE = 1e-9  # how far a given state may lie off its constraints
+
+
+def _number(value: object, where: str, unit: str) -> float:
+    try:
+        number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
+    if isinstance(value, bool) or not isfinite(number):
+        raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
+    if abs(number) > LARGEST:
+        raise InputError(f"{where} = {number:g} {unit} is beyond {LARGEST:g}, where squares overflow; change the units")
+    return number
+
+
+def _positive(value: object, where: str, unit: str) -> float:
+    number = _number(value, where, unit)
+    if number <= 0:
+        raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
+    return _not_vanishing(number, where, unit)
+
+
+def _not_vanishing(number: float, where: str, unit: str) -> float:
+    if 0 < abs(number) < SMALLEST:
+        raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
+    return number
+
+
+def _not_negative(value: object, where: str, unit: str) -> float:
+    number = _number(value, where, unit)
+    if number < 0:
+        raise InputError(f"{where} = {number:g} {unit} must not be negative")
+    return number
+
+
+def _numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
+    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
+    if items is None or len(items) != count:
+        raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
+    return tuple(_number(item, f"{where}[{i}]", unit) for i, item in enumerate(items))
+
+
+def _vector(value: object, where: str, unit: str) -> Vector:
+    x, y, z = _numbers(value, 3, where, unit)
+    return x, y, z
+
+
+def _two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
+    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
+    if len(items) != 2:
+        raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")
+    return _vector(items[0], f"{where}[0]", unit), _vector(items[1], f"{where}[1]", unit)
+
+
+def dot(p: Vector, q: Vector) -> float:
+    """Scalar product of two vectors."""
+    return fsum(x * y for x, y in zip(p, q, strict=True))
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """A symmetric rotor standing on a ground joint: mass (kg), axis length (m), inertias about its centre (kg m²)."""
+
+    mass: float = 1.0
+    length: float = 1.0
+    I1: float = 1.0
+    I3: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("mass", "kg"), ("length", "m"), ("I1", "kg m²"), ("I3", "kg m²")):
+            object.__setattr__(self, name, _positive(getattr(self, name), f"Rotor: {name}", unit))
+        if self.I3 > 2 * self.I1 * (1 + 1e-12):
+            raise InputError(
+                f"Rotor: I3 = {self.I3:g} exceeds 2 I1 = {2 * self.I1:g} kg m²: no body has that inertia "
+                "(a thin disc reaches I3 = 2 I1); raise I1 or lower I3"
+            )
+
+    @property
+    def J(self) -> float:
+        """Transverse inertia about the ground joint, I1 + M R²/4 (kg m²)."""
+        return self.I1 + self.mass * self.length**2 / 4
+
+
+@dataclass(frozen=True)
+class Link:
+    """The bar between the tips: length (m), mass (kg), transverse inertia about its centre (kg m²)."""
+
+    length: float = 1.0
+    mass: float = 0.0
+    inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "length", _positive(self.length, "Link: length", "m"))
+        object.__setattr__(self, "mass", _not_negative(self.mass, "Link: mass", "kg"))
+        object.__setattr__(self, "inertia", _not_negative(self.inertia, "Link: inertia", "kg m²"))
+        if self.inertia > 0 and self.mass == 0:
+            raise InputError(
+                f"Link: inertia = {self.inertia:g} kg m² with mass = 0: no body has that inertia; "
+                "give the bar a mass, or inertia = 0"
+            )
+
+
+@dataclass(frozen=True)
+class Shock:
+    """A Gaussian pulse on the tip of one rotor: force exp(−((t − at)/width)²), force in N, times in s."""
+
+    force: Vector
+    at: float
+    width: float
+    body: int = 1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "force", _vector(self.force, "Shock: force", "N"))
+        object.__setattr__(self, "at", _number(self.at, "Shock: at", "s"))
+        object.__setattr__(self, "width", _positive(self.width, "Shock: width", "s"))
+        if isinstance(self.body, bool) or self.body not in (1, 2):
+            raise InputError(f"Shock: body = {self.body!r} must be 1 (left rotor) or 2 (right rotor)")
+        object.__setattr__(self, "body", int(self.body))
+
+    @property
+    def impulse(self) -> Vector:
+        """Force integrated over time, force width sqrt(pi) (N s)."""
+        scale = self.width * sqrt(pi)
+        return (self.force[0] * scale, self.force[1] * scale, self.force[2] * scale)
+
+
+_UP: tuple[Vector, Vector] = ((0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
+_REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Two equal rotors of given axial angular velocities (rad/s), the bar between their tips, a shock, a start.
+
+    `axes` are the unit vectors r_i and `rates` their r_i' (1/s) at t = 0; they must satisfy
+    |r_i| = 1, |ell e_x + R (r_2 − r_1)| = ell, and the rates be tangent to both.
+    `link=None` leaves the two rotors uncoupled.
+    """
+
+    spins: tuple[float, float]
+    rotor: Rotor = field(default_factory=Rotor)
+    link: Link | None = field(default_factory=Link)
+    shock: Shock | None = None
+    axes: tuple[Vector, Vector] = _UP
+    rates: tuple[Vector, Vector] = _REST
+
+    def __post_init__(self) -> None:
+        for name, kind, optional in (("rotor", Rotor, False), ("link", Link, True), ("shock", Shock, True)):
+            value = getattr(self, name)
+            if not (isinstance(value, kind) or (optional and value is None)):
+                raise InputError(f"Scene: {name} = {value!r} must be a {kind.__name__}")
+        object.__setattr__(self, "spins", _numbers(self.spins, 2, "Scene: spins", "rad/s"))
+        for i, spin in enumerate(self.spins):
+            _not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
+        object.__setattr__(self, "axes", _two_vectors(self.axes, "Scene: axes", "1"))
+        object.__setattr__(self, "rates", _two_vectors(self.rates, "Scene: rates", "1/s"))
+        for i, (r, v) in enumerate(zip(self.axes, self.rates, strict=True)):
+            if abs(hypot(*r) - 1) > CLOSE:
+                raise InputError(f"Scene: axes[{i}] has length {hypot(*r):.9g}, not 1: divide it by its length")
+            if abs(dot(r, v)) > CLOSE * (1 + hypot(*v)):
+                raise InputError(
+                    f"Scene: rates[{i}] is not tangent: r . r' = {dot(r, v):.3g}; subtract (r . r') r, "
+                    "or use lagrotor.consistent_scene"
+                )
+        if self.link is not None:
+            self._refuse_bar(self.link)
+
+    def _refuse_bar(self, link: Link) -> None:
+        """The bar's length and its rate of change at the start."""
+        (r1, r2), (v1, v2), R, ell = self.axes, self.rates, self.rotor.length, link.length
+        d = (ell + R * (r2[0] - r1[0]), R * (r2[1] - r1[1]), R * (r2[2] - r1[2]))
+        w = (v2[0] - v1[0], v2[1] - v1[1], v2[2] - v1[2])
+        if abs(hypot(*d) - ell) > CLOSE * ell:
+            raise InputError(
+                f"Scene: the bar cannot reach: |ell e_x + R (r2 - r1)| = {hypot(*d):.9g}, ell = {ell:g}; "
+                "change an axis or the bar, or use lagrotor.consistent_scene"
+            )
+        stretch = R * dot(d, w) / ell
+        if abs(stretch) > CLOSE * R * (1 + hypot(*w)):
+            raise InputError(
+                f"Scene: the rates stretch the bar at {stretch:.3g} m/s; make them tangent to its constraint, "
+                "or use lagrotor.consistent_scene"
+            )
+        # n_i: tangent part of the bar's pull on axis i. With both zero nothing the bar does can be felt.
+        pulls = []
+        for r, other, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
+            n = (ell / R * sign + other[0], other[1], other[2])
+            along = dot(n, r)
+            pulls.append(hypot(n[0] - along * r[0], n[1] - along * r[1], n[2] - along * r[2]))
+        if max(pulls) < 1e-6 * min(1.0, ell / R):
+            raise InputError(
+                f"Scene: axes = {self.axes} both lie along the joint line, where the bar's constraint is singular; "
+                "tilt an axis"
+            )
+
+    @property
+    def momenta(self) -> tuple[float, float]:
+        """Axial angular momenta G_i = I3 omega_i (kg m²/s)."""
+        return self.rotor.I3 * self.spins[0], self.rotor.I3 * self.spins[1]
+
+    @property
+    def inertias(self) -> tuple[float, float]:
+        """(a, b) of T = a/2 (|r_1'|² + |r_2'|²) + b r_1' . r_2', the bar included (kg m²)."""
+        J, R = self.rotor.J, self.rotor.length
+        if self.link is None:
+            return J, 0.0
+        whole, twist = self.link.mass * R**2 / 4, self.link.inertia * (R / self.link.length) ** 2
+        return J + whole + twist, whole - twist
+
+    def summary(self) -> dict[str, str]:
+        """What is spun, joined and struck, name → words."""
+        rotor, bar, shock = self.rotor, self.link, self.shock
+        return {
+            "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",
+            "rotors": f"{rotor.length:g} m, {rotor.mass:g} kg, I1 = {rotor.I1:g}, I3 = {rotor.I3:g} kg m²",
+            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
+            "shock": f"{shock.force} N on rotor {shock.body}, {shock.at:g} ± {shock.width:g} s" if shock else "none",
+        }
+
+    def _repr_html_(self) -> str:
+        vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
+        told = self.summary() | {"r_1, r_2, r_1', r_2'": ", ".join(vectors)}
+        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in told.items())
+        return f"<table><caption>Scene</caption>{rows}</table>"

@@ -1,0 +1,162 @@
+"""What a run leaves: the axes over time and everything read off them, the same for every model."""
+
+import json
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor import __version__
+from lagrotor.errors import InputError
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.files import FILMS, PICTURES, write_beside, write_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "link_length": "m", "momenta": "kg m²/s"}
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """A run of a scene by a model.
+
+    t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s).
+    """
+
+    scene: Scene
+    model: str
+    why: str
+    t: Array
+    axes: Array
+    rates: Array
+    momenta: Array
+    evaluations: int
+
+    @cached_property
+    def joints(self) -> Array:
+        """Ground joints, (2, 3), in m."""
+        half = (self.scene.link.length if self.scene.link else self.scene.rotor.length) / 2
+        return np.array([[-half, 0.0, 0.0], [half, 0.0, 0.0]])
+
+    @cached_property
+    def tips(self) -> Array:
+        """Tips of the rotors, (2, n, 3), in m."""
+        return self.joints[:, None, :] + self.scene.rotor.length * self.axes
+
+    @cached_property
+    def link_length(self) -> Array:
+        """Distance of the tips, (n,), in m: the bar's length, constant on the exact pair."""
+        return np.linalg.norm(self.tips[1] - self.tips[0], axis=-1)
+
+    @cached_property
+    def energy(self) -> Array:
+        """Kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), (n,), in J."""
+        a, b = self.scene.inertias
+        v1, v2 = self.rates
+        tilting = a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1)
+        return tilting + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
+
+    @cached_property
+    def joint_line_momentum(self) -> Array:
+        """Angular momentum about the line through the ground joints, (n,), in kg m²/s: conserved but for the shock."""
+        a, b = self.scene.inertias
+        (r1, r2), (v1, v2) = self.axes, self.rates
+        turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
+        return turning[:, 0] + self.momenta[0] * r1[:, 0] + self.momenta[1] * r2[:, 0]
+
+    @property
+    def invariants(self) -> dict[str, Array]:
+        """What the motion conserves, name → (n,): the two axial momenta and the momentum about the joint line."""
+        return {"G_1": self.momenta[0], "G_2": self.momenta[1], "P": self.joint_line_momentum}
+
+    @cached_property
+    def inclinations(self) -> Array:
+        """Inclinations theta_i, (2, n), in rad."""
+        return np.arctan2(np.hypot(self.axes[..., 0], self.axes[..., 1]), self.axes[..., 2])
+
+    @cached_property
+    def azimuths(self) -> Array:
+        """Azimuths phi_i of the axes, unwrapped, (2, n), in rad."""
+        return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)
+
+    def plot(self) -> "Figure":
+        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
+        from lagrotor.pictures.run_figure import run_figure
+
+        return run_figure(self)
+
+    def animate(self, path: str | Path, fps: float = 25.0) -> Path:
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.pictures.animate`."""
+        from lagrotor.pictures.animate import animate
+
+        return animate(self, path, fps)
+
+    def summary(self) -> dict[str, str]:
+        """What the run is and how well it kept what it should keep, name → words."""
+        first, last = float(self.energy[0]), float(self.energy[-1])
+        return self.scene.summary() | {
+            "model": f"{self.model}: {self.why}",
+            "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
+            "evaluations": str(self.evaluations),
+            "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
+            "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
+        }
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self.summary().items())
+        return f"<table><caption>Trajectory</caption>{rows}</table>"
+
+    def save(self, path: str | Path) -> Path:
+        """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
+
+        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model and version. .csv: a
+        column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError for another ending.
+        """
+        target = Path(path)
+        if target.suffix == ".npz":
+            arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
+            about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
+            about["lagrotor"] = __version__
+            return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(about), **arrays))
+        if target.suffix == ".csv":
+            return write_text(target, self._columns())
+        if target.suffix in PICTURES:
+            return write_beside(target, lambda file: self.plot().savefig(file, format=target.suffix[1:]))
+        if target.suffix in FILMS:
+            return self.animate(target)
+        raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
+
+    def _columns(self) -> str:
+        names, columns = ["t [s]"], [self.t]
+        for i in (0, 1):
+            for j, letter in enumerate("xyz"):
+                names.append(f"tip_{i + 1}_{letter} [m]")
+                columns.append(self.tips[i, :, j])
+        names += ["energy [J]", "link_length [m]", "P [kg m2/s]"]
+        columns += [self.energy, self.link_length, self.joint_line_momentum]
+        rows = (",".join(map(repr, row)) for row in np.column_stack(columns).tolist())
+        return "\n".join([",".join(names), *rows, ""])
+
+    @staticmethod
+    def load(path: str | Path) -> "Trajectory":
+        """The run that `save` wrote as `.npz`. Raises InputError where that is not what the file is."""
+        try:
+            with np.load(Path(path)) as held:
+                about = json.loads(str(held["about"]))
+                t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
+            given = about["scene"]
+            parts = {"rotor": Rotor, "link": Link, "shock": Shock}
+            given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
+            return Trajectory(
+                Scene(**given), about["model"], about["why"], t, axes, rates, momenta, about["evaluations"]
+            )
+        except (OSError, ValueError, KeyError, TypeError, BadZipFile) as error:
+            raise InputError(f"load: {path} is no run saved as .npz ({error})") from None

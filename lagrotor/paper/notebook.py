@@ -1,0 +1,57 @@
+"""What a notebook shows at the end of a derivation's cell, for what has no display of its own.
+
+Statements are judged and trials heard when they are shown, so that who runs a script for its names does not wait.
+"""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from lagrotor.paper.catalogue import claims
+from lagrotor.paper.ledger import Statement, judge, verdict_table
+from lagrotor.paper.tables import Table
+from lagrotor.paper.trials import Trial, hear
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression or a matrix with dots over its rates: sympy alone would make theta_1_dot an index 1dot."""
+
+    expression: sp.Basic
+
+    def _repr_latex_(self) -> str:
+        rates = {s: re.fullmatch(r"(.+)_(d?dot)", s.name) for s in self.expression.free_symbols}
+        names = {s: rf"\{rate[2]}{{{sp.latex(sp.Symbol(rate[1]))}}}" for s, rate in rates.items() if rate}
+        return rf"$\displaystyle {sp.latex(self.expression, symbol_names=names)}$"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The verdicts of statements."""
+
+    statements: Sequence[Statement] = field(repr=False)  # a notebook keeps the repr beside the table
+
+    def _repr_html_(self) -> str:
+        return verdict_table(map(judge, self.statements))._repr_html_()
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What trials decide of the paper's claims; it takes their runs, some seconds."""
+
+    trials: Sequence[Trial] = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for trial in self.trials:
+            finding = hear(trial).finding
+            outcome = tuple(filter(None, (finding.outcome, finding.condition)))
+            rows.append((f"{trial.id}: {claims()[trial.id].text}", outcome, finding.explanation))
+        return Table("Claims", ("claim", "outcome", "why"), tuple(rows))._repr_html_()
+
+
+def findings_table(findings: Iterable[tuple[str, str]]) -> Table:
+    """What a script found beyond the judged equations."""
+    return Table("Findings", ("what", "found"), tuple(findings))

@@ -1,0 +1,97 @@
+"""The slow motion of opposite spins: the quartic Routhian averaged over the swing.
+
+With U, Delta of first order and alpha' of second, the Lagrangian of the pair has no cubic term once the cyclic alpha
+is eliminated at its momentum P; so one average over the swing
+
+    U = X + u cos Phi,    Delta = Delta_s + d sin Phi,    Phi' = Omega_0
+
+gives the slow motion of the mean (X, Delta_s), conjugate to each other through G, to third order:
+
+    G X' = −d<R_4>/d Delta_s,      G Delta_s' = d<R_4>/d X.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from lagrotor.pair.symbols import G_1, G_2, SWING, TWIST, TWISTED, G, P, X, a, b, k
+from lagrotor.theory.toppling import twisted_lagrangian
+
+_EPS = sp.Symbol("epsilon", positive=True)
+
+
+@cache
+def quartic_lagrangian() -> tuple[sp.Expr, sp.Expr]:
+    """(L_2, L_4) of opposite spins in U, Delta ~ eps, alpha' ~ eps²: no odd term."""
+    (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
+    L = twisted_lagrangian().subs({G_1: G, G_2: -G}).replace(_is_secant, lambda e: _taylor(sp.sech, e.base) ** -e.exp)
+    for function in (sp.tanh, sp.cos, sp.sin):
+        L = L.replace(function, lambda e, f=function: _taylor(f, f(e)))
+    scaled = {s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v}
+    polynomial = sp.Poly(L.subs(scaled, simultaneous=True), _EPS)
+    parts = [polynomial.coeff_monomial(_EPS**n) for n in range(5)]
+    if any(part != 0 for part in (parts[1], parts[3])):
+        raise ArithmeticError("quartic_lagrangian: an odd order is left")
+    return sp.expand(parts[2]), sp.expand(parts[4])
+
+
+def _is_secant(e: sp.Basic) -> bool:
+    return bool(e.is_Pow and e.base.func is sp.cosh and e.exp.is_Integer and e.exp < 0)
+
+
+def _taylor(function: type[sp.Function], of: sp.Expr) -> sp.Expr:
+    """`function` of the argument of `of`, through the fourth power."""
+    x = sp.Symbol("x")
+    slopes = [function(x).diff(x, n).subs(x, 0) / sp.factorial(n) for n in range(5)]
+    return sum((slope * of.args[0] ** n for n, slope in enumerate(slopes)), sp.Integer(0))
+
+
+@cache
+def quartic_routhian() -> sp.Expr:
+    """L_4 − P alpha' with alpha' = (P − G Delta²/(2k)) / (2 (a + b)) put in: in U, Delta and their rates."""
+    alpha_v = TWISTED.v[2]
+    quartic = quartic_lagrangian()[1]
+    rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v)[0]
+    return sp.expand((quartic - P * alpha_v).subs(alpha_v, rate))
+
+
+@cache
+def averaged_routhian() -> sp.Expr:
+    """<R_4> over the swing of amplitude d in Delta: a polynomial in X, Delta_s, d, P."""
+    (U, Delta, _), (U_v, Delta_v, _) = TWISTED.q, TWISTED.v
+    A, D = a + b, a - b
+    root = sp.sqrt(A * D)
+    rate = G / root
+    share = SWING * root / (2 * A)  # 2 A U'' = −G Delta': the swing's share in U
+    c, s = sp.symbols("c s")
+    moving = {U: X + share * c, U_v: -share * rate * s, Delta: TWIST + SWING * s, Delta_v: SWING * rate * c}
+    polynomial = sp.Poly(quartic_routhian().subs(moving), c, s)
+    mean = sum((coefficient * _mean(m, n) for (m, n), coefficient in polynomial.terms()), sp.Integer(0))
+    return sp.expand(mean)
+
+
+def _mean(m: int, n: int) -> sp.Rational:
+    """Mean of cos^m sin^n over a turn: zero unless both are even, else (m−1)!! (n−1)!! / (m+n)!!."""
+    if m % 2 or n % 2:
+        return sp.Integer(0)
+    return sp.factorial2(m - 1) * sp.factorial2(n - 1) / sp.factorial2(m + n)
+
+
+@cache
+def slow_rates() -> tuple[sp.Expr, sp.Expr]:
+    """(X', Delta_s') of the mean to third order, in X, Delta_s, d, P."""
+    mean = averaged_routhian()
+    return sp.factor(-mean.diff(TWIST) / G), sp.factor(mean.diff(X) / G)
+
+
+@cache
+def slow_stiffness() -> tuple[sp.Expr, sp.Expr]:
+    """Second derivatives of <R_4> by X and by Delta_s on the paired precession of amplitude d in Delta (no drift).
+
+    The first vanishes: to this order nothing holds the mean x; the second is b Omega_0² d²/8: zero for a massless bar.
+    """
+    mean = averaged_routhian()
+    momentum = G * SWING**2 / (4 * k)  # <alpha'> = 0
+    at = {X: 0, TWIST: 0, P: momentum}
+    first, second = (sp.factor(mean.diff(q, 2).subs(at)) for q in (X, TWIST))
+    return first, second

@@ -1,0 +1,131 @@
+"""Equal spins: the parallel pair is one rotor, exactly; and the twist that may grow out of it.
+
+With r_1 = r_2 = r the bar exerts nothing on the twist when G_1 = G_2: the pair is one rotor of inertia a + b and
+momentum G for each axis, and precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist
+Delta obeys, on any parallel motion r(t), x = r . e_x,
+
+    d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
+
+free of G and of ell / R. It is kept small on small cones for b > 0, drifts for b = 0 and grows for b < 0: K > m ell²/4,
+a bar of more inertia than two point masses at its ends have.
+"""
+
+from functools import cache
+from math import cos, pi, sin
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrotor.errors import DomainError, InputError
+from lagrotor.mechanics import euler_lagrange
+from lagrotor.pair.symbols import G_1, G_2, TWISTED, G, Phi, a, b, rho
+from lagrotor.theory.closed_form import ClosedForm
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.toppling import twisted_lagrangian
+
+Array = NDArray[np.float64]
+
+
+@cache
+def parallel_residual() -> tuple[sp.Expr, ...]:
+    """What the equations of (U, Delta, alpha) leave of a parallel motion, Delta = 0 for all time: (U, twist, alpha).
+
+    The second is zero exactly when G_1 = G_2; the others are then the equations of one rotor.
+    """
+    _, Delta, _ = TWISTED.q
+    zero = {Delta: 0, TWISTED.v[1]: 0, TWISTED.a[1]: 0}
+    return tuple(e.subs(zero) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
+
+
+@cache
+def twist_coefficients() -> tuple[sp.Expr, sp.Expr]:
+    """(inertia, stiffness) of the small twist on a parallel motion of equal spins, in U, U', U'', alpha, …:
+
+    d/dt(inertia Delta') + stiffness Delta = 0, from the quadratic part of the Lagrangian in Delta, Delta'.
+    """
+    _, Delta, _ = TWISTED.q
+    Delta_v, Delta_a = TWISTED.v[1], TWISTED.a[1]
+    equation = euler_lagrange(twisted_lagrangian().subs({G_1: G, G_2: G}), TWISTED)[1]
+    straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
+    return equation.diff(Delta_a).subs(straight), equation.diff(Delta).subs(straight)
+
+
+@cache
+def twist_growth() -> ClosedForm:
+    """Growth rate (1/s) of a small twist on the steady precession of equal spins, to first order in its half-angle:
+
+    rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0 (b = 0: a drift in time);
+    rho the sine of the half-angle of the cone.
+    The mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2.
+    """
+    rate = G / (a + b)
+    mean = sp.integrate(b * rate**2 * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)
+    squared = sp.factor(mean / ((a - b) / 2))
+    return ClosedForm(
+        "twist_growth",
+        ("growth",),
+        (sp.sqrt(sp.Abs(squared) * sp.Heaviside(-b, 0)),),
+        (rho, G, a, b),
+        (sp.Gt(a, sp.Abs(b)), sp.Lt(rho, 1)),
+        "equal spins, parallel axes on a cone about the vertical",
+        "5",
+        1,
+        rho,
+    )
+
+
+def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene:
+    """`scene` started in parallel steady precession on a cone of half-angle `angle` (rad) about the vertical.
+
+    x = sin(angle) at t = 0; rate G / ((a + b) cos angle). twist_rate: Delta' at the start (rad/s), small.
+    Raises InputError unless the spins are equal and there is a bar.
+    """
+    from lagrotor.pair.initial_conditions import consistent_scene
+
+    inertia_a, inertia_b, G_value = _equal(scene, angle, "parallel_scene")
+    rate = G_value / ((inertia_a + inertia_b) * cos(angle))
+    axis = (sin(angle), 0.0, cos(angle))
+    # At x = sin(angle) turning about the joint line moves y alone: alpha' = −y'/z.
+    first, second = ((0.0, rate * sin(angle) + sign * twist_rate / 2 * cos(angle), 0.0) for sign in (1.0, -1.0))
+    return consistent_scene(scene.spins, (axis, axis), (first, second), scene.rotor, scene.link)
+
+
+def twist_multiplier_growth(scene: Scene, angle: float) -> float:
+    """Growth rate (1/s) of a small twist on the cone of half-angle `angle`, from Hill's equation, exact in the angle:
+
+    ((1 − rho² cos² Phi) Delta')' + 2 b rho² sin² Phi / (a − b) Delta = 0,  of period pi in the phase Phi.
+    Zero where it is bounded. Raises InputError unless the spins are equal, DomainError unless 0 < angle < pi/2.
+    """
+    from scipy.integrate import solve_ivp
+
+    inertia_a, inertia_b, G_value = _equal(scene, angle, "twist_multiplier_growth")
+    squared, weight = sin(angle) ** 2, 2 * inertia_b / (inertia_a - inertia_b)
+
+    def rate(phase: float, y: Array) -> Array:
+        inertia = 1 - squared * cos(phase) ** 2
+        stiffness = weight * squared * sin(phase) ** 2
+        return np.array([y[2] / inertia, y[3] / inertia, -stiffness * y[0], -stiffness * y[1]])
+
+    end = solve_ivp(rate, (0, pi), np.array([1.0, 0.0, 0.0, 1.0]), method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+    half_trace = abs(float(end[0] + end[3])) / 2
+    turn = abs(G_value) / ((inertia_a + inertia_b) * cos(angle))
+    return float(np.arccosh(half_trace)) / pi * turn if half_trace > 1 + 1e-11 else 0.0
+
+
+def twist_safe(scene: Scene) -> bool:
+    """Whether a small parallel precession of equal spins keeps its axes parallel: b > 0, that is K < m ell²/4.
+
+    Raises InputError without a bar.
+    """
+    if scene.link is None:
+        raise InputError("twist_safe: the scene has no bar: nothing couples the twist")
+    return scene.link.inertia < scene.link.mass * scene.link.length**2 / 4
+
+
+def _equal(scene: Scene, angle: float, where: str) -> tuple[float, float, float]:
+    if scene.spins[0] != scene.spins[1] or scene.spins[0] == 0 or scene.link is None:
+        raise InputError(f"{where}: a parallel precession needs a bar and equal spins, not {scene.spins}")
+    if not 0 < angle < pi / 2:
+        raise DomainError(f"{where}: angle = {angle:g} must lie between 0 and pi/2 rad")
+    return *scene.inertias, scene.momenta[0]

@@ -1,0 +1,129 @@
+"""One scene, many methods: what is kept, what is listed, what is left out, and the front. No times."""
+
+import json
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lagrotor import Scene
+from lagrotor.commands.chart_command import as_data, in_words
+from lagrotor.errors import LagrotorError
+from lagrotor.benchmark import runner as measure
+from lagrotor.benchmark.scenes_and_methods import METHODS, courses
+from lagrotor.benchmark.runner import Course, Failure, Point, chart, front, listed, seconds_at
+from lagrotor.benchmark.runner import Method
+
+
+def small() -> Course:
+    return Course(courses(quick=True)["displaced"].scene, np.linspace(0, 1, 11), 1, "one second")
+
+
+def broken(scene: Scene, times: Any) -> Any:
+    raise LagrotorError("does not do this")
+
+
+def absent(scene: Scene, times: Any) -> Any:
+    raise ImportError("no module", name="pydy")
+
+
+def halfway(scene: Scene, times: Any) -> Any:
+    def run(tol: float) -> Any:
+        if tol < 1e-4:
+            raise RuntimeError("too tight\nand more")
+        return np.zeros((2, len(times), 3)), 1
+
+    return run
+
+
+def lost(scene: Scene, times: Any) -> Any:
+    return lambda tol: (np.full((2, len(times), 3), np.nan), 1)
+
+
+class Clock:
+    """A clock that only runs tick: seconds(knob, how often it was run) of each."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, seconds: Callable[[float, int], float]) -> None:
+        self.now, self.seconds, self.runs = 0.0, seconds, Counter[float]()
+        monkeypatch.setattr(measure, "_CLOCK", lambda: self.now)
+
+    def prepare(self, scene: Scene, times: Any) -> Any:
+        self.runs.clear()
+
+        def run(knob: float) -> Any:
+            self.runs[knob] += 1
+            self.now += self.seconds(knob, self.runs[knob])
+            return np.zeros((2, len(times), 3)), 1
+
+        return run
+
+
+def test_what_fails_is_listed_and_what_is_absent_is_said() -> None:
+    methods = {"minimal": METHODS["minimal"], "broken": Method("core", broken), "lost": Method("core", lost)}
+    methods |= {"absent": Method("peer", absent, extra="peers"), "halfway": Method("core", halfway)}
+    found = chart("small", small(), methods, (1e-3, 1e-6))
+    assert {(p.method, p.knob) for p in found.points} == {("minimal", 1e-3), ("minimal", 1e-6), ("halfway", 1e-3)}
+    assert [str(failure) for failure in found.failures] == [
+        "absent: not installed (pydy): pip install 'lagrotor[peers]'",
+        "broken: does not do this",
+        "halfway at 1e-06: too tight",
+        "lost: a value is not finite",
+    ]
+    assert set(found.setup) == {"minimal", "halfway", "lost"}
+    assert min(p.error for p in found.points) >= found.floor
+    words = in_words([found])
+    assert "not there: broken: does not do this" in words
+    assert json.loads(json.dumps(as_data([found])))["charts"][0]["scene"] == "small"
+
+
+def test_a_method_that_takes_long_is_asked_no_more_and_steps_are_its_knobs(monkeypatch: pytest.MonkeyPatch) -> None:
+    slow = {"slow": Method("peer", Clock(monkeypatch, lambda knob, _: 0.3 / knob).prepare, (0.1, 0.01))}
+    found = chart("small", small(), slow, (1e-3,), patience=2.0)
+    assert [(p.knob, p.seconds) for p in found.points] == [(0.1, pytest.approx(3.0))]
+    assert [str(failure) for failure in found.failures] == ["slow at 0.01: left out: at 0.1 a run took 3.0 s"]
+    # Twin: with patience both are run.
+    patient = chart("small", small(), slow, (1e-3,), patience=4.0)
+    assert [p.knob for p in patient.points] == [0.1, 0.01]
+    assert not patient.failures
+
+
+def test_what_failed_alike_is_said_once() -> None:
+    failures = [Failure("a", (), "why"), Failure("b", (1e-3,), "why"), Failure("c", (), "why")]
+    assert listed(failures) == ["a; c: why", "b at 0.001: why"]
+
+
+def test_a_first_run_that_compiles_tires_nobody_and_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    # A knob's first run takes 5 s, the others 1 ms; the crudest is run once more, before its turn.
+    prepare = Clock(monkeypatch, lambda knob, count: 5.0 if count == 1 else 0.001).prepare
+    fast, peer = (chart("small", small(), {"a": Method(f, prepare)}, (1e-3, 1e-4, 1e-5)) for f in ("fast", "peer"))
+    assert [p.seconds for p in fast.points] == pytest.approx([0.001] * 3)
+    assert [p.first for p in fast.points] == pytest.approx([0.001, 5, 5])
+    assert fast.setup["a"] > 4.9
+    # Twin: for another family the same run is a long one, and the last.
+    assert [p.seconds for p in peer.points] == pytest.approx([0.001, 5])
+
+
+def test_a_short_run_is_repeated_until_a_sample_is_full_and_a_long_one_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, lambda knob, _: measure.SAMPLE * (3 if knob < 0.01 else 0.3))
+    found = chart("small", small(), {"a": Method("core", clock.prepare, (0.1, 0.001))}, (1e-3,))
+    # Once to get ready (the crudest), once for the error, and one sample.
+    assert clock.runs == {0.1: 1 + 1 + 4, 0.001: 1 + 1}
+    assert [p.seconds / measure.SAMPLE for p in found.points] == pytest.approx([0.3, 3])
+
+
+def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
+    return Point(name, family, 1, error, evaluations, seconds, seconds)
+
+
+def test_the_front_keeps_what_nothing_beats() -> None:
+    rows = ((1, 10, 1), (0.1, 5, 2), (0.2, 7, 3), (0.01, 20, 4), (2, 9, 9))
+    points = [point("a", *row) for row in rows]
+    assert [p.error for p in front(points)] == [1, 0.1, 0.01]
+    assert [p.error for p in front(points, "evaluations")] == [0.1, 0.01]
+    assert front([*points, point("trap", 1e-3, 1, 0.1, "trap")]) == front(points)
+    assert seconds_at(points, 0.1) == pytest.approx(2)
+    assert seconds_at(points, 0.1 / 10**0.5) == pytest.approx(8**0.5)
+    assert seconds_at(points, 1e-3) is None
+    assert seconds_at([], 1) is None

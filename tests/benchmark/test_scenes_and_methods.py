@@ -1,0 +1,198 @@
+"""The chart: its reference, its error ceilings, its bookkeeping and its figure. No times."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lagrotor import Scene, simulate
+from lagrotor.commands.chart_command import draw
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.models.closed_form import closed_form
+from lagrotor.pictures.style import paper_style
+from lagrotor.benchmark import scenes_and_methods as module
+from lagrotor.benchmark.scenes_and_methods import METHODS, courses, ratios
+from lagrotor.benchmark.runner import TOLERANCES, Course, Failure, Point, chart
+from lagrotor.benchmark.reference import reference
+
+STORED = json.loads(Path(__file__).with_name("reference.json").read_text())
+TIMES = np.array([0.0, *STORED["times"]])
+STATES = np.array([[float(x) for x in row] for row in STORED["states"]])
+
+
+def displaced() -> Scene:
+    return Scene((10, -10), axes=STORED["scene"]["axes"], rates=STORED["scene"]["rates"])
+
+
+def off(axes: Any) -> float:
+    return float(np.abs(axes[:, 1:] - np.array(STORED["axes"])).max())
+
+
+def test_the_stored_reference_is_the_charts_scene() -> None:
+    assert np.array(courses()["displaced"].scene.axes) == pytest.approx(np.array(displaced().axes), abs=1e-15)
+    assert np.array(courses()["displaced"].scene.rates) == pytest.approx(np.array(displaced().rates), abs=1e-14)
+    assert STORED["formulations_apart"] < 3e-15
+
+
+@pytest.mark.parametrize("model", ["minimal", "spheres"])
+def test_both_formulations_meet_thirty_digits_to_1e_13(model: str) -> None:
+    assert off(simulate(displaced(), TIMES, model, 1e-13).axes) < 1e-13
+    # Twin: a spin changed in its eleventh digit is seen.
+    changed = replace(displaced(), spins=(10.0000000001, -10))
+    assert off(simulate(changed, TIMES, model, 1e-13).axes) > 1e-12
+
+
+def test_the_reference_says_how_far_its_formulations_are_apart() -> None:
+    found = reference(displaced(), TIMES)
+    assert 0 < found.floor < 1e-13
+    assert found.tips.shape == (2, 11, 3)
+
+
+# Largest error of an axis over 10 s for a tolerance; four times what was measured.
+CEILINGS = {
+    "minimal": {1e-4: 5e-5, 1e-6: 1.1e-6, 1e-8: 7e-8, 1e-10: 1e-10, 1e-12: 2e-13},
+    "spheres": {1e-4: 7e-4, 1e-6: 2e-5, 1e-8: 1e-7, 1e-10: 3e-10, 1e-12: 3e-12},
+}
+EVALUATIONS = {
+    "minimal": {1e-6: 2410, 1e-8: 3522, 1e-10: 4972, 1e-12: 5344},
+    "spheres": {1e-6: 2900, 1e-8: 3940, 1e-10: 5400, 1e-12: 4400},
+}
+
+
+@pytest.mark.parametrize("model", CEILINGS)
+def test_errors_and_evaluations_stay_under_their_ceilings(model: str) -> None:
+    for tol, ceiling in CEILINGS[model].items():
+        run = simulate(displaced(), TIMES, model, tol)
+        assert off(run.axes) < ceiling
+        assert run.evaluations < 1.15 * EVALUATIONS[model].get(tol, 2500)
+
+
+def test_an_error_that_is_asked_for_less_gets_smaller_down_to_the_floor() -> None:
+    found = [off(simulate(displaced(), TIMES, "minimal", tol).axes) for tol in (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)]
+    assert found == sorted(found, reverse=True)
+    assert found[0] / found[-1] > 1e9
+
+
+# What is offered, and its ratios.
+
+
+def test_a_closed_form_meets_its_scene_anew_in_every_run() -> None:
+    run = METHODS["closed form"].prepare(displaced(), TIMES)
+    spent = []
+    for _ in range(2):
+        run(1e-6)
+        spent.append((closed_form.cache_info().misses, closed_form.cache_info().hits))
+    assert spent[0] == spent[1] and spent[0][0] == 1
+    simulate(displaced(), TIMES, "closed_form", 1e-6)  # twin: outside the chart it is remembered
+    assert closed_form.cache_info().misses == 1
+
+
+def small() -> Course:
+    return Course(displaced(), np.linspace(0, 1, 11), 1, "one second")
+
+
+def test_springs_end_at_their_finite_stiffness_and_refuse_a_bar_without_mass() -> None:
+    heavy = replace(courses(quick=True)["heavy"], times=np.linspace(0, 1, 11), repeats=0)
+    named = [name for name, method in METHODS.items() if method.family == "springs"]
+    found = chart("heavy", heavy, {name: METHODS[name] for name in named}, patience=np.inf)
+    worst = [max(p.error for p in found.points if p.method == name) for name in named]
+    best = [min(p.error for p in found.points if p.method == name) for name in named]
+    assert not found.failures
+    assert worst[0] < 3 * best[0]  # a finer step does not help: the springs give
+    assert best[1] < best[0] / 10
+    refused = chart("small", small(), {named[0]: METHODS[named[0]]})
+    assert "mass 0 kg" in refused.failures[0].reason and refused.failures[0].knobs == ()
+
+
+def test_what_is_left_out_is_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = small()
+    monkeypatch.setattr(module, "courses", lambda quick: {"displaced": one})
+    monkeypatch.setattr(module, "PEERS", {})
+    monkeypatch.setattr(module, "CANDIDATES", {})
+    monkeypatch.setattr(module, "METHODS", {name: METHODS[name] for name in ("minimal", "euler")})
+    (quick,), (full,) = module.charts(quick=True), module.charts()
+    assert [str(f) for f in quick.failures] == ["euler: left out: slower than minimal, which goes as far"]
+    assert not full.failures
+    assert {p.knob for p in quick.points} == {1e-3, 1e-8, 1e-13}
+    assert {p.knob for p in full.points} == set(TOLERANCES)
+
+
+@pytest.mark.parametrize("group", module._SLOW)
+def test_only_what_is_offered_is_left_out(group: str) -> None:
+    assert set(module._SLOW[group]) <= set(METHODS) | set(module.CANDIDATES) | set(module.PEERS)
+
+
+def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
+    return Point(name, family, 1, error, evaluations, seconds, seconds)
+
+
+def test_ratios_compare_at_equal_error() -> None:
+    points = [point("minimal", 1e-6, 1, 0.01), point("minimal, fast", 1e-6, 1, 0.001, "fast")]
+    points += [point("PyDy, Cython", 1e-5, 1, 0.1, "peer"), point("PyDy, Cython", 1e-7, 1, 0.4, "peer")]
+    found = replace(chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,)), points=tuple(points))
+    row = ratios(found, [1e-6])["1e-06"]
+    assert row["PyDy, Cython / core"] == row["PyDy, Cython / any rung"] == pytest.approx(20)
+    assert row["core / fast"] == pytest.approx(10)
+    assert row["CasADi CVODES / core"] is None
+    # The closed form is a rung, and no integration.
+    whole = replace(found, points=(*points, point("closed form", 1e-6, 0, 0.002, "closed")))
+    row = ratios(whole, [1e-6, 1e-7])["1e-06"]
+    assert (row["PyDy, Cython / core"], row["PyDy, Cython / any rung"]) == pytest.approx((20, 100))
+    assert ratios(whole, [1e-7])["1e-07"]["any rung"] is None
+
+
+# The figure.
+
+
+def test_the_figure_tells_families_apart_and_clips_no_failure() -> None:
+    methods = {"minimal": METHODS["minimal"], "solve_ivp, RK45": METHODS["solve_ivp, RK45"]}
+    found = chart("small", small(), methods, (1e-3, 1e-6))
+    reason = "a reason that goes on " * 60
+    trap = replace(found.points[0], method="trap", family="trap")
+    found = replace(found, points=(*found.points, trap), setup=found.setup | {"trap": 0.5})
+    found = replace(found, failures=(Failure("long", (1e-3,), reason), Failure("none", (), "short")))
+    with paper_style():
+        figure = draw(found)
+        figure.draw_without_rendering()
+    left, right = figure.axes
+    lines = {line.get_label().split("  ")[-1]: line for line in left.get_lines()}
+    assert {"minimal", "solve_ivp, RK45", "trap (0.5 s)", "front"} <= set(lines)
+    colours = [lines[name].get_color() for name in ("minimal", "solve_ivp, RK45", "trap (0.5 s)")]
+    assert len(set(colours)) == 3
+    assert len(right.get_lines()) == len(left.get_lines())
+    said = figure._supxlabel
+    assert "".join(said.get_text().split()).count("areasonthatgoeson") == 60
+    box, page = said.get_window_extent(), figure.bbox
+    assert box.x0 >= page.x0 and box.x1 <= page.x1 and box.y0 >= page.y0
+    assert box.y1 < min(axes.get_tightbbox().y0 for axes in figure.axes)
+    (legend,) = figure.legends
+    assert legend.get_window_extent().x0 >= right.get_window_extent().x1
+    assert legend.get_window_extent().x1 <= page.x1
+    assert figure._suptitle.get_window_extent().x1 < legend.get_window_extent().x0
+
+
+def test_the_command_writes_pictures_and_numbers(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    made = chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,))
+    monkeypatch.setattr(module, "charts", lambda quick, step: [made])
+    assert main(["chart", "--quick", "--json", "--out", str(tmp_path)]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["chart-small.png", "chart-small.svg", "chart.json"]
+    data = json.loads(capsys.readouterr().out)
+    assert data == json.loads((tmp_path / "chart.json").read_text())
+    (kept,) = data["charts"][0]["points"]
+    assert kept["method"] == "minimal" and kept["family"] == "core" and kept["knob"] == 1e-3
+
+
+def test_the_command_refuses_a_folder_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["chart", "--out", "/no/such/folder"]) == 2
+    assert "no folder" in capsys.readouterr().err
+
+
+def test_an_unknown_engine_is_refused() -> None:
+    with pytest.raises(InputError, match="neither core nor fast"):
+        simulate(displaced(), [1.0], "minimal", engine="slow")

@@ -1,0 +1,210 @@
+"""Ensembles: each trajectory as `simulate` has it, in any executor, and an interrupted sweep goes on."""
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Scene, Shock, consistent_scene, simulate
+from lagrotor.errors import InputError, SingularError
+from lagrotor.models.minimal import MODEL
+from lagrotor.models import ensemble
+from lagrotor.models.ensemble import MODELS, run_chunk, started, sweep
+
+T = np.array([0.0, 0.4, 1.0, 2.5])
+UP = ((0, 0, 1), (0, 0, 1))
+STATE = np.array([0.1, 0.05, 0.02, 0.3, 1.2, -0.4])
+
+
+def family(n, scene=None):
+    return started(scene or Scene((10.0, -10.0)), STATE * np.linspace(0.3, 1.5, n)[:, None])
+
+
+def mixed():
+    """One scene of each kind: every bar, with and without shock, without bar, and one that starts on the joint line."""
+    scenes = [
+        family(1, Scene(spins, link=Link(length, *bar)))[0]
+        for spins in ((10.0, -10.0), (7.0, 3.0))
+        for length in (0.6, 1.0, 1.7)
+        for bar in ((0.0, 0.0), (0.3, 0.1))
+    ]
+    scenes += [replace(s, shock=Shock((5.0, -2.0, 1.0), 0.6, 0.03, body)) for s in scenes[:5] for body in (1, 2)]
+    scenes.append(Scene((10.0, -4.0), link=None, rates=((0.5, 0.2, 0.0), (0.0, 0.0, 0.0))))
+    return scenes
+
+
+def test_every_trajectory_is_that_of_simulate():
+    tol = 1e-9
+    scenes = mixed()
+    found = sweep(scenes, T, tol, chunk=7)
+    for i, scene in enumerate(scenes):
+        expected = simulate(scene, T, "minimal" if scene.link else "spheres", tol)
+        np.testing.assert_allclose(found.axes[i], expected.axes, atol=20 * tol)
+        np.testing.assert_allclose(found.rates[i], expected.rates, atol=400 * tol)
+        run = found.trajectory(i)
+        np.testing.assert_allclose(run.energy, expected.energy, rtol=100 * tol)
+        assert MODELS[found.models[i]] == run.model == expected.model
+
+
+def test_the_error_falls_with_the_tolerance():
+    scenes = family(40)
+    exact = sweep(scenes, [3.0], 1e-13)
+    errors = [abs(sweep(scenes, [3.0], tol).axes - exact.axes).max() for tol in (1e-4, 1e-6, 1e-8, 1e-10)]
+    assert all(error < 20 * tol for error, tol in zip(errors, (1e-4, 1e-6, 1e-8, 1e-10), strict=True))
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_evaluations_are_those_of_an_order_of_eight():
+    scenes = family(40)
+    spent = [sweep(scenes, [3.0], tol).evaluations.mean() for tol in (1e-6, 1e-10)]
+    assert spent[0] < 900  # about 70 a radian of the natural rate in 3 s
+    assert 10 ** (4 / 8) * 0.7 < spent[1] / spent[0] < 10 ** (4 / 8) * 1.3
+
+
+def test_a_short_shock_late_in_the_run_is_not_missed():
+    scene = replace(family(1)[0], shock=Shock((4e6, 0.0, 0.0), 2.0, 1e-7))
+    found, expected = sweep([scene], T, 1e-9), simulate(scene, T, "minimal", 1e-9)
+    np.testing.assert_allclose(found.axes[0], expected.axes, atol=1e-7)
+
+
+def test_what_minimal_loses_spheres_finishes():
+    """An axis driven onto the joint line: the minimal model ends there."""
+    scene = Scene((0.0, 0.0), rates=((0.3, 1.0, 0.0), (0.3, -0.6, 0.0)))
+    found = sweep([scene, *family(2)], [1.0, 2.0], 1e-8)
+    assert [MODELS[m] for m in found.models] == ["spheres", "minimal", "minimal"]
+    assert np.isfinite(found.axes).all()
+
+
+def test_what_nothing_finishes_is_nan(monkeypatch):
+    from lagrotor.errors import IntegrationError
+
+    def stopped(*arguments):
+        raise IntegrationError("it stops")
+
+    monkeypatch.setattr(ensemble, "simulate", stopped)
+    found = sweep([Scene((1.0, 1.0), link=None), *family(1)], [1.0])
+    assert [MODELS[m] for m in found.models] == ["none", "minimal"]
+    assert np.isnan(found.axes[0]).all()
+    assert np.isfinite(found.axes[1]).all()
+
+
+@pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_any_executor(kind):
+    scenes, seen = family(10), []
+    here = sweep(scenes, T)
+    with kind(2) as executor:
+        there = sweep(scenes, T, chunk=3, executor=executor, progress=lambda done, n: seen.append((done, n)))
+    np.testing.assert_allclose(there.axes, here.axes, atol=1e-9)
+    assert seen[-1] == (10, 10)
+    assert len(seen) == 4
+
+
+@pytest.mark.slow
+def test_a_cluster():
+    distributed = pytest.importorskip("distributed", reason="dask is not installed: pip install 'lagrotor[cluster]'")
+    scenes = family(10)
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        there = sweep(scenes, T, chunk=3, executor=client.get_executor())
+    np.testing.assert_allclose(there.axes, sweep(scenes, T).axes, atol=1e-9)
+
+
+def test_an_interrupted_sweep_goes_on(tmp_path, monkeypatch):
+    scenes, ran = family(10), []
+
+    def counted(part, times, tol, engine: str):
+        ran.append(len(part))
+        return run_chunk(part, times, tol, engine)
+
+    def stop(done, n):
+        if done >= 6:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(ensemble, "run_chunk", counted)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(scenes, T, chunk=3, folder=tmp_path, progress=stop)
+    assert ran == [3, 3]
+    assert len(list(tmp_path.glob("chunk-*.npz"))) == 2
+    again = sweep(scenes, T, chunk=3, folder=tmp_path)
+    assert ran == [3, 3, 3, 1]
+    np.testing.assert_array_equal(again.axes, sweep(scenes, T, chunk=3).axes)
+    sweep(scenes, T, chunk=3, folder=tmp_path)
+    assert len(ran) == 8  # four by the sweep without a folder, none by this one
+
+
+def test_a_folder_of_another_sweep_is_refused(tmp_path):
+    sweep(family(2), T, folder=tmp_path)
+    with pytest.raises(InputError, match="another sweep"):
+        sweep(family(3), T, folder=tmp_path)
+    with pytest.raises(InputError, match="no folder"):
+        sweep(family(2), T, folder=tmp_path / "none")
+
+
+@pytest.mark.parametrize(
+    ("scenes", "more"),
+    [([], {}), ([1.0], {}), (None, {"chunk": 0}), (None, {"chunk": True}), (None, {"tol": 1.0})],
+)
+def test_bad_arguments(scenes, more):
+    with pytest.raises(InputError):
+        sweep(family(1) if scenes is None else scenes, T, **more)
+
+
+def test_started_keeps_the_states():
+    scenes = started(Scene((10.0, -10.0), link=Link(0.7)), [STATE, 2 * STATE])
+    np.testing.assert_allclose([MODEL.start(s) for s in scenes], [STATE, 2 * STATE], atol=1e-14)
+    with pytest.raises(InputError):
+        started(Scene((1.0, 1.0)), STATE)
+    with pytest.raises(SingularError):
+        started(Scene((1.0, 1.0), link=None), [STATE])
+
+
+def test_the_fast_extra_runs_the_same_ensemble():
+    """Lanes are filled up where their number does not divide the ensemble's; each keeps its own motion."""
+    pytest.importorskip("heyoka", reason="the fast extra is not installed")
+    scenes = [scene for scene in mixed() if not scene.shock] + family(11)
+    core, fast = (sweep(scenes, T, 1e-10, engine=engine) for engine in ("core", "fast"))
+    np.testing.assert_allclose(fast.axes, core.axes, atol=1e-8)
+    np.testing.assert_allclose(fast.rates, core.rates, atol=1e-7)
+    assert (fast.models == core.models).all() and (fast.evaluations > 0).all()
+    assert np.abs(fast.axes[-1] - fast.axes[-2]).max() > 1e-2  # twin: one lane is not another
+
+
+def test_what_an_engine_does_not_do_is_refused_at_the_door():
+    with pytest.raises(InputError, match="neither core nor fast"):
+        sweep(family(2), T, engine="quick")
+    with pytest.raises(InputError, match="takes no shock"):
+        sweep([replace(family(1)[0], shock=Shock((1, 0, 0), 0.1, 0.1))], T, engine="fast")
+
+
+def test_what_nothing_can_finish_is_named():
+    """Without spin a shock lays bar and axes in line: no model goes through that."""
+    falling = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05))
+    found = sweep([family(1)[0], falling], [0.0, 5.0, 30.0])
+    assert found.failed.tolist() == [1]
+    assert np.isnan(found.axes[1]).all() and np.isfinite(found.axes[0]).all()
+
+
+def test_beside_a_singular_position_the_fallback_gives_all_it_has():
+    scene = consistent_scene((10, -10), UP, ((-1.836, -1.934, 0), (-1.836, 1.934, 0)), link=Link(1, 0.01, 0.1))
+    found, exact = sweep([scene], [0.0, 5.0, 10.0], 1e-6), simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-12)
+    assert MODELS[found.models[0]] == "spheres"
+    off = np.abs(found.axes[0] - exact.axes).max()
+    loose = simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-6)
+    assert off < 1e-5
+    assert np.abs(loose.axes - exact.axes).max() > max(10 * off, 1e-5)  # twin: the tolerance asked for would not do
+
+
+def test_a_damaged_chunk_is_run_again(tmp_path):
+    scenes = family(4)
+    whole = sweep(scenes, T, chunk=2, folder=tmp_path)
+    (tmp_path / "chunk-000001.npz").write_bytes(b"PK damaged")
+    again = sweep(scenes, T, chunk=2, folder=tmp_path)
+    np.testing.assert_array_equal(again.axes, whole.axes)
+
+
+def test_one_scene_is_no_sequence_of_scenes():
+    with pytest.raises(InputError, match="a sequence of at least one Scene"):
+        sweep(family(1)[0], T)

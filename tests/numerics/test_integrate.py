@@ -1,0 +1,222 @@
+"""The solver: its order, its pulses, and how it stops."""
+
+from math import cos, erf, pi, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics.integrate import Array, Problem, Rate, check_tolerance, integrate
+
+ENOUGH = 1e6
+START = np.array([1.0, 0.0])
+
+
+def oscillate(s: float, y: Array) -> list[float]:
+    return [y[1], -y[0]]
+
+
+def kick(strength: float, width: float) -> Rate:
+    def rate(s: float, y: Array) -> list[float]:
+        return [y[1], strength * np.exp(-((s / width) ** 2))]
+
+    return rate
+
+
+def drift(s: float, y: Array) -> list[float]:
+    return [y[1], 0.0]
+
+
+def gained(strength: float, at: float, width: float, times: Array, tol: float) -> Array:
+    """Momentum at `times` of a free unit mass under the pulse."""
+    problem = Problem(drift, np.zeros(2), ENOUGH, kick(strength, width), at, width)
+    return integrate(problem, times, tol).states[:, 1]
+
+
+def impulse(strength: float, at: float, width: float, t: float) -> float:
+    """The pulse integrated from 0 to t."""
+    return strength * width * sqrt(pi) / 2 * (erf((t - at) / width) - erf(-at / width))
+
+
+def test_the_oscillator_oscillates() -> None:
+    times = np.linspace(0, 20, 41)
+    solution = integrate(Problem(oscillate, START, ENOUGH), times, 1e-12)
+    exact = np.column_stack([np.cos(times), -np.sin(times)])
+    assert solution.states == pytest.approx(exact, abs=1e-11)
+    assert solution.states != pytest.approx(np.column_stack([np.cos(1.0001 * times), -np.sin(times)]), abs=1e-11)
+    assert solution.evaluations > 0
+
+
+def test_the_error_falls_with_the_tolerance_and_stays_below_it() -> None:
+    errors, evaluations = [], []
+    for tol in (1e-3, 1e-6, 1e-9, 1e-12):
+        solution = integrate(Problem(oscillate, START, ENOUGH), np.array([10.0]), tol)
+        errors.append(abs(solution.states[0, 0] - cos(10)))
+        evaluations.append(solution.evaluations)
+        assert errors[-1] < tol
+    assert errors == sorted(errors, reverse=True)
+    assert evaluations == sorted(evaluations)
+    # Eighth order: a thousandth of the error for little more than twice the steps.
+    assert evaluations[-1] < 3 * evaluations[-2]
+
+
+def test_evaluations_are_counted() -> None:
+    calls = 0
+
+    def counted(s: float, y: Array) -> list[float]:
+        nonlocal calls
+        calls += 1
+        return oscillate(s, y)
+
+    problem = Problem(counted, START, ENOUGH, project=lambda y: y / np.hypot(*y))
+    solution = integrate(problem, np.array([1.0, 3.0]), 1e-8)
+    assert solution.evaluations == pytest.approx(calls, abs=1)
+
+
+WIDTHS = [1e-1, 1e-3, 1e-5, 1e-7, 1e-9]
+
+
+@pytest.mark.parametrize("tol", [1e-2, 1e-6, 1e-11])
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("at", [4.3717, pi, 0.999999])
+def test_no_pulse_is_stepped_over(at: float, width: float, tol: float) -> None:
+    """Unit impulse, sparse outputs far from it, whatever the tolerance."""
+    strength = 1 / (width * sqrt(pi))
+    before, after = gained(strength, at, width, np.array([at / 4, 9.0]), tol)
+    assert before == pytest.approx(0, abs=1e-12)
+    assert after == pytest.approx(1, abs=min(tol, 1e-4))
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("offset", [0.0, 0.3, 1.7, -0.5, -2.0, 6.5, -6.5])
+def test_a_run_that_starts_within_the_pulse_gets_the_rest_of_it(width: float, offset: float) -> None:
+    at, strength = offset * width, 1 / width
+    expected = impulse(strength, at, width, 5.0)
+    assert gained(strength, at, width, np.array([5.0]), 1e-9)[0] == pytest.approx(expected, abs=1e-8)
+    if 0 <= offset < 2:
+        # Twin: the whole pulse, or half of it, is another number.
+        assert expected != pytest.approx(sqrt(pi), abs=1e-3)
+
+
+@pytest.mark.parametrize("width", [1e-1, 1e-4, 1e-8])
+@pytest.mark.parametrize("cut", [-3.0, -0.4, 0.0, 0.9, 6.5, -6.5])
+def test_a_run_that_ends_within_the_pulse_gets_its_beginning(width: float, cut: float) -> None:
+    at, strength = 2.0, 1 / width
+    end = at + cut * width
+    # What doubles leave of the cut at t = 2.
+    expected = impulse(strength, at, width, end)
+    assert gained(strength, at, width, np.array([end]), 1e-9)[0] == pytest.approx(expected, abs=1e-8)
+
+
+def test_a_pulse_after_the_end_or_long_before_the_start_is_not_felt() -> None:
+    assert gained(1e3, 7.0, 0.1, np.array([1.0, 5.0]), 1e-9) == pytest.approx(0, abs=1e-12)
+    assert gained(1e3, -2.0, 0.1, np.array([1.0, 5.0]), 1e-9) == pytest.approx(0, abs=1e-12)
+    assert gained(1e3, 4.0, 0.1, np.array([1.0, 5.0]), 1e-9)[1] == pytest.approx(1e2 * sqrt(pi), rel=1e-9)
+
+
+def test_within_the_pulse_the_momentum_follows_the_error_function() -> None:
+    times = 2 + 0.01 * np.linspace(-6, 8, 29)
+    expected = [impulse(1.0, 2.0, 0.01, t) for t in times]
+    assert gained(1.0, 2.0, 0.01, times, 1e-11) == pytest.approx(expected, abs=1e-11)
+    assert gained(1.0, 2.001, 0.01, times, 1e-11) != pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-5])
+def test_a_solver_called_once_misses_the_same_pulse(width: float) -> None:
+    """The trap the cut is made for."""
+    at, strength = 4.3717, 1 / (width * sqrt(pi))
+    pulse = kick(strength, width)
+    naive = solve_ivp(lambda t, y: pulse(t - at, y), (0, 9), [0, 0], method="RK45", rtol=1e-2, t_eval=[1, 9])
+    assert naive.y[1, -1] == pytest.approx(0, abs=1e-12)
+    assert gained(strength, at, width, np.array([1.0, 9.0]), 1e-2)[-1] == pytest.approx(1, abs=1e-4)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.floats(-9, -1), st.floats(-0.5, 6), st.lists(st.floats(0.01, 5), min_size=1, max_size=5, unique=True))
+def test_any_pulse_gives_its_impulse_at_any_times(exponent: float, at: float, times: list[float]) -> None:
+    width, asked = 10**exponent, np.sort(times)
+    expected = [impulse(1 / width, at, width, t) for t in asked]
+    assert gained(1 / width, at, width, asked, 1e-8) == pytest.approx(expected, abs=1e-7)
+
+
+def test_output_times_may_lie_on_the_edges() -> None:
+    """The cuts of the run, the start and the end, belong to one stretch each."""
+    at, width = 2.0, 0.125
+    edges = np.array([0.0, at - 6.5 * width, at, at + 6.5 * width, 5.0])
+    expected = [impulse(1.0, at, width, t) for t in edges]
+    assert gained(1.0, at, width, edges, 1e-11) == pytest.approx(expected, abs=1e-11)
+
+
+def test_the_start_alone_and_a_late_start() -> None:
+    only = integrate(Problem(oscillate, START, ENOUGH), np.array([0.0]), 1e-9)
+    assert only.states.tolist() == [[1, 0]]
+    assert only.evaluations == 0
+    late = integrate(Problem(oscillate, START, ENOUGH), np.array([2.0, 3.0]), 1e-10).states
+    assert late[:, 0] == pytest.approx(np.cos([2, 3]), abs=1e-9)
+    pulsed = integrate(Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 0.3, 0.1), np.array([0.0]), 1e-9)
+    assert pulsed.states.tolist() == [[0, 0]]
+
+
+def test_more_outputs_do_not_change_the_run() -> None:
+    sparse = integrate(Problem(oscillate, START, ENOUGH), np.array([10.0]), 1e-9)
+    dense = integrate(Problem(oscillate, START, ENOUGH), np.linspace(0, 10, 2001), 1e-9)
+    assert dense.states[-1].tolist() == sparse.states[-1].tolist()
+
+
+def test_the_projection_is_applied_to_every_state_read() -> None:
+    unit = integrate(
+        Problem(oscillate, START, ENOUGH, project=lambda y: y / np.hypot(*y)), np.linspace(0, 50, 101), 1e-3
+    ).states
+    assert np.hypot(*unit.T) == pytest.approx(1, abs=1e-15)
+    loose = integrate(Problem(oscillate, START, ENOUGH), np.linspace(0, 50, 101), 1e-3).states
+    assert np.abs(np.hypot(*loose.T) - 1).max() > 1e-6
+
+
+def test_a_motion_that_blows_up_is_stopped_where_it_does() -> None:
+    with pytest.raises(IntegrationError, match=r"near t = 0\.5 s .* try another model or a larger tol"):
+        integrate(Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH), np.array([1.0]), 1e-9)
+    # Twin: short of the pole it is followed.
+    near = integrate(Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH), np.array([0.49]), 1e-9)
+    assert near.states[0, 0] == pytest.approx(100, rel=1e-6)
+
+
+def test_the_time_of_the_stop_is_the_scenes_time() -> None:
+    problem = Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], at=3.0, width=0.1)
+    with pytest.raises(IntegrationError, match=r"near t = 0\.5 s"):
+        integrate(problem, np.array([9.0]), 1e-9)
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+@pytest.mark.parametrize("since", [0.0, 0.7])
+def test_a_rate_that_is_not_finite_stops_the_run(since: float, bad: float) -> None:
+    with pytest.raises(IntegrationError, match=f"near t = {since:g}"), np.errstate(invalid="ignore"):
+        integrate(Problem(lambda s, y: [bad if s >= since else 1.0], np.zeros(1), ENOUGH), np.array([1.0]), 1e-6)
+
+
+def test_a_run_that_crawls_is_stopped() -> None:
+    with pytest.raises(IntegrationError, match="evaluations spent"):
+        integrate(Problem(oscillate, START, 500), np.array([1e4]), 1e-9)
+    assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).evaluations < 500
+
+
+def test_the_allowance_is_for_the_whole_run() -> None:
+    """The stretches before, in and after the pulse share it."""
+    problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, 0.1)
+    needed = integrate(problem, np.array([4.0]), 1e-11).evaluations
+    tight = Problem(drift, np.zeros(2), needed - 10, kick(1, 0.1), 2.0, 0.1)
+    with pytest.raises(IntegrationError, match="evaluations spent"):
+        integrate(tight, np.array([4.0]), 1e-11)
+
+
+@pytest.mark.parametrize("tol", [0, -1e-9, 1e-14, 0.2, float("nan"), float("inf"), "1e-9", None])
+def test_tolerances_out_of_reach_are_refused(tol: object) -> None:
+    with pytest.raises(InputError, match=r"tol = .* must lie between 1e-13"):
+        check_tolerance(tol)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("tol", [1e-13, 1e-9, 0.1])
+def test_tolerances_within_reach_are_kept(tol: float) -> None:
+    assert check_tolerance(tol) == tol

@@ -1,0 +1,144 @@
+"""The solvers one by one: order, reading, counting, stopping, and the programs they are given."""
+
+from math import cos
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Scene, consistent_scene, simulate
+from lagrotor.models import minimal, spheres
+from lagrotor.numerics import integrators as engines
+from lagrotor.numerics.adams import _piece as piece
+from lagrotor.numerics.adams import adams, adams_order, adams_weights
+from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.integrators import Array, StopError, Stretch, dop853, lsoda
+from lagrotor.numerics.rhs import rate_factory
+from lagrotor.pair.examples import HEAVY
+
+TIMES = np.linspace(0.3, 20, 57)
+
+
+def oscillate(s: float, y: Array) -> list[float]:
+    return [y[1], -y[0]]
+
+
+def stretch(**more: object) -> Stretch:
+    return Stretch(oscillate, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("engine", "error", "within"), [(lsoda, 1e-10, 2e-8), (adams, 1e-12, 1e-12), (dop853, 1e-12, 1e-11)]
+)
+def test_each_engine_reads_the_oscillator_at_any_time(engine, error, within) -> None:
+    run = engine(stretch(), error)
+    assert run.states == pytest.approx(np.column_stack([np.cos(TIMES), -np.sin(TIMES)]), abs=within)
+    assert run.end[0] == pytest.approx(cos(20), abs=within)
+
+
+@pytest.mark.parametrize("engine", [lsoda, adams, dop853])
+def test_evaluations_are_those_that_were_made(engine) -> None:
+    calls = 0
+
+    def counted(s: float, y: Array) -> list[float]:
+        nonlocal calls
+        calls += 1
+        return oscillate(s, y)
+
+    run = engine(Stretch(counted, np.array([1.0, 0.0]), 0.0, 20.0, TIMES), 1e-8)
+    assert run.evaluations == pytest.approx(calls, abs=2)
+
+
+@pytest.mark.parametrize("engine", [lsoda, adams, dop853])
+def test_each_engine_stops_when_it_crawls(engine) -> None:
+    with pytest.raises(StopError):
+        engine(stretch(allowance=100), 1e-9)
+
+
+def test_the_weights_integrate_polynomials_exactly() -> None:
+    A, B, P = adams_weights(5)
+    nodes = np.arange(5) - 4.0
+    for n in range(5):
+        assert A @ nodes**n == pytest.approx(1 / (n + 1))
+        assert B @ nodes**n == pytest.approx(-((-1.0) ** (n + 1)) / (n + 1))
+    x = 1.7 ** np.arange(6)
+    assert x @ P.T @ (np.arange(5) - 2.0) ** 3 == pytest.approx(1.7**4 / 4)
+
+
+@pytest.mark.parametrize("error", [1e-6, 1e-12])
+def test_the_order_is_what_it_is_called(error: float) -> None:
+    """Powers below the order are integrated exactly, to the rounding; the next ones are not."""
+    order = adams_order(error)
+
+    def off(power: int) -> float:
+        rising = Stretch(lambda s, y: [(power + 1) * s**power], np.zeros(1), 0.0, 1.0, TIMES[:1])
+        reached = piece(rising, order, np.zeros(1), 0.0, 1 / 20, 20, 1e9).states[:, 0]
+        return float(np.abs(reached - (np.arange(len(reached)) / 20) ** (power + 1)).max())
+
+    assert max(off(power) for power in range(order)) < 1e-13
+    assert off(order + 4) > 1e-12
+
+
+def test_the_adams_pair_shortens_a_step_that_becomes_too_long() -> None:
+    def quickens(s: float, y: Array) -> list[float]:
+        faster = 1 + 20 / (1 + np.exp(-4 * (s - 10)))
+        return [y[1] * faster, -y[0] * faster]
+
+    run = adams(Stretch(quickens, np.array([1.0, 0.0]), 0.0, 20.0, np.array([20.0])), 1e-10)
+    turned = 20 + 5 * (np.log1p(np.exp(40)) - np.log1p(np.exp(-40)))
+    assert run.states[0, 0] == pytest.approx(cos(turned), abs=1e-8)
+
+
+@pytest.mark.parametrize(("error", "ceiling"), [(1e-3, 1100), (1e-6, 1100), (1e-9, 800), (1e-12, 2000)])
+def test_the_adams_pair_finds_its_step_at_once(error: float, ceiling: int) -> None:
+    """A loose tolerance takes no more than a tight one: a step that is not stable is not tried again and again."""
+    assert adams(stretch(), error).evaluations < ceiling
+
+
+@pytest.mark.parametrize("link", [Link(), HEAVY, Link(0.8), Link(1.3, 0.2, 0.1)])
+@pytest.mark.parametrize("module", [minimal, spheres])
+def test_the_rate_is_the_compiled_program(module, link) -> None:
+    scene = Scene((10, -7), link=link, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
+    program, parameters = module.generated(scene, False)
+    y = module.MODEL.start(scene)
+    made = rate_factory(program, len(y))(*parameters)(0.0, y)
+    assert made == pytest.approx(compile_program(program)(*y.tolist(), *parameters), rel=1e-13, abs=1e-13)
+
+
+def test_a_state_out_of_reach_gives_no_number() -> None:
+    scene = Scene((10, -7))
+    beyond, nowhere = np.array([0.0, 2.0, 0, 0, 0, 0]), np.zeros(12)
+    assert np.isnan(minimal.MODEL.rate(scene, False)(0.0, beyond)).all()
+    assert np.isnan(spheres.MODEL.rate(scene, False)(0.0, nowhere)).all()
+
+
+def test_the_projection_keeps_unit_vectors_on_their_bar_for_long() -> None:
+    scene = Scene((10, -7), rates=((0.4, 1, 0), (0.4, -0.5, 0)))
+    for tol in (1e-7, 1e-11):
+        run = simulate(scene, np.linspace(0, 100, 201), "spheres", tol)
+        assert np.abs(run.link_length - 1).max() < 1e-11
+        assert np.ptp(run.energy) < 2e3 * tol
+
+
+@pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-8, 1e-9])
+def test_where_the_constraints_drift_fast_the_run_is_cut_shorter(tol: float) -> None:
+    """Axes that are pressed: their constraints' error grows exponentially within what the start's pace calls a turn."""
+    pressed = consistent_scene(
+        (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
+    )
+    times = np.linspace(0, 5, 21)
+    run, exact = simulate(pressed, times, "spheres", tol), simulate(pressed, times, "minimal", 1e-12)
+    assert np.abs(run.axes - exact.axes).max() < 100 * tol
+    assert np.abs(run.link_length - 1).max() < 1e-10
+    assert run.evaluations < 10_000
+
+
+def test_a_projection_from_far_off_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twin: without a bound on what is projected the same run is wrong, and nothing says so."""
+    monkeypatch.setattr(engines, "_DRIFT", np.inf)
+    monkeypatch.setattr(engines, "_A_CUT", 10**9)
+    pressed = consistent_scene(
+        (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
+    )
+    times = np.linspace(0, 5, 21)
+    run, exact = simulate(pressed, times, "spheres", 1e-6), simulate(pressed, times, "minimal", 1e-12)
+    assert np.abs(run.axes - exact.axes).max() > 0.1

@@ -1,0 +1,24 @@
+"""Rates and centres read off curves that are known."""
+
+import numpy as np
+import pytest
+
+from lagrotor.numerics.spectrum import peak, spectrum, turn_means
+
+
+def test_the_peak_of_a_known_sine():
+    t = np.linspace(2.3, 10, 1541)
+    rate, amplitude = spectrum(t, 3 + 0.2 * np.sin(11.4 * t + 0.3))
+    assert peak(rate, amplitude) == pytest.approx(11.4, abs=1e-3)
+    assert amplitude.max() == pytest.approx(0.2, rel=5e-3)
+    assert peak(*spectrum(t, np.sin(11.5 * t))) != pytest.approx(11.4, abs=1e-2)  # the twin
+
+
+def test_the_turns_of_two_circles():
+    t = np.linspace(0, 10, 2001)
+    circle = 0.2 * np.stack([np.cos(5 * t), np.sin(5 * t), 0 * t], -1)
+    centres = np.array([[-0.4, 0.1, 1.0], [0.4, -0.1, 1.0]])
+    crossings, means = turn_means(t, centres[:, None] + np.array([circle, -circle]))
+    assert np.diff(crossings) == pytest.approx(2 * np.pi / 5, abs=1e-4)
+    assert np.abs(means - centres[:, None]).max() < 1e-4
+    assert np.abs(means - means.mean()).max() > 0.1  # the twin: not one centre for all

@@ -1,0 +1,185 @@
+"""What a run leaves: observables against rigid bodies, and files that are whole or not there."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.errors import InputError
+from lagrotor.files import write_beside, write_text
+from lagrotor.pair.trajectory import UNITS, Trajectory
+
+TIMES = np.linspace(0, 2, 21)
+ROTOR = Rotor(mass=1.3, length=0.9, I1=0.7, I3=1.1)
+BAR = Link(length=1.2, mass=0.4, inertia=0.05)
+SCENE = Scene((10, -7), ROTOR, BAR, rates=((0.4, 1.0, 0), (0.4, -0.5, 0)))
+
+
+@pytest.fixture(scope="module")
+def run() -> Trajectory:
+    return simulate(SCENE, TIMES, "spheres", 1e-11)
+
+
+def test_shapes_are_one_row_a_time(run: Trajectory) -> None:
+    n = len(TIMES)
+    assert run.t.tolist() == TIMES.tolist()
+    assert {name: getattr(run, name).shape for name in UNITS} == {
+        "t": (n,), "axes": (2, n, 3), "rates": (2, n, 3), "tips": (2, n, 3),
+        "energy": (n,), "link_length": (n,), "momenta": (2, n),
+    }  # fmt: skip
+    assert {name: part.shape for name, part in run.invariants.items()} == dict.fromkeys(("G_1", "G_2", "P"), (n,))
+    assert run.inclinations.shape == run.azimuths.shape == (2, n)
+    assert simulate(SCENE, 0.5).axes.shape == (2, 1, 3)
+
+
+def test_the_first_row_is_the_start(run: Trajectory) -> None:
+    assert run.axes[:, 0] == pytest.approx(np.array(SCENE.axes))
+    assert run.rates[:, 0] == pytest.approx(np.array(SCENE.rates))
+
+
+def test_rates_are_the_derivatives_of_the_axes() -> None:
+    h = 1e-4
+    near = simulate(SCENE, [1 - h, 1, 1 + h], "minimal", 1e-12)
+    slope = (near.axes[:, 2] - near.axes[:, 0]) / (2 * h)
+    assert near.rates[:, 1] == pytest.approx(slope, abs=1e-5)
+    assert near.rates[:, 1] != pytest.approx(-slope, abs=1e-1)
+
+
+def bodies_energy(run: Trajectory, link: Link) -> np.ndarray:
+    """Two rotors about their centres and the bar, each as a rigid body, tips' velocities in."""
+    R, tip_v = ROTOR.length, ROTOR.length * run.rates
+    whole = np.zeros(len(run.t))
+    for i in (0, 1):
+        centre_v = tip_v[i] / 2
+        tilting = np.cross(run.axes[i], tip_v[i] / R)
+        spin = np.array(SCENE.spins[i])
+        whole += ROTOR.mass / 2 * (centre_v**2).sum(-1) + ROTOR.I1 / 2 * (tilting**2).sum(-1) + ROTOR.I3 / 2 * spin**2
+    d, d_v = run.tips[1] - run.tips[0], tip_v[1] - tip_v[0]
+    turning = np.cross(d, d_v) / link.length**2
+    return whole + link.mass / 2 * (tip_v.mean(0) ** 2).sum(-1) + link.inertia / 2 * (turning**2).sum(-1)
+
+
+def test_energy_is_that_of_three_rigid_bodies(run: Trajectory) -> None:
+    assert run.energy == pytest.approx(bodies_energy(run, BAR), rel=1e-11)
+    assert run.energy != pytest.approx(bodies_energy(run, Link(1.2, 0.4, 0.06)), rel=1e-6)
+
+
+def test_the_momentum_about_the_joint_line_is_that_of_three_rigid_bodies(run: Trajectory) -> None:
+    R, tip_v = ROTOR.length, ROTOR.length * run.rates
+    P = np.zeros(len(run.t))
+    for i in (0, 1):
+        r, w = run.axes[i], np.cross(run.axes[i], run.rates[i])
+        P += ROTOR.mass / 4 * R * np.cross(r, tip_v[i])[:, 0] + (ROTOR.I1 * w)[:, 0]
+        P += ROTOR.I3 * SCENE.spins[i] * r[:, 0]
+    d, d_v = run.tips[1] - run.tips[0], tip_v[1] - tip_v[0]
+    P += BAR.mass * np.cross(run.tips.mean(0), tip_v.mean(0))[:, 0] + BAR.inertia * (np.cross(d, d_v) / 1.2**2)[:, 0]
+    assert run.invariants["P"] == pytest.approx(P, abs=1e-10)
+    assert np.abs(P).max() > 0.1
+
+
+def test_tips_stand_on_their_joints_and_the_bar_between_them(run: Trajectory) -> None:
+    assert run.joints.tolist() == [[-0.6, 0, 0], [0.6, 0, 0]]
+    assert np.linalg.norm(run.tips - run.joints[:, None], axis=-1) == pytest.approx(0.9, abs=1e-13)
+    assert run.link_length == pytest.approx(1.2, abs=1e-13)
+    # Without a bar the tips go their own way.
+    free = simulate(Scene((10, -7), ROTOR, None, rates=SCENE.rates), TIMES)
+    assert np.ptp(free.link_length) > 1e-2
+    assert free.joints.tolist() == [[-0.45, 0, 0], [0.45, 0, 0]]
+
+
+def test_angles_describe_the_axes(run: Trajectory) -> None:
+    theta, phi = run.inclinations, run.azimuths
+    rebuilt = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
+    assert rebuilt == pytest.approx(run.axes, abs=1e-14)
+    assert np.abs(np.diff(phi)).max() < np.pi
+
+
+def test_npz_holds_what_the_run_holds(run: Trajectory, tmp_path: Path) -> None:
+    target = run.save(tmp_path / "run.npz")
+    with np.load(target) as kept:
+        assert set(kept) == {*UNITS, "P", "about"}
+        for name in UNITS:
+            assert kept[name].tolist() == getattr(run, name).tolist()
+        assert kept["P"].tolist() == run.joint_line_momentum.tolist()
+
+
+def test_csv_holds_every_digit_under_named_columns(run: Trajectory, tmp_path: Path) -> None:
+    target = run.save(str(tmp_path / "run.csv"))
+    with target.open() as file:
+        rows = list(csv.reader(file))
+    assert rows[0] == [
+        "t [s]",
+        *(f"tip_{i}_{letter} [m]" for i in (1, 2) for letter in "xyz"),
+        "energy [J]", "link_length [m]", "P [kg m2/s]",
+    ]  # fmt: skip
+    table = np.array(rows[1:], dtype=float)
+    expected = [run.t, *run.tips[0].T, *run.tips[1].T, run.energy, run.link_length, run.joint_line_momentum]
+    assert table.T.tolist() == [column.tolist() for column in expected]
+
+
+@pytest.mark.parametrize("name", ["run.txt", "run", "run.npz.gz", "run.CSV2"])
+def test_other_endings_are_refused_and_leave_nothing(run: Trajectory, tmp_path: Path, name: str) -> None:
+    with pytest.raises(InputError, match=rf"{name} must end in \.npz, \.csv, \.png"):
+        run.save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["run.npz", "run.csv"])
+def test_a_missing_folder_is_refused_and_not_made(run: Trajectory, tmp_path: Path, name: str) -> None:
+    with pytest.raises(InputError, match="choose an existing folder"):
+        run.save(tmp_path / "missing" / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_in_the_files_place_is_refused(run: Trajectory, tmp_path: Path) -> None:
+    (tmp_path / "run.csv").mkdir()
+    with pytest.raises(InputError, match="choose another file"):
+        run.save(tmp_path / "run.csv")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["run.csv"]
+
+
+def test_a_write_that_fails_halfway_leaves_the_old_file_alone(tmp_path: Path) -> None:
+    target = write_text(tmp_path / "note", "old é")
+
+    def half(file: object) -> None:
+        file.write(b"ne")  # type: ignore[attr-defined]
+        raise RuntimeError("halfway")
+
+    with pytest.raises(RuntimeError, match="halfway"):
+        write_beside(target, half)
+    assert target.read_text(encoding="utf-8") == "old é"
+    assert list(tmp_path.iterdir()) == [target]
+    write_text(target, "new")
+    assert target.read_text() == "new"
+
+
+def test_a_file_is_as_readable_as_any_other(tmp_path: Path) -> None:
+    """The temporary file it was is private; the finished one follows the umask."""
+    plain = tmp_path / "plain"
+    plain.touch()
+    assert write_text(tmp_path / "note", "x").stat().st_mode == plain.stat().st_mode
+
+
+def test_a_saved_run_is_read_back_with_its_scene(run: Trajectory, tmp_path: Path) -> None:
+    again = Trajectory.load(run.save(tmp_path / "run.npz"))
+    assert (again.scene, again.model, again.why, again.evaluations) == (run.scene, run.model, run.why, run.evaluations)
+    assert (again.axes == run.axes).all() and (again.energy == run.energy).all()
+    shocked = Scene((3, 1), link=None, shock=Shock((1, 0, 0), 0.1, 0.05))
+    assert Trajectory.load(simulate(shocked, [0.0, 1.0]).save(tmp_path / "two.npz")).scene == shocked
+
+
+def test_what_is_no_saved_run_is_refused(run: Trajectory, tmp_path: Path) -> None:
+    np.savez(tmp_path / "other.npz", t=run.t)
+    for path in (run.save(tmp_path / "run.csv"), tmp_path / "other.npz", tmp_path / "none.npz"):
+        with pytest.raises(InputError, match=r"is no run saved as \.npz"):
+            Trajectory.load(path)
+
+
+@pytest.mark.parametrize(
+    ("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF"), ("gif", b"GIF8")]
+)
+def test_a_run_is_saved_as_a_picture_or_a_film(run: Trajectory, tmp_path: Path, ending: str, begins: bytes) -> None:
+    short = simulate(run.scene, np.linspace(0, 0.2, 6), tol=1e-6)
+    assert short.save(tmp_path / f"run.{ending}").read_bytes().startswith(begins)

@@ -1,0 +1,57 @@
+"""What a notebook shows of formulas, statements and trials; and that it is decided only then."""
+
+import pytest
+import sympy as sp
+
+from lagrotor.paper import notebook as shown
+from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.trials import Finding, Trial
+from lagrotor.pair.symbols import PAIR, ell
+
+x = sp.Symbol("x", real=True)
+HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))
+WRONG = Statement("5.02", chain(x, -x), wrong="The sign is <b>lost</b>.", correction=chain(x, x))
+
+
+def trial(explanation: str) -> Trial:
+    finding = Finding("confirmed-if", explanation, "1 < 2")
+    return Trial("C01", (1, 1), (1, -1), "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
+
+
+def test_rates_have_dots() -> None:
+    v, acceleration = PAIR.v[0], PAIR.a[0]
+    latex = shown.Formula(sp.Matrix([v * ell, acceleration, PAIR.q[0]]))._repr_latex_()
+    assert all(part in latex for part in (r"\dot{\theta_{1}}", r"\ddot{\theta_{1}}", r"\ell"))
+    assert "dot}" not in latex
+    assert "dot}" in sp.latex(v), "sympy alone makes an index of it"
+
+
+def test_statements_are_shown_with_their_verdicts() -> None:
+    html = shown.Judged([HOLDS, WRONG])._repr_html_()
+    assert html.index("5.01: ") < html.index(">holds<") < html.index("5.02: ") < html.index(">refuted<br>")
+    assert "the correction: holds" in html
+    assert "The sign is &lt;b&gt;lost&lt;/b&gt;." in html
+    assert judge(WRONG)._repr_html_() == shown.Judged([WRONG])._repr_html_()
+
+
+def test_trials_are_shown_with_the_claim_and_what_was_decided() -> None:
+    html = shown.Heard([trial("<i>so</i>")])._repr_html_()
+    assert "C01: Rotors of equal spin precess" in html
+    assert "confirmed-if<br>1 &lt; 2" in html
+    assert "&lt;i&gt;so&lt;/i&gt;" in html
+
+
+def test_nothing_is_decided_before_it_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    def decided(_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(shown, "judge", decided)
+    monkeypatch.setattr(shown, "hear", decided)
+    for waiting in (shown.Judged([HOLDS]), shown.Heard([trial("so")])):
+        with pytest.raises(AssertionError):
+            waiting._repr_html_()
+
+
+def test_findings_are_a_table() -> None:
+    html = shown.findings_table([("twist", "it grows")])._repr_html_()
+    assert html.index(">twist<") < html.index(">it grows<")

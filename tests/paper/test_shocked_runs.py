@@ -1,0 +1,57 @@
+"""A struck scene by both methods: the pulse, the paper's program, and what is read off the runs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import trapezoid
+
+from lagrotor import Scene, Shock, simulate
+from lagrotor.errors import InputError
+from lagrotor.pair.examples import SCENES
+from lagrotor.paper.shocked_runs import centre_numbers, centre_off, centre_runs, paper_run, pulse, rate_numbers, rate_runs
+
+STRUCK = SCENES["same-spin-shock"].scene
+TIMES = np.arange(601) * 0.005
+
+
+def test_the_pulse_carries_the_impulse():
+    t = np.linspace(1, 3, 4001)
+    for shock in (Shock((40, -11, 0), 2.0, 1 / 20), Shock((0, 50, 0), 2.0, 1 / 50)):
+        force = pulse(Scene((10, -10), shock=shock), t)
+        assert force.max() == pytest.approx(np.linalg.norm(shock.force))
+        assert trapezoid(force, t) == pytest.approx(np.linalg.norm(shock.impulse))
+        assert trapezoid(force, t) != pytest.approx(np.linalg.norm(replace(shock, width=1 / 30).impulse))
+
+
+def test_without_a_shock_there_is_none():
+    with pytest.raises(InputError, match="no shock"):
+        pulse(SCENES["same-spin"].scene, TIMES)
+
+
+def test_the_papers_program_does_the_papers_work():
+    """100 to about 100.45 J (section 4.2); left alone, 100 J throughout."""
+    assert paper_run(STRUCK, TIMES).paper_energy[-1] == pytest.approx(100.45, abs=0.01)
+    assert paper_run(replace(STRUCK, shock=None), TIMES).paper_energy[-1] == pytest.approx(100, abs=1e-9)
+
+
+def test_the_centre_is_read_where_the_exact_run_ends():
+    exact = simulate(STRUCK, TIMES[:501])
+    runs = centre_runs(TIMES, exact)
+    assert runs["exact_centre"][0] == pytest.approx([-0.5, 0, 0.5])
+    assert np.abs(runs["centre"][:501] - runs["exact_centre"]).max() < 5e-3
+    runs["exact_centre"] = runs["centre"][:501] + [0, 0, 1e-3]
+    assert centre_off(runs) == pytest.approx(1e-3)
+    numbers = centre_numbers(runs | {"centre": np.outer(TIMES, [1, 2, 0])})
+    assert [numbers[f"{letter} of the centre, range (m)"] for letter in "xyz"] == pytest.approx([3, 6, 0])
+    assert numbers["energy after the shock (J)"] == pytest.approx(numbers["exact energy after the shock (J)"], abs=0.01)
+
+
+def test_rates_are_read_off_the_curve_they_name():
+    scene = Scene((20, 0), link=None, shock=Shock((40, 0, 0), 2.0, 1 / 20))
+    runs = rate_runs(simulate(scene, np.linspace(0, 10, 2001), "spheres", 1e-8), 15.0)
+    numbers = rate_numbers(runs)
+    assert numbers["rate, exact model (rad/s)"] == pytest.approx(numbers["rate, closed form (rad/s)"], rel=1e-4)
+    assert numbers["closed form, largest residual (m)"] < numbers["printed rate, largest residual (m)"] / 20
+    swapped = rate_numbers(runs | {"printed": runs["corrected"], "corrected": runs["printed"]})  # the twin
+    assert swapped["closed form, largest residual (m)"] == numbers["printed rate, largest residual (m)"]
