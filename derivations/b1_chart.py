@@ -13,10 +13,10 @@
 # %%
 from dataclasses import replace
 
-from lagrotor.paper.tables import Table
-from lagrotor.benchmark.scenes_and_methods import METHODS, courses
 from lagrotor.benchmark.runner import TOLERANCES, chart, front
+from lagrotor.benchmark.scenes_and_methods import METHODS, courses
 from lagrotor.benchmark.scipy_solvers import TRAPS
+from lagrotor.paper.tables import Table
 
 # %% [markdown]
 # **Tolerances.** From 1e-3 to 1e-13; what counts is the largest error of a tip over the run against evaluations, the same on

@@ -9,10 +9,10 @@
 # turn. What every reader gets alike, errors and evaluations, is in b1_chart.
 
 # %%
+from lagrotor.benchmark.recorded_speed import recorded_speed
+from lagrotor.benchmark.scenes_and_methods import LADDERS, courses
 from lagrotor.models.simulate import choose
 from lagrotor.paper.tables import Table
-from lagrotor.benchmark.scenes_and_methods import LADDERS, courses
-from lagrotor.benchmark.recorded_speed import recorded_speed
 
 found = recorded_speed()
 machine, at_error = found["machine"], found["at_error"]

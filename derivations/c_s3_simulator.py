@@ -11,14 +11,14 @@ from contextlib import ExitStack
 from unittest.mock import patch
 
 import numpy as np
+from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
+from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.models.spring_link.system.system import RigidBodySystem
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
-from lagrotor.models.spring_link.system.system import RigidBodySystem
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.numerics.convergence import measured_order
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
-from lagrotor.numerics.convergence import measured_order
 
 BAR, DT, S, D = Link(mass=1, inertia=1), 1e-3, 1e4, 250.0
 ROUNDING = 100 * np.finfo(float).eps  # what a few products of 3 × 3 matrices may lose

@@ -10,14 +10,14 @@
 from math import pi
 
 import numpy as np
+from lagrotor.models.spring_link.system.run import paper_system
 
 from lagrotor import Link, Scene, Shock, consistent_scene, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.spring_link.system.run import paper_system
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.numerics.convergence import measured_order
 
 MASSLESS, LIGHT, BAR = Link(), Link(mass=0.01, inertia=0.1), Link(mass=1, inertia=1)
 PAPER_R0, AMPLITUDES = 0.204, (0.051, 0.102, 0.204)

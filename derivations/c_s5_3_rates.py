@@ -12,13 +12,13 @@
 from math import pi
 
 import numpy as np
+from lagrotor.models.spring_link.system.run import paper_system, run_steps
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.numerics.convergence import measured_order
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
-from lagrotor.numerics.convergence import measured_order
 
 BAR, LIGHT, MIXED, MASSLESS = Link(1, 1, 1), Link(1, 0.01, 0.1), Link(1, 1, 0.1), Link()
 PAPER, SMALL, AT, WIDTH = 40.0, 0.4, 0.5, 1 / 20

@@ -11,12 +11,12 @@
 from math import pi
 
 import numpy as np
+from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
+from lagrotor.numerics.convergence import measured_order
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
-from lagrotor.numerics.convergence import measured_order
 
 BAR, WIDTH, AT = Link(mass=1, inertia=1), 1 / 50, 0.2
 AFTER, FALLEN, PAPER_RUN = AT + 5 * WIDTH, 0.5, 8.0

@@ -9,10 +9,10 @@
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
+from lagrotor.pair.symbols import G_1, G_2, a, b, k
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
 from lagrotor.theory.natural_frequency import linear_pair
-from lagrotor.pair.symbols import G_1, G_2, a, b, k
 
 BAR = Link(mass=1, inertia=1)
 Scene((10, -10), link=BAR)

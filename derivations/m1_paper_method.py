@@ -9,12 +9,13 @@
 # and inertia 1 unless said otherwise. The numbers are those of the claims' trials.
 
 # %%
-from lagrotor import Link, Scene, natural_rate
-from lagrotor.models.spring_link.system.system import step_limit
 from lagrotor.models.spring_link.system.run import paper_system
+from lagrotor.models.spring_link.system.system import step_limit
+
+from lagrotor import Link, Scene, natural_rate
+from lagrotor.benchmark.limits.step_size import found_step_limit
 from lagrotor.paper.tables import Table
 from lagrotor.paper.trials import hear, listed
-from lagrotor.benchmark.limits.step_size import found_step_limit
 
 claims = {i: hear(listed()[i]).measured for i in ("C06", "C07", "C08", "C20", "C21", "C22")}
 BAR, LIGHT = Link(1, 1, 1), Link(1, 0.01, 0.1)

@@ -8,8 +8,8 @@
 # rates of ensembles and the figure.
 
 # %%
-from lagrotor.paper.tables import Table
 from lagrotor.benchmark.limits.step_size import limits
+from lagrotor.paper.tables import Table
 
 found = limits(quick=True)
 list(dict.fromkeys(x.regime for x in found))

@@ -9,13 +9,13 @@
 # %%
 import sympy as sp
 
+from lagrotor.pair.symbols import G_1, G_2, G, Omega, P, att, k, nu, p_y, r0, sigma
 from lagrotor.paper import scripts
 from lagrotor.paper.tables import FigureLink, Table
-from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.drift_after_shock import cancelling_impulse
+from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import leading_square
 from lagrotor.theory.toppling import toppling_threshold
-from lagrotor.pair.symbols import G_1, G_2, G, Omega, P, att, k, nu, p_y, r0, sigma
 
 _stems = scripts.names("derivations", "t")
 t1, t2, t3, t4, t5, t6, t7, t8, t9, t10 = (scripts.run("derivations", stem) for stem in _stems)

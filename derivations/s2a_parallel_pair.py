@@ -15,10 +15,10 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import accelerations, total_derivative
-from lagrotor.paper.ledger import Relation, Statement, chain
-from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.pair.lagrangians import axis, rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, I, J, R, m, omega, omega_1, omega_2
+from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.notebook import Formula, Judged
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

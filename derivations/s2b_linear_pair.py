@@ -15,11 +15,11 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import euler_lagrange, jacobian
+from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 from lagrotor.paper import scripts
 from lagrotor.paper.ledger import Statement, chain
 from lagrotor.paper.notebook import Formula, Judged
-from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 
 eps = sp.Symbol("epsilon", positive=True)
 premises = scripts.run("derivations", "s2a_parallel_pair")

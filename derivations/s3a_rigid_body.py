@@ -15,9 +15,9 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import total_derivative
+from lagrotor.pair.symbols import ROTOR
 from lagrotor.paper.ledger import Statement, chain
 from lagrotor.paper.notebook import Judged
-from lagrotor.pair.symbols import ROTOR
 
 
 def vector(name: str) -> sp.Matrix:

@@ -15,9 +15,9 @@
 import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal, decide_zero
+from lagrotor.pair.lagrangians import axis
 from lagrotor.paper.ledger import Relation, Statement, chain
 from lagrotor.paper.notebook import Judged
-from lagrotor.pair.lagrangians import axis
 
 dt = sp.Symbol("Delta_t", positive=True)
 

@@ -14,10 +14,10 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import coordinates, energy
-from lagrotor.paper.ledger import Statement, chain
-from lagrotor.paper.notebook import Judged
 from lagrotor.pair.lagrangians import rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, J
+from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.notebook import Judged
 
 
 def vector(name: str) -> sp.Matrix:

@@ -16,10 +16,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import AXES, G_1, G_2, G, Omega, R, a, b, t
+from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.natural_frequency import linear_pair
 
 p, q = sp.symbols("p q", positive=True)
 S, X, D = sp.symbols("S X D", real=True)

@@ -15,10 +15,10 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import cyclic_coordinates, momenta, total_derivative
-from lagrotor.paper.ledger import Statement, chain
-from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, I, J, M, M_z, R, a_const, omega
+from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.notebook import Formula, Judged
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

@@ -17,12 +17,12 @@ from lagrotor import Scene, simulate
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.lagrangians import ansatz_lagrangian, axis, pair_lagrangian, pair_with_bar
+from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, J, Phi, R, a, b, ell, k, r0
 from lagrotor.paper.ledger import Relation, Statement, chain
 from lagrotor.paper.notebook import Formula, Judged
-from lagrotor.pair.lagrangians import ansatz_lagrangian, axis, pair_lagrangian, pair_with_bar
 from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, J, Phi, R, a, b, ell, k, r0
 
 th1, ph1, ps1, th2, ph2, ps2 = PAIR.q
 th1_v, ph1_v, ps1_v, th2_v, ph2_v, ps2_v = PAIR.v

@@ -16,12 +16,12 @@ from lagrotor import Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import cyclic_coordinates, noether_integral, noether_rate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order, swing
+from lagrotor.pair.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
+from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
+from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.ledger import Statement, chain
 from lagrotor.paper.notebook import Formula, Judged
-from lagrotor.pair.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
 
 theta_1, theta_2, phi, psi = ANSATZ.q
 _, _, phi_v, psi_v = ANSATZ.v

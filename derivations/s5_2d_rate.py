@@ -13,12 +13,12 @@ import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.algebra import decide_zero
+from lagrotor.pair.lagrangians import ansatz_integrals
+from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
 from lagrotor.paper.ledger import Relation, Statement, chain
 from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.single_rotor import pair_precession_rate
-from lagrotor.pair.lagrangians import ansatz_integrals
-from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
 
 theta_1, theta_2 = ANSATZ.q[:2]
 phi_v, psi_v = ANSATZ.v[2:]

@@ -12,10 +12,10 @@
 import sympy as sp
 
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.ledger import Relation, Statement, chain
-from lagrotor.paper.notebook import Judged
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import PAIR, r0, theta_0
+from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.notebook import Judged
 
 th1, ph1, _, th2, ph2, _ = PAIR.q
 half = sp.Rational(1, 2)

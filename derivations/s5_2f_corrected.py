@@ -16,13 +16,17 @@ import sympy as sp
 from lagrotor import Scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.paper.ledger import Relation, Statement, chain
-from lagrotor.paper.notebook import Judged
-from lagrotor.theory.paired_precession.closed_forms import corrected_inclinations, corrected_trajectories, paired_frequency
-from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.series import paired_series
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import ANSATZ, A, B, I, Phi, k, r0, sigma, theta_0
+from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.notebook import Judged
+from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.paired_precession.closed_forms import (
+    corrected_inclinations,
+    corrected_trajectories,
+    paired_frequency,
+)
+from lagrotor.theory.paired_precession.series import paired_series
 
 one = {sigma: 1, k: 1}
 half = sp.Rational(1, 2)

@@ -19,15 +19,37 @@ from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import euler_lagrange, jacobian
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.lagrangians import INERTIAS, J_OF, axes_pair
+from lagrotor.pair.symbols import (
+    AXES,
+    G_1,
+    G_2,
+    I1,
+    I3,
+    ROTOR,
+    G,
+    J,
+    K,
+    M,
+    Omega,
+    Phi,
+    R,
+    a,
+    b,
+    ell,
+    k,
+    m,
+    omega,
+    r0,
+    sigma,
+)
 from lagrotor.paper.ledger import Relation, Statement, chain
 from lagrotor.paper.notebook import Judged
-from lagrotor.theory.single_rotor import free_precession_rate
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
-from lagrotor.pair.lagrangians import INERTIAS, J_OF, axes_pair
 from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, ROTOR, G, J, K, M, Omega, Phi, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.theory.single_rotor import free_precession_rate
 
 theta = ROTOR.q[0]
 paper_rotor = {I1: 1, I3: 1, M: 1, R: 1, ell: 1}

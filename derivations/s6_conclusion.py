@@ -13,13 +13,13 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import degrees_of_freedom
-from lagrotor.paper.ledger import Relation, Statement
-from lagrotor.paper.notebook import Formula, Judged
-from lagrotor.theory.single_rotor import free_precession_rate
-from lagrotor.theory.natural_frequency import linear_pair
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, J, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.paper.ledger import Relation, Statement
+from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.theory.natural_frequency import linear_pair
+from lagrotor.theory.paired_precession.closed_forms import paired_frequency
+from lagrotor.theory.single_rotor import free_precession_rate
 
 theta = ROTOR.q[0]
 opposite = {G_1: G, G_2: -G}

@@ -14,13 +14,13 @@ import sympy as sp
 from lagrotor import Link, Scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import Constrained, is_conserved, noether_integral
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.paper.notebook import findings_table
-from lagrotor.pair.lagrangians import joint_line_momentum, mercator_axis, mercator_lagrangian, pair_with_bar
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.models.orbits.floquet import floquet
+from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order, swing
+from lagrotor.pair.lagrangians import joint_line_momentum, mercator_axis, mercator_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import AXES, MERCATOR, PAIR, k
+from lagrotor.pair.trajectory import ansatz_A
+from lagrotor.paper.notebook import findings_table
 
 statements: list = []
 findings: list[tuple[str, str]] = []

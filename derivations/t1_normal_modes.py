@@ -14,11 +14,11 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import decide_zero
+from lagrotor.pair.lagrangians import INERTIAS, axes_pair
+from lagrotor.pair.symbols import AXES, G_1, G_2, G, K, a, b, ell, m
 from lagrotor.paper.notebook import findings_table
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.pair.lagrangians import INERTIAS, axes_pair
 from lagrotor.theory.shock_response import impulse_matrices
-from lagrotor.pair.symbols import AXES, G_1, G_2, G, K, a, b, ell, m
 
 statements: list = []
 findings: list[tuple[str, str]] = []

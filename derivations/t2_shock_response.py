@@ -14,10 +14,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.shock_response import impulse_matrices, shock_displacement, shock_energy, shock_response
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import G_1, G_2, P_1, P_2, P_X, G, Omega, t
+from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.shock_response import impulse_matrices, shock_displacement, shock_energy, shock_response
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -14,11 +14,10 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
-from lagrotor.theory.paired_precession.closed_forms import paired_momentum
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.paired_precession.closed_forms import paired_frequency, paired_momentum
 
 statements: list = []
 findings: list[tuple[str, str]] = []

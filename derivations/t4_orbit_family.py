@@ -11,8 +11,8 @@
 import numpy as np
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.paper.notebook import findings_table
 from lagrotor.models.orbits.continuation import OrbitFamily, orbit_family, trace_family
+from lagrotor.paper.notebook import findings_table
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -14,12 +14,12 @@ import sympy as sp
 
 from lagrotor import Link, Scene
 from lagrotor.algebra import decide_zero
+from lagrotor.models.orbits.floquet import floquet
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.symbols import SWING, G, a, b
 from lagrotor.paper.notebook import findings_table
 from lagrotor.theory.averaging import slow_rates, slow_stiffness
 from lagrotor.theory.paired_precession.closed_forms import leading_square
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.models.orbits.floquet import floquet
-from lagrotor.pair.symbols import SWING, G, a, b
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -13,11 +13,17 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.notebook import Formula, findings_table
-from lagrotor.theory.drift_after_shock import cancelling_force, cancelling_impulse, second_order_momentum, shock_toppling, toppling_after_shock
 from lagrotor.models.mean_motion import exact_cancelling_force, run_after, turning_rate
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import AXES, P_X, G, a, att, b, k, p_y
+from lagrotor.paper.notebook import Formula, findings_table
+from lagrotor.theory.drift_after_shock import (
+    cancelling_force,
+    cancelling_impulse,
+    second_order_momentum,
+    shock_toppling,
+    toppling_after_shock,
+)
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -12,12 +12,12 @@
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.averaging import slow_rates
-from lagrotor.theory.drift_after_shock import shock_wander, toppling_after_shock, wander_after_shock
 from lagrotor.models.mean_motion import run_after, turning_rate, wandering_rate
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import P_X, SWING, TWIST, G, P, a, att, b, k, p_y
+from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.averaging import slow_rates
+from lagrotor.theory.drift_after_shock import shock_wander, toppling_after_shock, wander_after_shock
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -14,10 +14,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.pair.symbols import G_1, G_2, G, a, b, k, nu
 from lagrotor.paper.notebook import findings_table
 from lagrotor.theory.shock_response import shock_response
 from lagrotor.theory.toppling import toppling_growth, toppling_polynomial, toppling_residual, toppling_threshold
-from lagrotor.pair.symbols import G_1, G_2, G, a, b, k, nu
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -13,10 +13,16 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.shock_response import shock_response
-from lagrotor.theory.parallel_precession import parallel_residual, parallel_scene, twist_coefficients, twist_growth, twist_multiplier_growth
 from lagrotor.pair.symbols import G_1, G_2, TWISTED, G, a, b, rho
+from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.parallel_precession import (
+    parallel_residual,
+    parallel_scene,
+    twist_coefficients,
+    twist_growth,
+    twist_multiplier_growth,
+)
+from lagrotor.theory.shock_response import shock_response
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -8,11 +8,11 @@
 from functools import cache
 
 import numpy as np
+from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation
+from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation
-from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force
 from lagrotor.pictures.diagram import arrow, canvas, label
 from lagrotor.pictures.wheel import BAR, INK, MARK, ROTORS
 

@@ -8,11 +8,11 @@
 from functools import cache
 
 import numpy as np
+from lagrotor.models.spring_link.system.run import paper_system
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
 from lagrotor import Scene
-from lagrotor.models.spring_link.system.run import paper_system
 from lagrotor.pictures.diagram import arrow, canvas, label
 from lagrotor.pictures.wheel import GROUND, INK, MARK, ROTORS
 

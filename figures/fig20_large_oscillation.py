@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.pair.symbols import Phi, r0
+from lagrotor.paper.printed_curves import against_orbit, paper_axes
 from lagrotor.pictures.panels import distance_over_one_turn, orbits_from_above
 from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.paper.printed_curves import against_orbit, paper_axes
-from lagrotor.pair.symbols import Phi, r0
 
 R0, TOL = 0.5, 1e-11
 

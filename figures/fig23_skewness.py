@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
+from lagrotor.numerics.spectrum import turn_means
+from lagrotor.pair.examples import SCENES
 from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.shock_response import shock_response
-from lagrotor.pair.examples import SCENES
-from lagrotor.numerics.spectrum import turn_means
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

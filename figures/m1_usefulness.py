@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.pictures.stability_figure import stability_figure
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness, usefulness
+from lagrotor.pictures.stability_figure import stability_figure
 
 TITLE = "Where the closed forms stop being useful"
 ALT = (

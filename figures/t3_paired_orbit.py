@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order
 from lagrotor.pictures.style import CORRECTED, EXACT
 from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
-from lagrotor.numerics.convergence import measured_order
 
 SCENE = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))
 AMPLITUDES = np.array([0.05, 0.08, 0.12, 0.18, 0.27, 0.4])

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
+from lagrotor.numerics.convergence import measured_order
 from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.paired_precession.closed_forms import leading_square
-from lagrotor.numerics.convergence import measured_order
 
 BARS = {
     "b = 0: massless": (Link(1, 0, 0), OKABE_ITO["reddish purple"], "o"),

@@ -6,17 +6,16 @@ from typing import TYPE_CHECKING, Any
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
-    from lagrotor.models.simulate import simulate
-    from lagrotor.paper.audit import audit
-    from lagrotor.theory.natural_frequency import natural_rate
-    from lagrotor.pair.initial_conditions import consistent_scene
-    from lagrotor.theory.paired_precession.closed_forms import paired_scene
-    from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
-    from lagrotor.theory.paired_precession.closed_forms import paired_momentum
-    from lagrotor.theory.paired_precession.evaluate import precession_orbit
-    from lagrotor.theory.shock_response import shock_response
     from lagrotor.models.orbits.continuation import orbit_family
     from lagrotor.models.orbits.floquet import floquet
+    from lagrotor.models.simulate import simulate
+    from lagrotor.pair.initial_conditions import consistent_scene
+    from lagrotor.paper.audit import audit
+    from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
+    from lagrotor.theory.natural_frequency import natural_rate
+    from lagrotor.theory.paired_precession.closed_forms import paired_momentum, paired_scene
+    from lagrotor.theory.paired_precession.evaluate import precession_orbit
+    from lagrotor.theory.shock_response import shock_response
 
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
 _LATER = {

@@ -10,11 +10,11 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.runner import Method, Run, tips
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.numerics.codegen import reduce_common
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Method, Run, tips
 
 Array = NDArray[np.float64]
 _STEP = 12  # evaluations of a step of DOP853, those of its read-out left out

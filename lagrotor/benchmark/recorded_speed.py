@@ -46,9 +46,9 @@ def renew_speed() -> None:
     from concurrent.futures import ProcessPoolExecutor
 
     from lagrotor.benchmark.compiled_solvers import CANDIDATES
-    from lagrotor.benchmark.scenes_and_methods import LADDERS, METHODS, courses
-    from lagrotor.benchmark.runner import chart, seconds_at
     from lagrotor.benchmark.peers import PEERS
+    from lagrotor.benchmark.runner import chart, seconds_at
+    from lagrotor.benchmark.scenes_and_methods import LADDERS, METHODS, courses
     from lagrotor.benchmark.throughput import throughput
 
     found = chart("displaced", replace(courses()["displaced"], repeats=_SAMPLES), METHODS | CANDIDATES | PEERS)

@@ -10,10 +10,10 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.reference import reference
+from lagrotor.benchmark.runner import Family, Method, Run
 from lagrotor.errors import LagrotorError
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Family, Method, Run
-from lagrotor.benchmark.reference import reference
 
 Array = NDArray[np.float64]
 

@@ -8,18 +8,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.compiled_solvers import CANDIDATES
+from lagrotor.benchmark.peers import PEERS
+from lagrotor.benchmark.runner import (
+    PATIENCE,
+    TOLERANCES,
+    Chart,
+    Course,
+    Failure,
+    Family,
+    Method,
+    Prepare,
+    Run,
+    chart,
+    seconds_at,
+)
+from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.closed_form import closed_form
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
+from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_frequency import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import paired_scene
-from lagrotor.pair.scene import Link, Scene
-from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
-from lagrotor.benchmark.compiled_solvers import CANDIDATES
-from lagrotor.benchmark.runner import PATIENCE, TOLERANCES, Chart, Course, Failure, chart, seconds_at
-from lagrotor.benchmark.runner import Family, Method, Prepare, Run
-from lagrotor.benchmark.peers import PEERS
-from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 
 Array = NDArray[np.float64]
 

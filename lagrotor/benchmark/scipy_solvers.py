@@ -5,15 +5,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.simulate import problem_of
 from lagrotor.numerics.adams import adams
+from lagrotor.numerics.integrate import Rate
 from lagrotor.numerics.integrators import Engine, StopError, Stretch, dop853
 from lagrotor.numerics.integrators import Run as States
-from lagrotor.numerics.integrate import Rate
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 
 Array = NDArray[np.float64]
 # Name → scipy's integrator with a compiled loop, and its settings.

@@ -9,12 +9,12 @@ from importlib.util import find_spec
 
 import numpy as np
 
+from lagrotor.models.ensemble import CHUNK, started, sweep
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.pair.scene import Scene
+from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.evaluate import precession_orbit
-from lagrotor.models.ensemble import CHUNK, started, sweep
 
 _RUN = 10.0  # s
 _BIG = 1_000_000  # doubles: 8 MB an array, past the caches that a core has to itself

@@ -40,9 +40,9 @@ def add_chart(added: argparse.ArgumentParser) -> None:
 
 def chart_command(given: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
+    from lagrotor.benchmark.scenes_and_methods import charts
     from lagrotor.files import write_beside, write_text
     from lagrotor.pictures.style import paper_style
-    from lagrotor.benchmark.scenes_and_methods import charts
 
     check_folder(given.out)
     with progress(4) as step:
@@ -72,8 +72,8 @@ def as_data(found: "list[Chart]") -> dict[str, Any]:
 
 def in_words(found: "list[Chart]") -> str:
     """The front of each scene, set-up, what failed, and the ratios, as tables."""
-    from lagrotor.benchmark.scenes_and_methods import LADDERS, ratios
     from lagrotor.benchmark.runner import front, listed
+    from lagrotor.benchmark.scenes_and_methods import LADDERS, ratios
 
     parts = []
     for one in found:
@@ -101,8 +101,8 @@ def draw(one: "Chart") -> Any:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-    from lagrotor.pictures.style import OKABE_ITO
     from lagrotor.benchmark.runner import front, listed
+    from lagrotor.pictures.style import OKABE_ITO
 
     families = {p.method: p.family for p in one.points}
     names = [name for family in _FAMILIES for name in families if families[name] == family]

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor import __version__
-from lagrotor.errors import LagrotorError
 from lagrotor.commands.chart_command import add_chart, chart_command
 from lagrotor.commands.options import Parser, add_pair, add_shock, add_start, check_folder
 from lagrotor.commands.paper_commands import audit_command, claims_command, reproduce_command
 from lagrotor.commands.scene_commands import animate_command, rate_command, simulate_command
 from lagrotor.commands.stability_command import stability_command
 from lagrotor.commands.terminal import say
+from lagrotor.errors import LagrotorError
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
@@ -160,8 +160,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _figure(given: argparse.Namespace) -> int:
-    from lagrotor.pictures.figures import check_keys, draw
     from lagrotor.commands.terminal import progress
+    from lagrotor.pictures.figures import check_keys, draw
 
     check_folder(given.out)
     keys = check_keys(given.keys)

@@ -4,8 +4,8 @@ import argparse
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from lagrotor.errors import InputError
 from lagrotor.commands.terminal import progress, say, table, wrapped
+from lagrotor.errors import InputError
 
 if TYPE_CHECKING:
     from lagrotor.paper.ledger import Statement

@@ -6,17 +6,17 @@ import math
 from pathlib import Path
 from typing import Any
 
+from lagrotor.commands.options import check_file, check_folder, scene_of, shock_of
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS
-from lagrotor.commands.options import check_file, check_folder, scene_of, shock_of
 
 _MOST_SAMPLES = 10_000_000
 
 
 def animate_command(given: argparse.Namespace) -> int:
-    from lagrotor.pictures.animate import animate, check_film
-    from lagrotor.pair.examples import SCENES
     from lagrotor.commands.terminal import progress
+    from lagrotor.pair.examples import SCENES
+    from lagrotor.pictures.animate import animate, check_film
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
     t_end = ready.duration if given.t_end is None else given.t_end
@@ -98,9 +98,8 @@ def _run_table(run: dict[str, Any]) -> str:
 def rate_command(given: argparse.Namespace) -> int:
     scene = scene_of(given)
 
-    from lagrotor.theory.natural_frequency import natural_rate
-    from lagrotor.theory.natural_frequency import natural_rate_limits
     from lagrotor.commands.terminal import table
+    from lagrotor.theory.natural_frequency import natural_rate, natural_rate_limits
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None

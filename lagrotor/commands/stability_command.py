@@ -24,10 +24,10 @@ def stability_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
-    from lagrotor.files import write_text
     from lagrotor.benchmark.limits.step_size import LIMITS, limits
     from lagrotor.benchmark.throughput import throughput
     from lagrotor.commands.terminal import progress, table
+    from lagrotor.files import write_text
 
     with progress(len(LIMITS) + 1 + bool(given.out)) as step:
         found = limits(given.quick, step)
@@ -39,8 +39,8 @@ def stability_command(given: argparse.Namespace) -> int:
             "throughput": [asdict(rate) for rate in rates],
         }
         if given.out:
-            from lagrotor.pictures.stability_figure import draw_stability
             from lagrotor.benchmark.limits.error_map import usefulness
+            from lagrotor.pictures.stability_figure import draw_stability
 
             step("figure")
             n, m = (8, 9) if given.quick else (24, 40)

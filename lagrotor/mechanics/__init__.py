@@ -1,8 +1,37 @@
 """Analytical mechanics from a Lagrangian in plain symbols: equations of motion, constraints, symmetries."""
 
-from lagrotor.mechanics.constraints import Constrained, acceleration_bias, constrained_accelerations, degrees_of_freedom, jacobian, project_position, project_velocity, schur, solve_constrained, velocity_residual
-from lagrotor.mechanics.lagrangian import Coordinates, accelerations, bias, coordinates, energy, euler_lagrange, mass_matrix, momenta, total_derivative
-from lagrotor.mechanics.symmetry import cyclic_coordinates, is_conserved, legendre, noether_integral, noether_rate, routhian, variation
+from lagrotor.mechanics.constraints import (
+    Constrained,
+    acceleration_bias,
+    constrained_accelerations,
+    degrees_of_freedom,
+    jacobian,
+    project_position,
+    project_velocity,
+    schur,
+    solve_constrained,
+    velocity_residual,
+)
+from lagrotor.mechanics.lagrangian import (
+    Coordinates,
+    accelerations,
+    bias,
+    coordinates,
+    energy,
+    euler_lagrange,
+    mass_matrix,
+    momenta,
+    total_derivative,
+)
+from lagrotor.mechanics.symmetry import (
+    cyclic_coordinates,
+    is_conserved,
+    legendre,
+    noether_integral,
+    noether_rate,
+    routhian,
+    variation,
+)
 
 __all__ = [
     "Constrained",

@@ -23,7 +23,15 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.errors import ConstraintError, InputError, SingularError
-from lagrotor.mechanics.lagrangian import Coordinates, bias, force_column, linear_solve, mass_matrix, singular_mass, total_derivative
+from lagrotor.mechanics.lagrangian import (
+    Coordinates,
+    bias,
+    force_column,
+    linear_solve,
+    mass_matrix,
+    singular_mass,
+    total_derivative,
+)
 
 Array = NDArray[np.floating[Any]]
 

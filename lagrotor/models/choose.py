@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from math import inf, pi
 
 from lagrotor.errors import LagrotorError
-from lagrotor.numerics.integrate import TIGHTEST
-from lagrotor.pair.scene import Scene
 from lagrotor.models.closed_form import closed_form
 from lagrotor.models.linear import linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL
+from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.pair.scene import Scene
 
 # The linear motion's error is foreseen to leading order: two per cent off where it is small.
 MARGIN = 1.5

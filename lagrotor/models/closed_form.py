@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.mechanics.fourier import FourierSeries
+from lagrotor.models.linear import struck
+from lagrotor.models.model import Array, Observed, constant_momenta
+from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.theory.natural_frequency import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import most_growth
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
-from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.models.linear import struck
-from lagrotor.models.model import Array, Observed, constant_momenta
 
 Waves = NDArray[np.complex128]
 ORDERS = (3, 5, 7, 9, 11, 13, 15)

@@ -18,16 +18,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models.minimal_program import Ratio, program
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.simulate import check_times, simulate
-from lagrotor.numerics.codegen import compile_program
 from lagrotor.files import write_beside, write_text
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal_program import Ratio, program
+from lagrotor.models.simulate import check_times, simulate
+from lagrotor.numerics.batch_dop853 import Index, Rates, Swarm, march
+from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.integrate import TIGHTEST, check_tolerance
 from lagrotor.numerics.taylor import march_taylor
-from lagrotor.pair.trajectory import Trajectory
 from lagrotor.pair.scene import Scene
-from lagrotor.numerics.batch_dop853 import Index, Rates, Swarm, march
+from lagrotor.pair.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 Kind = tuple[bool, Ratio, int]  # massive bar, ell against R, shocked rotor (0: none)

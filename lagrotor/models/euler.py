@@ -12,12 +12,12 @@ import sympy as sp
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics import acceleration_bias, bias, jacobian, mass_matrix, total_derivative
+from lagrotor.models.model import Array, Model, Observed, python_rate
 from lagrotor.numerics.codegen import Program, compile_program, solve_symmetric
 from lagrotor.numerics.integrate import Rate
 from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import I3, PAIR, a, b, k
-from lagrotor.models.model import Array, Model, Observed, python_rate
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 LEAST_INCLINATION = 1e-3  # rad; the rate of the azimuth grows as 1/theta below it

@@ -17,15 +17,15 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import DomainError, SingularError
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal_program import Ratio, program
+from lagrotor.models.model import Array, Observed
 from lagrotor.numerics.codegen import Program, compile_program
-from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.pair.scene import Scene, Shock
+from lagrotor.pair.symbols import G_1, G_2, a, b
+from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.shock_response import impulse_matrices, shock_response
 from lagrotor.theory.toppling import toppling_growth
-from lagrotor.pair.symbols import G_1, G_2, a, b
-from lagrotor.models.minimal_program import Ratio, program
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array, Observed
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
 REACH = 6.5  # widths from its peak at which a Gaussian pulse is below the last bit

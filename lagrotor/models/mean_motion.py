@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models.simulate import simulate
+from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.drift_after_shock import cancelling_force
-from lagrotor.pair.scene import Scene
 from lagrotor.theory.shock_response import shock_response
 
 Array = NDArray[np.float64]

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import SingularError
-from lagrotor.numerics.codegen import Program, compile_program
-from lagrotor.numerics.rhs import rate_factory
-from lagrotor.numerics.integrate import Rate
-from lagrotor.pair.scene import Scene
 from lagrotor.models.minimal_program import Ratio, observation, program
 from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
+from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.numerics.integrate import Rate
+from lagrotor.numerics.rhs import rate_factory
+from lagrotor.pair.scene import Scene
 
 
 @lru_cache(maxsize=32)

@@ -7,8 +7,8 @@ from math import exp
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.integrators import LOST
 from lagrotor.numerics.integrate import Projection, Rate
+from lagrotor.numerics.integrators import LOST
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.numerics.integrate import TIGHTEST, Problem, check_tolerance, integrate
-from lagrotor.pair.trajectory import Array, Trajectory
-from lagrotor.pair.scene import Scene
 from lagrotor.models.model import Model, Observed
+from lagrotor.numerics.integrate import TIGHTEST, Problem, check_tolerance, integrate
+from lagrotor.pair.scene import Scene
+from lagrotor.pair.trajectory import Array, Trajectory
 
 
 def _minimal() -> Model:
@@ -155,8 +155,8 @@ def problem_of(model: Model, scene: Scene, t_end: float) -> Problem:
 
 
 def _fast(model: Model, scene: Scene, times: Array, tol: float) -> tuple[Observed, int]:
-    from lagrotor.numerics.taylor import Pulse, integrate_taylor
     from lagrotor.models import minimal, spheres
+    from lagrotor.numerics.taylor import Pulse, integrate_taylor
 
     offered = {"minimal": minimal.generated} | ({} if scene.link else {"spheres": spheres.generated})
     if model.name not in offered:

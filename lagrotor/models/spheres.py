@@ -17,13 +17,13 @@ import sympy as sp
 
 from lagrotor.mechanics import acceleration_bias, bias, jacobian, mass_matrix, velocity_residual
 from lagrotor.mechanics.lagrangian import linear_solve
+from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
 from lagrotor.numerics.codegen import Program, Stage, compile_program, solve_symmetric
-from lagrotor.numerics.rhs import rate_factory
 from lagrotor.numerics.integrate import Projection, Rate
+from lagrotor.numerics.rhs import rate_factory
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import AXES, G_1, G_2, a, b, k
-from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 CLEARANCE = 0.01  # rad; a solver's steps are shorter than that only at tight tolerances

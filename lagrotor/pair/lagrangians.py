@@ -14,7 +14,27 @@ from typing import Literal
 import sympy as sp
 
 from lagrotor.mechanics import Constrained, Coordinates, momenta, total_derivative
-from lagrotor.pair.symbols import ANSATZ, AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, PAIR, ROTOR, J, K, M, R, a, b, ell, k, m
+from lagrotor.pair.symbols import (
+    ANSATZ,
+    AXES,
+    G_1,
+    G_2,
+    I1,
+    I3,
+    MERCATOR,
+    MINIMAL,
+    PAIR,
+    ROTOR,
+    J,
+    K,
+    M,
+    R,
+    a,
+    b,
+    ell,
+    k,
+    m,
+)
 
 JOINT_LINE = sp.Matrix([1, 0, 0])
 J_OF = I1 + M * R**2 / 4

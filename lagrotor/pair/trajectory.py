@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from lagrotor import __version__
 from lagrotor.errors import InputError
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.files import FILMS, PICTURES, write_beside, write_text
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -160,3 +160,11 @@ class Trajectory:
             )
         except (OSError, ValueError, KeyError, TypeError, BadZipFile) as error:
             raise InputError(f"load: {path} is no run saved as .npz ({error})") from None
+
+
+def ansatz_A(run: Trajectory) -> Array:
+    """A = p_phi1 − p_phi2 along a run, (n,), in kg m²/s: the paper's integral (5.12), the bar's inertia included."""
+    a, b = run.scene.inertias
+    (r1, r2), (v1, v2) = run.axes, run.rates
+    about_z = np.cross(r1, a * v1 + b * v2)[:, 2] - np.cross(r2, a * v2 + b * v1)[:, 2]
+    return about_z + run.momenta[0] * r1[:, 2] - run.momenta[1] * r2[:, 2]

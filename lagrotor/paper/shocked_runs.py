@@ -5,11 +5,11 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.models.spring_link.system.run import SpringRun, paper_system, run_steps
+from lagrotor.numerics.spectrum import peak, spectrum
+from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
+from lagrotor.pair.scene import Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
-from lagrotor.pair.scene import Scene, Shock
-from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
-from lagrotor.numerics.spectrum import peak, spectrum
 
 Array = NDArray[np.float64]
 # The paper strikes at 2 s. Its shocks are over by the first of these (s), after which energies are read, and by the

@@ -18,10 +18,10 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError, LagrotorError
-from lagrotor.numerics.rotations import Array, between_samples, body_rotations
 from lagrotor.files import write_beside
-from lagrotor.pair.trajectory import Trajectory
+from lagrotor.numerics.rotations import Array, between_samples, body_rotations
 from lagrotor.pair.scene import Scene
+from lagrotor.pair.trajectory import Trajectory
 from lagrotor.pictures.style import paper_style
 from lagrotor.pictures.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
 

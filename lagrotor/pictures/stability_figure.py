@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.files import write_beside
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
+from lagrotor.files import write_beside
 from lagrotor.pictures.style import OKABE_ITO, paper_style
 
 STEM = "stability"

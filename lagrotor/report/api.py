@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import lagrotor
-
 from lagrotor.report.page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.

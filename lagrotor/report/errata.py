@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import equation
 from lagrotor.paper.ledger import Relation, Statement, Verdict
-from lagrotor.pair.symbols import latex
 from lagrotor.report.latex import END, head, printed, prose
 
 

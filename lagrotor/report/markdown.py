@@ -5,14 +5,31 @@ from collections.abc import Callable, Iterable, Iterator
 
 import sympy as sp
 
+from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import claims, equation
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
-from lagrotor.pair.symbols import latex
 from lagrotor.report.cite import citation
-from lagrotor.report.content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Fact, Report, anchor, contents, facts, figure_facts, linked_facts, made_beside, note, sides, word
+from lagrotor.report.content import (
+    CLAIM_MEANINGS,
+    HOW_TO_READ,
+    MEANINGS,
+    SUBTITLE,
+    TITLE,
+    Fact,
+    Report,
+    anchor,
+    contents,
+    facts,
+    figure_facts,
+    linked_facts,
+    made_beside,
+    note,
+    sides,
+    word,
+)
 from lagrotor.report.errata import errata
 from lagrotor.report.readable import readable
 from lagrotor.report.results import balance, headlines

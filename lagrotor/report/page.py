@@ -8,11 +8,29 @@ from lagrotor.paper.catalogue import equation
 from lagrotor.paper.tables import Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
-from lagrotor.report.content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Report, contents, made_beside, note
+from lagrotor.report.content import (
+    CLAIM_MEANINGS,
+    HOW_TO_READ,
+    MEANINGS,
+    SUBTITLE,
+    TITLE,
+    Report,
+    contents,
+    made_beside,
+    note,
+)
 from lagrotor.report.errata import errata
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.interactive.interactive import interactive
-from lagrotor.report.page_parts import claim_entry, count_entry, equation_entry, erratum_entry, finding_entry, headline_entry, picture_entry
+from lagrotor.report.page_parts import (
+    claim_entry,
+    count_entry,
+    equation_entry,
+    erratum_entry,
+    finding_entry,
+    headline_entry,
+    picture_entry,
+)
 from lagrotor.report.page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
 from lagrotor.report.results import balance, headlines
 

@@ -9,7 +9,19 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
 from lagrotor.report.embed import embedded, size
 from lagrotor.report.errata import Erratum
-from lagrotor.report.page_pieces import badge, code, fact_list, fold, formulas, heading, link, links, numbers, prose, typeset
+from lagrotor.report.page_pieces import (
+    badge,
+    code,
+    fact_list,
+    fold,
+    formulas,
+    heading,
+    link,
+    links,
+    numbers,
+    prose,
+    typeset,
+)
 from lagrotor.report.results import Headline
 
 # Characters of MathML beyond which the derived form stands below the printed one, not beside it.

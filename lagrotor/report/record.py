@@ -5,9 +5,9 @@ with, `python -m lagrotor.report.record speed` the seconds that the report tells
 import json
 import sys
 
+from lagrotor.benchmark.recorded_speed import renew_speed
 from lagrotor.files import write_text
 from lagrotor.paper import audit, trials
-from lagrotor.benchmark.recorded_speed import renew_speed
 from lagrotor.report.reproduce import RECORDED, outcomes
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from lagrotor.paper.ledger import Verdict
 from lagrotor.pair.symbols import K, m
+from lagrotor.paper.ledger import Verdict
 from lagrotor.report.content import Report, word
 
 

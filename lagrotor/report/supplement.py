@@ -10,7 +10,24 @@ from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
-from lagrotor.report.content import CLAIM_MEANINGS, HOW_TO_READ, MEANINGS, SUBTITLE, TITLE, Fact, Report, anchor, contents, facts, figure_facts, linked_facts, made_beside, note, sides, word
+from lagrotor.report.content import (
+    CLAIM_MEANINGS,
+    HOW_TO_READ,
+    MEANINGS,
+    SUBTITLE,
+    TITLE,
+    Fact,
+    Report,
+    anchor,
+    contents,
+    facts,
+    figure_facts,
+    linked_facts,
+    made_beside,
+    note,
+    sides,
+    word,
+)
 from lagrotor.report.errata import errata, latex_block
 from lagrotor.report.latex import END, derived, head, inline, printed, prose, table
 from lagrotor.report.results import Headline, balance, headlines

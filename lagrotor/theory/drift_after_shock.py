@@ -17,10 +17,10 @@ from math import pi, sqrt
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.pair.symbols import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
-from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
 from lagrotor.pair.scene import Scene
+from lagrotor.pair.symbols import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
+from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.shock_response import impulse_matrices, shock_response
 
 

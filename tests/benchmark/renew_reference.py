@@ -12,9 +12,9 @@ import mpmath as mp
 import numpy as np
 
 from lagrotor import Scene, paired_scene
+from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, ORDER
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics.codegen import compile_program
-from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, ORDER
 
 TARGET = Path(__file__).with_name("reference.json")
 COLUMNS, STEPS_A_SECOND = 13, 20

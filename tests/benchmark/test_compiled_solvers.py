@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from lagrotor import simulate
-from lagrotor.errors import InputError
 from lagrotor.benchmark.compiled_solvers import CANDIDATES
 from lagrotor.benchmark.scenes_and_methods import courses
+from lagrotor.errors import InputError
 
 TIMES = np.linspace(0, 2, 21)
 NEEDS = {"minimal, CyRK": ("numba", "CyRK"), "minimal, numba": ("numba",)}

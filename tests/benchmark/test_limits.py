@@ -6,24 +6,39 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from lagrotor.models.spring_link.system.rigid_body import finite_rotation
 
 from lagrotor import Scene, simulate
+from lagrotor.benchmark import throughput
+from lagrotor.benchmark.limits import coordinate_singularities as coordinates
+from lagrotor.benchmark.limits import range_of_validity as reach
+from lagrotor.benchmark.limits.coordinate_singularities import (
+    euler_limits,
+    joint_line_limits,
+    passing,
+    past_the_pole,
+    projection_limits,
+)
+from lagrotor.benchmark.limits.error_map import usefulness
+from lagrotor.benchmark.limits.numerical_drift import DRIFTING, constraint_drift, drift_limits, long_limits, long_run
+from lagrotor.benchmark.limits.range_of_validity import (
+    PAIR,
+    amplitude_limits,
+    horizon_limits,
+    next_term,
+    off_opposite,
+    series_error,
+    spin_limits,
+)
+from lagrotor.benchmark.limits.step_size import LIMITS, step_limits
+from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.benchmark.scipy_solvers import SOLVERS, run_by
+from lagrotor.benchmark.throughput import displaced_family
 from lagrotor.commands.command_line import main
 from lagrotor.errors import IntegrationError, SingularError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.spring_link.system.rigid_body import finite_rotation
-from lagrotor.benchmark.limits import coordinate_singularities as coordinates, range_of_validity as reach
-from lagrotor.benchmark import throughput
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joint_line_limits, passing, past_the_pole, projection_limits
-from lagrotor.benchmark.limits.numerical_drift import DRIFTING, constraint_drift, drift_limits, long_limits, long_run
-from lagrotor.benchmark.limits.threshold import Limit, threshold
-from lagrotor.benchmark.limits.range_of_validity import PAIR, amplitude_limits, horizon_limits, next_term, off_opposite, series_error, spin_limits
-from lagrotor.benchmark.scipy_solvers import SOLVERS, run_by
-from lagrotor.benchmark.limits.step_size import LIMITS, step_limits
-from lagrotor.benchmark.throughput import displaced_family
-from lagrotor.benchmark.limits.error_map import usefulness
 
 
 def test_threshold_halves_in_the_logarithm():

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from lagrotor import simulate
-from lagrotor.errors import IntegrationError
-from lagrotor.benchmark.scenes_and_methods import courses
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.benchmark.runner import Course, chart
 from lagrotor.benchmark.peers import PEERS
 from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
+from lagrotor.benchmark.runner import Course, chart
+from lagrotor.benchmark.scenes_and_methods import courses
+from lagrotor.errors import IntegrationError
+from lagrotor.numerics.convergence import measured_order
 
 SCENE = courses(quick=True)["displaced"].scene
 TIMES = np.linspace(0, 1, 11)

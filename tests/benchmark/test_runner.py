@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene
+from lagrotor.benchmark import runner as measure
+from lagrotor.benchmark.runner import Course, Failure, Method, Point, chart, front, listed, seconds_at
+from lagrotor.benchmark.scenes_and_methods import METHODS, courses
 from lagrotor.commands.chart_command import as_data, in_words
 from lagrotor.errors import LagrotorError
-from lagrotor.benchmark import runner as measure
-from lagrotor.benchmark.scenes_and_methods import METHODS, courses
-from lagrotor.benchmark.runner import Course, Failure, Point, chart, front, listed, seconds_at
-from lagrotor.benchmark.runner import Method
 
 
 def small() -> Course:

@@ -7,11 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lagrotor import Scene, Shock, consistent_scene, simulate
+from lagrotor.benchmark.scenes_and_methods import courses
+from lagrotor.benchmark.scipy_solvers import ENGINES, IVP, TRAPS, ivp_engine
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics.adams import adams
 from lagrotor.numerics.integrators import StopError, Stretch, dop853, lsoda
-from lagrotor.benchmark.scenes_and_methods import courses
-from lagrotor.benchmark.scipy_solvers import ENGINES, IVP, TRAPS, ivp_engine
 
 COURSES = courses(quick=True)
 TIMES = np.linspace(0, 4, 41)

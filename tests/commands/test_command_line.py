@@ -12,18 +12,18 @@ import pytest
 import sympy as sp
 
 import lagrotor
+from lagrotor.benchmark import scenes_and_methods as chart_module
+from lagrotor.benchmark.runner import Chart, Point
 from lagrotor.commands import paper_commands, terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
+from lagrotor.pair.symbols import M, R
 from lagrotor.paper import audit, scripts, trials
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.pictures import figures
 from lagrotor.report import folder, page, reproduce, reuse
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.benchmark import scenes_and_methods as chart_module
-from lagrotor.benchmark.runner import Chart, Point
-from lagrotor.pair.symbols import M, R
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SCENE = ["simulate", "--spins", "10", "-10"]

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lagrotor.benchmark.runner import chart
+from lagrotor.benchmark.scenes_and_methods import METHODS
 from lagrotor.paper import scripts
 from lagrotor.pictures.style import paper_style
-from lagrotor.benchmark.scenes_and_methods import METHODS
-from lagrotor.benchmark.runner import chart
 
 
 @pytest.fixture(scope="module")

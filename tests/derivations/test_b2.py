@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from lagrotor.errors import LagrotorError
-from lagrotor.paper import scripts
 from lagrotor.benchmark import recorded_speed as recorded
 from lagrotor.benchmark.scenes_and_methods import LADDERS
+from lagrotor.errors import LagrotorError
+from lagrotor.paper import scripts
 
 
 @pytest.fixture(scope="module")

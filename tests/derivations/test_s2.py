@@ -7,10 +7,10 @@ import pytest
 import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.pair.symbols import G_1, G_2, Omega, R, a, b, t
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Relation, judge
 from lagrotor.paper.scripts import run as run_script
-from lagrotor.pair.symbols import G_1, G_2, Omega, R, a, b, t
 
 NAMES = run_script("derivations", "s2b_linear_pair")
 STATED = {s.id: s for stem in ("s2a_parallel_pair", "s2b_linear_pair") for s in statements(stem)}

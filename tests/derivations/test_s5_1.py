@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.paper import scripts
 from lagrotor.pair.symbols import G_1, G_2, G, Omega, R, t
+from lagrotor.paper import scripts
 
 BAR = Link(mass=1, inertia=1)
 NUMBERS = {"p": 1.75, "q": 3.25, "G": 10.0}

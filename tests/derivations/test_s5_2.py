@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Scene, paired_scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.numerics.convergence import measured_order, swing
+from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Verdict, follow_errors, judge
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.numerics.convergence import measured_order, swing
 
 VERDICTS = {
     **dict.fromkeys(("5.01", "5.02", "5.03", "5.04", "5.05"), "holds-if"),

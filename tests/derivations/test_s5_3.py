@@ -8,9 +8,9 @@ import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.pair.symbols import K, k, m, omega, r0, sigma
 from lagrotor.paper.ledger import Relation, judge
 from lagrotor.paper.scripts import run as run_script
-from lagrotor.pair.symbols import K, k, m, omega, r0, sigma
 
 NAMES = run_script("derivations", "s5_3_natural_rates")
 STATED = {s.id: s for s in NAMES["statements"]}

@@ -8,10 +8,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate, simulate
 from lagrotor.mechanics import degrees_of_freedom
-from lagrotor.paper.ledger import judge
-from lagrotor.paper.scripts import run as run_script
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.symbols import G_1, G_2, G, a, b
+from lagrotor.paper.ledger import judge
+from lagrotor.paper.scripts import run as run_script
 
 NAMES = run_script("derivations", "s6_conclusion")
 STATED = {s.id: s for s in NAMES["statements"]}

@@ -10,7 +10,23 @@ from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrotor.errors import ConstraintError, InputError, SingularError
-from lagrotor.mechanics import Constrained, acceleration_bias, accelerations, bias, constrained_accelerations, coordinates, degrees_of_freedom, jacobian, mass_matrix, project_position, project_velocity, schur, solve_constrained, total_derivative, velocity_residual
+from lagrotor.mechanics import (
+    Constrained,
+    acceleration_bias,
+    accelerations,
+    bias,
+    constrained_accelerations,
+    coordinates,
+    degrees_of_freedom,
+    jacobian,
+    mass_matrix,
+    project_position,
+    project_velocity,
+    schur,
+    solve_constrained,
+    total_derivative,
+    velocity_residual,
+)
 
 m, l, g = sp.symbols("m l g", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81}

@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import Coordinates, accelerations, bias, coordinates, energy, euler_lagrange, mass_matrix, total_derivative
+from lagrotor.mechanics import (
+    Coordinates,
+    accelerations,
+    bias,
+    coordinates,
+    energy,
+    euler_lagrange,
+    mass_matrix,
+    total_derivative,
+)
 
 m, l, g, I1, I3 = sp.symbols("m l g I1 I3", positive=True)
 System = Callable[[], tuple[sp.Expr, Coordinates]]

@@ -8,7 +8,23 @@ from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, InputError, NotASymmetryError, SingularError
-from lagrotor.mechanics import Constrained, Coordinates, accelerations, constrained_accelerations, coordinates, cyclic_coordinates, energy, is_conserved, legendre, momenta, noether_integral, noether_rate, routhian, total_derivative, variation
+from lagrotor.mechanics import (
+    Constrained,
+    Coordinates,
+    accelerations,
+    constrained_accelerations,
+    coordinates,
+    cyclic_coordinates,
+    energy,
+    is_conserved,
+    legendre,
+    momenta,
+    noether_integral,
+    noether_rate,
+    routhian,
+    total_derivative,
+    variation,
+)
 
 m, l, g, k, I1, I3 = sp.symbols("m l g k I1 I3", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81, k: 2.0, I1: 0.6, I3: 0.25}

@@ -8,9 +8,9 @@ import pytest
 
 from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, SingularError
-from lagrotor.models.minimal import MODEL
 from lagrotor.models import ensemble
 from lagrotor.models.ensemble import MODELS, run_chunk, started, sweep
+from lagrotor.models.minimal import MODEL
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
 UP = ((0, 0, 1), (0, 0, 1))

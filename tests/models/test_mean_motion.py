@@ -5,9 +5,17 @@ import pytest
 
 from lagrotor import Link, Scene, Shock
 from lagrotor.errors import DomainError, InputError
-from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
-from lagrotor.models.mean_motion import exact_cancelling_force, mean_over, run_after, time_to_lean, time_to_wander, turning_rate, wandering_rate
+from lagrotor.models.mean_motion import (
+    exact_cancelling_force,
+    mean_over,
+    run_after,
+    time_to_lean,
+    time_to_wander,
+    turning_rate,
+    wandering_rate,
+)
 from lagrotor.numerics.convergence import measured_order
+from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 
 
 def scene(x, y=0.0, body=1, link=None, spins=(10, -10)):

@@ -4,15 +4,23 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from lagrotor.models.spring_link.system.rigid_body import (
+    RigidBody,
+    finite_rotation,
+    inertia_transform,
+    printed_inertia_transform,
+    printed_rotation,
+    rotation_between,
+    skew,
+)
+from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
+from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force, printed_link_force, step_limit
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
-from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation, inertia_transform, printed_inertia_transform, printed_rotation, rotation_between, skew
-from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force, printed_link_force, step_limit
-from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
 from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
+from lagrotor.errors import InputError, IntegrationError
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)

@@ -9,9 +9,59 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.mechanics import Constrained, Coordinates, acceleration_bias, bias, is_conserved, jacobian, mass_matrix, project_position, project_velocity, routhian, solve_constrained, total_derivative
-from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, ansatz_integrals, ansatz_lagrangian, axes_pair, axis, bar_curve, joint_line_momentum, link_constraint, mercator_axis, mercator_lagrangian, minimal_embedding, pair_lagrangian, pair_with_bar, rotor_lagrangian
-from lagrotor.pair.symbols import ANSATZ, AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, PAIR, ROTOR, J, K, M, R, a, b, ell, k, m
+from lagrotor.mechanics import (
+    Constrained,
+    Coordinates,
+    acceleration_bias,
+    bias,
+    is_conserved,
+    jacobian,
+    mass_matrix,
+    project_position,
+    project_velocity,
+    routhian,
+    solve_constrained,
+    total_derivative,
+)
+from lagrotor.pair.lagrangians import (
+    INERTIAS,
+    J_OF,
+    JOINT_LINE,
+    ansatz_integrals,
+    ansatz_lagrangian,
+    axes_pair,
+    axis,
+    bar_curve,
+    joint_line_momentum,
+    link_constraint,
+    mercator_axis,
+    mercator_lagrangian,
+    minimal_embedding,
+    pair_lagrangian,
+    pair_with_bar,
+    rotor_lagrangian,
+)
+from lagrotor.pair.symbols import (
+    ANSATZ,
+    AXES,
+    G_1,
+    G_2,
+    I1,
+    I3,
+    MERCATOR,
+    MINIMAL,
+    PAIR,
+    ROTOR,
+    J,
+    K,
+    M,
+    R,
+    a,
+    b,
+    ell,
+    k,
+    m,
+)
 
 SEEDS = range(5)
 VALUES = {M: 1.3, R: 0.9, I1: 0.7, I3: 1.1, m: 0.4, K: 0.05, ell: 1.2, G_1: 2.3, G_2: -1.7}

@@ -3,10 +3,10 @@
 import pytest
 import sympy as sp
 
+from lagrotor.pair.symbols import PAIR, ell
 from lagrotor.paper import notebook as shown
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.trials import Finding, Trial
-from lagrotor.pair.symbols import PAIR, ell
 
 x = sp.Symbol("x", real=True)
 HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))

@@ -9,7 +9,15 @@ from scipy.integrate import trapezoid
 from lagrotor import Scene, Shock, simulate
 from lagrotor.errors import InputError
 from lagrotor.pair.examples import SCENES
-from lagrotor.paper.shocked_runs import centre_numbers, centre_off, centre_runs, paper_run, pulse, rate_numbers, rate_runs
+from lagrotor.paper.shocked_runs import (
+    centre_numbers,
+    centre_off,
+    centre_runs,
+    paper_run,
+    pulse,
+    rate_numbers,
+    rate_runs,
+)
 
 STRUCK = SCENES["same-spin-shock"].scene
 TIMES = np.arange(601) * 0.005

@@ -6,11 +6,11 @@ import pytest
 import sympy as sp
 
 from lagrotor.algebra import decide_equal
+from lagrotor.pair.symbols import ANSATZ, I1, I3, M_3, PAIR, ROTOR, A, B, I, M, M_z, Phi, R, a_const, omega, r0, theta_0
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equation
 from lagrotor.paper.ledger import Statement
-from lagrotor.pair.symbols import ANSATZ, I1, I3, M_3, PAIR, ROTOR, A, B, I, M, M_z, Phi, R, a_const, omega, r0, theta_0
 
 latex = pytest.importorskip("sympy.parsing.latex", reason="sympy's LaTeX parser is missing")
 pytest.importorskip("antlr4", reason="sympy's LaTeX parser needs antlr4-python3-runtime: install the extra `test`")

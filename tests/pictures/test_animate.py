@@ -14,11 +14,11 @@ from lagrotor import Scene, Shock, consistent_scene, simulate
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.numerics.rotations import between_samples, body_rotations, turn_between
+from lagrotor.pair.examples import SCENES
 from lagrotor.pictures.animate import SIZE, Motion, animate, frame_times
 from lagrotor.pictures.wheel import Camera, carried, wheel
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
-from lagrotor.pair.examples import SCENES
 
 START = np.array([[0.3, 0.2, np.sqrt(0.87)], [0.0, 0.0, 1.0]])
 RATES = np.array([[0.6, -0.9, 0.0], [1.0, 0.5, 0.0]])

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 from lagrotor.paper import catalogue, scripts, trials
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equation, equations
@@ -26,7 +27,6 @@ from lagrotor.report.folder import CONTENTS
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page
-from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from lagrotor.pair.symbols import J, M, R, m
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.trials import Finding, Result, Trial
@@ -13,7 +14,6 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
 from lagrotor.report.results import balance, headlines
-from lagrotor.pair.symbols import J, M, R, m
 
 MEASURED = {
     "C16": {"corrected_shortest": 1.0811, "corrected_longest": 1.0822},

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from lagrotor.pair.symbols import M, r0
 from lagrotor.paper import trials
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equations
@@ -20,7 +21,6 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import TITLE, Report, contents
 from lagrotor.report.latex import END, derived, head, printed, prose, table
 from lagrotor.report.supplement import supplement
-from lagrotor.pair.symbols import M, r0
 
 HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
 LONG = sp.Add(*sp.symbols("x_1:60"))

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, simulate
 from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import corrected_inclinations, corrected_trajectories
 from lagrotor.theory.single_rotor import free_precession_rate, pair_precession_rate, rotor_precession_rate
-from lagrotor.theory.natural_frequency import natural_frequency
 
 ALL = (
     rotor_precession_rate,

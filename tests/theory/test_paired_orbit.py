@@ -6,15 +6,14 @@ import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, natural_rate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.simulate import simulate
-from lagrotor.theory.paired_precession.closed_forms import leading_square, most_growth
-from lagrotor.theory.paired_precession.closed_forms import paired_momentum
-from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.numerics.convergence import measured_order
 from lagrotor.models.orbits.continuation import orbit_family, trace_family
 from lagrotor.models.orbits.floquet import floquet
+from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.orbits.variational import flow
+from lagrotor.models.simulate import simulate
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.theory.paired_precession.closed_forms import leading_square, most_growth, paired_momentum
+from lagrotor.theory.paired_precession.series import paired_series
 
 # sigma = 5/9, 7/5 and 11/8, with k = 13/10, 4/5 and 1.
 BARS = {

@@ -9,10 +9,14 @@ from lagrotor import Link, Rotor, Scene, precession_orbit, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.codegen import operations
-from lagrotor.theory.paired_precession.amplitudes import amplitude_of_first_harmonic, first_harmonic, largest_inclination
-from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
-from lagrotor.theory.paired_precession.evaluate import program
 from lagrotor.numerics.convergence import measured_order
+from lagrotor.theory.paired_precession.amplitudes import (
+    amplitude_of_first_harmonic,
+    first_harmonic,
+    largest_inclination,
+)
+from lagrotor.theory.paired_precession.evaluate import program
+from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
 
 SCENES = {
     "massless": Scene(spins=(10, -10)),

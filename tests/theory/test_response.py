@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
 from lagrotor.errors import InputError
-from lagrotor.theory.shock_response import shock_response
 from lagrotor.numerics.convergence import measured_order
+from lagrotor.theory.shock_response import shock_response
 
 sizes = st.floats(0.3, 2.0)
 spins = st.floats(3.0, 15.0)

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.errors import InputError
-from lagrotor.theory.toppling import toppling_growth, toppling_threshold
-from lagrotor.theory.parallel_precession import parallel_scene, twist_growth, twist_multiplier_growth, twist_safe
 from lagrotor.numerics.convergence import measured_order
+from lagrotor.theory.parallel_precession import parallel_scene, twist_growth, twist_multiplier_growth, twist_safe
+from lagrotor.theory.toppling import toppling_growth, toppling_threshold
 
 
 @settings(max_examples=10, deadline=None)

@@ -4,18 +4,18 @@ from functools import cache
 from math import cos, sin, sqrt
 
 import numpy as np
+from lagrotor.models.spring_link.system.rigid_body import printed_rotation
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal
+from lagrotor.models.ensemble import started
 from lagrotor.models.model import Model
-from lagrotor.models.spring_link.system.rigid_body import printed_rotation
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.models.ensemble import started
-from lagrotor.benchmark.limits.threshold import Limit, threshold
-from lagrotor.benchmark.scipy_solvers import run_by
 
 Array = NDArray[np.float64]
 _EPS = float(np.finfo(float).eps)

@@ -6,11 +6,11 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.limits.range_of_validity import series_axes
 from lagrotor.errors import InputError
+from lagrotor.models.ensemble import sweep
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair.scene import Scene
-from lagrotor.models.ensemble import sweep
-from lagrotor.benchmark.limits.range_of_validity import series_axes
 
 Array = NDArray[np.float64]
 USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction

@@ -6,15 +6,15 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
-from lagrotor.pair.trajectory import Trajectory
-from lagrotor.pair.scene import Link, Scene
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.benchmark.limits.threshold import Limit
-from lagrotor.benchmark.scipy_solvers import run_by
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.pair.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 # A displaced start in large motion; a bar of which the paired precession is elliptic, so that errors only grow slowly.

@@ -7,16 +7,16 @@ from math import exp, log, pi, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.models.ensemble import started
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
+from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_frequency import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, evaluate, paired_series, shape_of
-from lagrotor.pair.scene import Scene
 from lagrotor.theory.parallel_precession import parallel_scene
-from lagrotor.models.ensemble import started
-from lagrotor.models.orbits.floquet import floquet_of
-from lagrotor.benchmark.limits.threshold import Limit, threshold
 
 Array = NDArray[np.float64]
 PAIR = Scene((10.0, -10.0))

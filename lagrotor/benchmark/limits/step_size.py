@@ -4,16 +4,16 @@ from collections.abc import Callable
 from copy import deepcopy
 
 import numpy as np
-
 from lagrotor.models.spring_link.system.rigid_body import RigidBody
-from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
 from lagrotor.models.spring_link.system.run import paper_system
-from lagrotor.pair.scene import Link, Scene
-from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STIFFNESS
+from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
+
 from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joint_line_limits, projection_limits
 from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
-from lagrotor.benchmark.limits.threshold import Limit
 from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
+from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STIFFNESS
+from lagrotor.pair.scene import Link, Scene
 
 
 def step_grows(system: RigidBodySystem, dt: float, steps: int = 1000) -> bool:

@@ -3,9 +3,9 @@
 They take scenes without shock and without mass in the bar.
 """
 
-from lagrotor.benchmark.runner import Method
 from lagrotor.benchmark.peers.multibody_engines import BODIES
 from lagrotor.benchmark.peers.sundials import SUNDIALS
 from lagrotor.benchmark.peers.sympy_mechanics import SYMPY
+from lagrotor.benchmark.runner import Method
 
 PEERS: dict[str, Method] = SYMPY | SUNDIALS | BODIES

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
+from lagrotor.benchmark.runner import Method, Run, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models.spring_link.system.rigid_body import rotation_between
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Method, Run, tips
-from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
 
 Array = NDArray[np.float64]
 

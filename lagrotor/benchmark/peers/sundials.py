@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 from lagrotor.models import minimal
 from lagrotor.numerics.codegen import reduce_common
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 
 Array = NDArray[np.float64]
 

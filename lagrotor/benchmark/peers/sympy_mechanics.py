@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.pair.scene import Scene
-from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 
 Array = NDArray[np.float64]
 

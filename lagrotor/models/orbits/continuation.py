@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from lagrotor.errors import DomainError, IntegrationError
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit
-from lagrotor.theory.paired_precession.series import shape_of
-from lagrotor.pair.scene import Scene
 from lagrotor.models.orbits.variational import flow
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.paired_precession.series import shape_of
 
 Array = NDArray[np.float64]
 

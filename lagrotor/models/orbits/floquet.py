@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
-from lagrotor.pair.scene import Scene
 from lagrotor.models.orbits.variational import flow
+from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
 # The trace of a monodromy is found to about 1e-11; within that the pair cannot be told from 1.

@@ -10,11 +10,11 @@ from math import atanh, pi
 import numpy as np
 
 from lagrotor.errors import DomainError, IntegrationError
-from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
-from lagrotor.theory.paired_precession.series import shape_of
-from lagrotor.pair.scene import Scene
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import Array
+from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.paired_precession.series import shape_of
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.errors import SingularError
-from lagrotor.models.minimal_program import Ratio, program
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal_program import Ratio, program
 from lagrotor.numerics.codegen import Program, compile_program
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.pair.scene import Scene

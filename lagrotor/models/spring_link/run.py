@@ -8,14 +8,14 @@ from math import exp, isfinite
 from typing import Any
 
 import numpy as np
+from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, rotation_between, skew
+from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models.simulate import check_times
 from lagrotor.numerics.integrate import PULSE_REACH, check_tolerance
 from lagrotor.pair.scene import Scene, Shock
-from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, rotation_between, skew
-from lagrotor.models.simulate import check_times
-from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
 
 TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 stands on the ground
 LOST = 1e100  # a state as large as this has blown up; its energies are still finite

@@ -10,10 +10,17 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
+from lagrotor.models.spring_link.system.rigid_body import (
+    Array,
+    RigidBody,
+    finite_array,
+    finite_rotation,
+    inertia_transform,
+    skew,
+)
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
-from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, finite_array, finite_rotation, inertia_transform, skew
 
 LinkForce = Callable[[Array, Array, float, float], Array]
 

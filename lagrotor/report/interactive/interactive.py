@@ -16,14 +16,34 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models import minimal_program as elimination
 from lagrotor.models.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage, javascript
-from lagrotor.theory.paired_precession import evaluate as precession
-from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
-from lagrotor.theory.paired_precession.series import paired_series
 from lagrotor.pair.scene import Rotor
-from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, MERCATOR, MINIMAL, J, K, M, Phi, R, a, b, ell, k, m, omega_1, omega_2
+from lagrotor.pair.symbols import (
+    AXES,
+    G_1,
+    G_2,
+    I1,
+    I3,
+    MERCATOR,
+    MINIMAL,
+    J,
+    K,
+    M,
+    Phi,
+    R,
+    a,
+    b,
+    ell,
+    k,
+    m,
+    omega_1,
+    omega_2,
+)
 from lagrotor.pair.symbols import r0 as amplitude
 from lagrotor.pair.symbols import sigma as shape
+from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
+from lagrotor.theory.paired_precession import evaluate as precession
+from lagrotor.theory.paired_precession.series import paired_series
 
 ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
 _BARS: tuple[Ratio, ...] = "short", "equal", "long"

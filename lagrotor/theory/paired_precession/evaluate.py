@@ -20,11 +20,10 @@ from numpy.typing import ArrayLike, NDArray
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.numerics.codegen import Program, compile_program, in_blocks
-from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.closed_forms import paired_scene
-from lagrotor.theory.paired_precession.closed_forms import paired_momentum
-from lagrotor.theory.paired_precession.series import evaluate, last_terms, paired_series, shape_of
 from lagrotor.pair.scene import Scene
+from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.paired_precession.closed_forms import paired_momentum, paired_scene
+from lagrotor.theory.paired_precession.series import evaluate, last_terms, paired_series, shape_of
 
 Array = NDArray[np.float64]
 _UNDECIDED = 0.05  # of the last terms of a series of order 5 or more, beyond which it is taken to diverge

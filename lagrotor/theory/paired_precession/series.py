@@ -23,9 +23,9 @@ from sympy.polys.domains.domain import Domain
 from lagrotor.errors import InputError
 from lagrotor.mechanics.fourier import FourierSeries, constant
 from lagrotor.mechanics.perturbation import lindstedt_poincare
-from lagrotor.pair.symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.scene import Scene
+from lagrotor.pair.symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ from importlib.resources import files
 
 import pytest
 
+from lagrotor.pair.symbols import GLOSSARY
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
-from lagrotor.pair.symbols import GLOSSARY
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
 pytest.importorskip("brotli", reason="brotli unpacks WOFF2")

@@ -7,13 +7,13 @@ from xml.etree.ElementTree import Element
 import pytest
 import sympy as sp
 
+from lagrotor.pair.symbols import ANSATZ, PAIR, ROTOR, M, Omega, ell, r0
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_break import WIDTH, width
-from lagrotor.pair.symbols import ANSATZ, PAIR, ROTOR, M, Omega, ell, r0
 
 THIN = '<mspace width="0.167em" />'
 # Elements of MathML Core; browsers draw others as plain rows.

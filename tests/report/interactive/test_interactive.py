@@ -23,12 +23,12 @@ from lagrotor.algebra import decide_zero
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.symbols import Phi, omega, r0
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
 from lagrotor.theory.paired_precession.evaluate import precession_orbit
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import Phi, omega, r0
 
 NODE = shutil.which("node")
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

@@ -1,17 +1,61 @@
-"""The natural rate of a scene beside its limits: equal spins, opposite spins, a massless bar, a dumbbell."""
+"""The natural frequency of the coupled pair, for any spins and any bar, and its limits."""
 
 from dataclasses import dataclass, replace
+from functools import cache
 from math import hypot, sqrt
 
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.pair.symbols import G_1, G_2, K, a, b, ell, m
-from lagrotor.theory.natural_frequency import natural_frequency, natural_rate
-from lagrotor.pair.lagrangians import INERTIAS
+from lagrotor.mechanics.perturbation import LinearSystem, linearise
+from lagrotor.pair.lagrangians import INERTIAS, axes_pair
 from lagrotor.pair.scene import Link, Scene
+from lagrotor.pair.symbols import AXES, G_1, G_2, K, a, b, ell, m
+from lagrotor.theory.closed_form import ClosedForm
+from lagrotor.theory.single_rotor import free_precession_rate
 
 _G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)
+
+
+@cache
+def linear_pair() -> LinearSystem:
+    """The coupled pair linearised at rest, in (x, y_1, y_2), for any spins and any bar."""
+    system, gyroscopic = axes_pair()
+    upright = dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True))
+    return linearise(system, upright, list(gyroscopic))
+
+
+@cache
+def natural_frequency() -> ClosedForm:
+    """Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)): the one oscillation of the linear pair.
+
+    The other roots of det(s² M + s C) are zero: turning about the joint line and displacements at rest.
+    """
+    s = sp.Symbol("s")
+    polynomial = sp.Poly(linear_pair().characteristic(s), s)
+    leading, constant = polynomial.coeff_monomial(s**6), polynomial.coeff_monomial(s**4)
+    return ClosedForm(
+        "natural_frequency",
+        ("Omega_0",),
+        (sp.sqrt(sp.factor(constant / leading)),),
+        (a, b, G_1, G_2),
+        (sp.Gt(a, sp.Abs(b)),),
+        "small motion about the upright rest state, any spins, any bar",
+        "5.28",
+    )
+
+
+def natural_rate(scene: Scene) -> float:
+    """Natural angular frequency (rad/s) of a scene: of the coupled pair, or of rotor 1 alone when there is no bar.
+
+    Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Source: 5.28, corrected.
+    """
+    if not isinstance(scene, Scene):
+        raise InputError(f"natural_rate: {scene!r} must be a Scene")
+    first, second = scene.momenta
+    if scene.link is None:
+        return abs(float(free_precession_rate()(0.0, first, scene.rotor.J)))  # type: ignore[arg-type]
+    return float(natural_frequency()(*scene.inertias, first, second))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,93 @@
+"""A closed form: expressions with their arguments, domain and order, generated as numpy functions that broadcast."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import prod
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike, NDArray
+
+from lagrotor.errors import DomainError, InputError
+from lagrotor.numerics.codegen import Program, compile_program, in_blocks
+from lagrotor.pair.symbols import GLOSSARY
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """Expressions of `arguments`, valid under `assumptions` where every condition of `domain` holds.
+
+    `order`: through which power of `small` a series is right; None for an exact form. `source`: the paper's equation.
+    Called with numbers or arrays in the order of `arguments` it returns the expressions' values, broadcast.
+    """
+
+    name: str
+    outputs: tuple[str, ...]
+    expressions: tuple[sp.Expr, ...]
+    arguments: tuple[sp.Symbol, ...]
+    domain: tuple[sp.Basic, ...]
+    assumptions: str
+    source: str
+    order: int | None = None
+    small: sp.Symbol | None = None
+
+    @cached_property
+    def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
+        units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
+        doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
+        expressions = tuple(e.replace(_is_multiple, _by_one_angle) for e in self.expressions)
+        values = compile_program(Program(self.arguments, (), expressions), "numpy", doc)
+        return values, tuple(sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain)
+
+    def _repr_latex_(self) -> str:
+        pairs = zip(self.outputs, self.expressions, strict=True)
+        named = ((re.sub("(?=Omega|phi|theta|sin)", r"\\", name), sp.latex(e)) for name, e in pairs)
+        lines = r" \\ ".join(f"{name} &= {expression}" for name, expression in named)
+        return rf"$\displaystyle \begin{{aligned}} {lines} \end{{aligned}}$"
+
+    def __call__(self, *values: ArrayLike) -> NDArray[np.float64] | tuple[NDArray[np.float64], ...]:
+        """The outputs at these argument values: one array, or a tuple where there are several outputs.
+
+        Raises InputError for a wrong number of arguments, DomainError where a value is outside the domain.
+        """
+        if len(values) != len(self.arguments):
+            raise InputError(
+                f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
+            )
+        given = [np.asarray(v, dtype=float) for v in values]
+        shape = np.broadcast_shapes(*(array.shape for array in given))
+        for argument, array in zip(self.arguments, given, strict=True):
+            if not np.isfinite(array).all():
+                raise DomainError(f"{self.name}: {argument} holds a value that is not finite")
+            if argument.is_positive and not (array > 0).all():
+                raise DomainError(f"{self.name}: {argument} = {array.min():g} must be greater than zero")
+        # One value for all stays one number.
+        flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in given]
+        function, conditions = self._functions
+        for relation, condition in zip(self.domain, conditions, strict=True):
+            inside = np.broadcast_to(condition(*flat), prod(shape))
+            if not inside.all():
+                where = int(np.argmin(inside))
+                at = ", ".join(
+                    f"{s} = {v if isinstance(v, float) else v[where]:g}"
+                    for s, v in zip(self.arguments, flat, strict=True)
+                )
+                raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
+        results = tuple(row.reshape(shape) for row in in_blocks(function, flat, len(self.outputs), prod(shape)))
+        return results if len(results) > 1 else results[0]
+
+
+def _is_multiple(e: sp.Expr) -> bool:
+    """cos(n x) or sin(n x) with n = 2, 3, …"""
+    return isinstance(e, sp.cos | sp.sin) and e.args[0].as_coeff_Mul()[0] in range(2, 100)
+
+
+def _by_one_angle(e: sp.Expr) -> sp.Expr:
+    """T_n(cos x) or sin x U_(n−1)(cos x): products of two functions cost less than another function."""
+    n, x = e.args[0].as_coeff_Mul()
+    if isinstance(e, sp.cos):
+        return sp.chebyshevt(n, sp.cos(x))
+    return sp.sin(x) * sp.chebyshevu(n - 1, sp.cos(x))
