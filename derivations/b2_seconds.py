@@ -11,7 +11,7 @@
 # %%
 from lagrotor.benchmark.recorded_speed import recorded_speed
 from lagrotor.benchmark.scenes_and_methods import LADDERS, courses
-from lagrotor.models.simulate import choose
+from lagrotor.models.choose import choose
 from lagrotor.paper.tables import Table
 
 found = recorded_speed()

@@ -11,11 +11,11 @@ from contextlib import ExitStack
 from unittest.mock import patch
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
-from lagrotor.models.spring_link.system.system import RigidBodySystem
 
 from lagrotor import Link, Scene, Shock, simulate
+from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
+from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial

@@ -8,12 +8,12 @@
 
 # %%
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import finite_rotation, printed_rotation
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
-from lagrotor.models.spring_link.system.system import step_limit
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.errors import IntegrationError
+from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
+from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.system import step_limit
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial
 

@@ -10,10 +10,10 @@
 from math import pi
 
 import numpy as np
-from lagrotor.models.spring_link.system.run import paper_system
 
 from lagrotor import Link, Scene, Shock, consistent_scene, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.spring_link.run import paper_system
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.notebook import Heard

@@ -12,10 +12,10 @@
 from math import pi
 
 import numpy as np
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.paper.notebook import Heard
 from lagrotor.paper.trials import Finding, Trial

@@ -9,11 +9,10 @@
 # and inertia 1 unless said otherwise. The numbers are those of the claims' trials.
 
 # %%
-from lagrotor.models.spring_link.system.run import paper_system
-from lagrotor.models.spring_link.system.system import step_limit
-
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.benchmark.limits.step_size import found_step_limit
+from lagrotor.models.spring_link.run import paper_system
+from lagrotor.models.spring_link.system import step_limit
 from lagrotor.paper.tables import Table
 from lagrotor.paper.trials import hear, listed
 

@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
+from lagrotor.drawing.style import OKABE_ITO
 from lagrotor.paper import scripts
-from lagrotor.pictures.style import OKABE_ITO
 
 # Method → colour and marker: rungs as `simulate` runs them, engines on the minimal rung, other solvers of scipy on it.
 LOOKS = {

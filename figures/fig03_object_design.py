@@ -10,15 +10,15 @@ from dataclasses import fields
 from functools import cache
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import RigidBody
-from lagrotor.models.spring_link.system.system import RigidBodySystem
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
+from lagrotor.drawing.style import CORRECTED, MODEL, OKABE_ITO
+from lagrotor.models.spring_link.rigid_body import RigidBody
+from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.models.spring_link.system import run as spring_run
 from lagrotor.models.spring_link.system import system as spring_link
 from lagrotor.pictures.diagram import arrow, bare
-from lagrotor.pictures.style import CORRECTED, MODEL, OKABE_ITO
 
 TITLE = "Object design of the rigid-body simulator"
 CAPTION = (

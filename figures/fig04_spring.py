@@ -8,13 +8,13 @@
 from functools import cache
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import RigidBody, finite_rotation
-from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
+from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation
+from lagrotor.models.spring_link.system import RigidBodySystem, link_force
 from lagrotor.pictures.diagram import arrow, canvas, label
-from lagrotor.pictures.wheel import BAR, INK, MARK, ROTORS
 
 S, D, SCALE = 1.0, 0.2, 0.33  # N/m, kg/s; m drawn for 1 N
 TITLE = "Spring between vertex 1 and vertex 2"

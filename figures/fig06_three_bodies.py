@@ -9,12 +9,12 @@
 from functools import cache
 
 import numpy as np
-from lagrotor.models.spring_link.system.run import paper_system
 from matplotlib.figure import Figure
 
+from lagrotor.drawing.wheel import BAR, INK, MARK, RADIUS, ROTORS, Camera
+from lagrotor.models.spring_link.run import paper_system
 from lagrotor.pair.examples import DAMPING, SCENES, STIFFNESS
 from lagrotor.pictures.diagram import canvas, draw_wheel, ground, label
-from lagrotor.pictures.wheel import BAR, INK, MARK, RADIUS, ROTORS, Camera
 
 APART = np.array([[-0.12, 0, 0], [0.12, 0, 0], [0, 0, 0.24]])  # m, for the drawing only
 TITLE = "Three rigid bodies and four links"

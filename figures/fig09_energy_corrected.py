@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
+from lagrotor.drawing.style import EXACT, MODEL
 from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.shocked_runs import paper_run
-from lagrotor.pictures.style import EXACT, MODEL
 
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"

@@ -8,14 +8,14 @@
 from functools import cache
 
 import numpy as np
-from lagrotor.models.spring_link.system.run import paper_system
-from lagrotor.models.spring_link.system.system import step_limit
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
+from lagrotor.drawing.style import EXACT, MODEL, OKABE_ITO
+from lagrotor.models.spring_link.run import paper_system
+from lagrotor.models.spring_link.system import step_limit
 from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.shocked_runs import paper_run, pulse
-from lagrotor.pictures.style import EXACT, MODEL, OKABE_ITO
 
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.numerics.spectrum import turn_means
 from lagrotor.pair.examples import SCENES
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.shock_response import shock_response
 
 TOL = 1e-10

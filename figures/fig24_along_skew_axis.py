@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
+from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
 from lagrotor.numerics.spectrum import turn_means
 from lagrotor.pair.examples import SCENES
-from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.shock_response import shock_response
 

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
+from lagrotor.drawing.style import CORRECTED, EXACT, OKABE_ITO, PAPER
 from lagrotor.numerics.spectrum import peak, spectrum
-from lagrotor.pictures.style import CORRECTED, EXACT, OKABE_ITO, PAPER
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
 UNIT = Rotor().I3 * SPIN / Rotor().J

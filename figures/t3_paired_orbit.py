@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
+from lagrotor.drawing.style import CORRECTED, EXACT
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pictures.style import CORRECTED, EXACT
 from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
 
 SCENE = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))

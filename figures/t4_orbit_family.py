@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
 
 BARS = {

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.paired_precession.closed_forms import leading_square
 
 BARS = {

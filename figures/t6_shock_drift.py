@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, cancelling_force
+from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
 from lagrotor.models.mean_motion import run_after, turning_rate
-from lagrotor.pictures.style import CORRECTED, EXACT, PAPER
 from lagrotor.theory.drift_after_shock import toppling_after_shock
 
 ALONG, CHOSEN, SWINGS = 40.0, -11.0, 8

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.models.mean_motion import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.drift_after_shock import toppling_after_shock, wander_after_shock
 
 LEAN, BOUND, SHOWN, AT = 0.5, 0.1, 12.0, 0.5

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
 from lagrotor.theory.toppling import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0

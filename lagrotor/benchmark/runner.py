@@ -1,21 +1,25 @@
 """One scene, many methods: each at every knob, held to the reference; its points, what failed, and the front."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import groupby
 from statistics import median
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.reference import reference
-from lagrotor.benchmark.runner import Family, Method, Run
 from lagrotor.errors import LagrotorError
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
+Run = Callable[[float], tuple[Array, int]]
+Prepare = Callable[[Scene, Array], Run]
+Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]
+
 
 TOLERANCES = tuple(10.0**-n for n in range(3, 14))
 # A method is not asked for more once a run took as long (s); one that takes a tenth of it is timed once.
@@ -26,6 +30,25 @@ SAMPLE = 0.01
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 _COMPILING = "closed", "fast"  # a first run may derive or compile
 _REFUSALS = LagrotorError, RuntimeError, ValueError
+
+
+@dataclass(frozen=True)
+class Method:
+    """prepare(scene, times) → run(knob) → tips (2, n, 3) in m, and evaluations.
+
+    The knob is a tolerance, or one of `steps` (s) for what goes in equal steps; `extra`: what of pyproject installs it.
+    """
+
+    family: Family
+    prepare: Prepare
+    steps: tuple[float, ...] = ()
+    extra: str = ""
+
+
+def tips(scene: Scene, axes: Array) -> Array:
+    """Tips (2, n, 3) in m of axes (2, n, 3)."""
+    half = (scene.link.length if scene.link else scene.rotor.length) / 2
+    return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from lagrotor.benchmark.runner import (
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.closed_form import closed_form
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.system.run import paper_system, run_steps
+from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_frequency import natural_rate

@@ -41,8 +41,8 @@ def add_chart(added: argparse.ArgumentParser) -> None:
 def chart_command(given: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
     from lagrotor.benchmark.scenes_and_methods import charts
+    from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
-    from lagrotor.pictures.style import paper_style
 
     check_folder(given.out)
     with progress(4) as step:
@@ -102,7 +102,7 @@ def draw(one: "Chart") -> Any:
     from matplotlib.lines import Line2D
 
     from lagrotor.benchmark.runner import front, listed
-    from lagrotor.pictures.style import OKABE_ITO
+    from lagrotor.drawing.style import OKABE_ITO
 
     families = {p.method: p.family for p in one.points}
     names = [name for family in _FAMILIES for name in families if families[name] == family]

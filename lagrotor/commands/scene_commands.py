@@ -15,8 +15,8 @@ _MOST_SAMPLES = 10_000_000
 
 def animate_command(given: argparse.Namespace) -> int:
     from lagrotor.commands.terminal import progress
+    from lagrotor.drawing.film import check_film
     from lagrotor.pair.examples import SCENES
-    from lagrotor.pictures.animate import animate, check_film
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
     t_end = ready.duration if given.t_end is None else given.t_end
@@ -30,7 +30,7 @@ def animate_command(given: argparse.Namespace) -> int:
     with progress(1 + math.ceil(t_end)) as step:
         step("motion")
         run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
-        animate(run, target, given.fps, step)
+        run.animate(target, given.fps, step)
     print(target)
     return 0
 
@@ -43,7 +43,7 @@ def simulate_command(given: argparse.Namespace) -> int:
     if given.out:
         check_file(given.out)
     if given.out and given.out.suffix in FILMS:
-        from lagrotor.pictures.animate import check_film
+        from lagrotor.drawing.film import check_film
 
         check_film(given.out, given.t_end, 25.0)
     scene = scene_of(given, shock_of(given))

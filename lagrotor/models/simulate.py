@@ -111,7 +111,7 @@ def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
 
 
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
-    from lagrotor.models.simulate import choose
+    from lagrotor.models.choose import choose
 
     choice = choose(scene, float(times[-1]), tol, engine)
     if choice.model in DIRECT:

@@ -1,9 +1,11 @@
 """What a run leaves: the axes over time and everything read off them, the same for every model."""
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from html import escape
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 from zipfile import BadZipFile
@@ -11,13 +13,14 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor import __version__
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, write_beside, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from lagrotor.drawing.film import Motion
 
 Array = NDArray[np.float64]
 
@@ -89,15 +92,31 @@ class Trajectory:
 
     def plot(self) -> "Figure":
         """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
-        from lagrotor.pictures.run_figure import run_figure
+        from lagrotor.drawing.run_figure import run_figure
 
-        return run_figure(self)
+        title = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s, model {self.model}"
+        return run_figure(self.t, self.tips, self.energy, title)
 
-    def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.pictures.animate`."""
-        from lagrotor.pictures.animate import animate
+    def animate(self, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None) -> Path:
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.drawing.film.animate`."""
+        from lagrotor.drawing.film import animate, check_film, frame_times
 
-        return animate(self, path, fps)
+        check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
+        return animate(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
+
+    def motion(self, times: Array) -> "Motion":
+        """What a film draws at `times` (m,) in s: axes by Hermite cubics, the bodies turned along samples and frames."""
+        from lagrotor.drawing.film import Motion
+        from lagrotor.numerics.rotations import between_samples, body_rotations
+
+        dense = np.union1d(self.t, times)
+        axes, rates = between_samples(self.t, self.axes, self.rates, dense)
+        at = np.searchsorted(dense, times)
+        rotations = body_rotations(dense, axes, rates, self.momenta[:, 0] / self.scene.rotor.I3)[:, at]
+        length, feet = self.scene.rotor.length, self.joints[:, None, :]
+        tips, joined = feet + length * axes[:, at], self.scene.link is not None
+        centres = feet + length / 2 * axes[:, at]
+        return Motion(times, rotations, tips, centres, self.joints, length, self.scene.spins, joined)
 
     def summary(self) -> dict[str, str]:
         """What the run is and how well it kept what it should keep, name → words."""
@@ -124,7 +143,7 @@ class Trajectory:
         if target.suffix == ".npz":
             arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
             about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
-            about["lagrotor"] = __version__
+            about["lagrotor"] = version("lagrotor")
             return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(about), **arrays))
         if target.suffix == ".csv":
             return write_text(target, self._columns())

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.models.spring_link.system.run import SpringRun, paper_system, run_steps
+from lagrotor.models.spring_link.run import SpringRun, paper_system, run_steps
 from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock

@@ -11,8 +11,8 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
+from lagrotor.drawing.wheel import INK, MARK, Camera, carried, wheel
 from lagrotor.numerics.rotations import Array
-from lagrotor.pictures.wheel import INK, MARK, Camera, carried, wheel
 
 HALO = [withStroke(linewidth=3, foreground="white")]
 

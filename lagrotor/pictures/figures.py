@@ -53,7 +53,7 @@ def draw(key: str, folder: Path) -> Picture:
 
     Raises InputError when the folder cannot be written to.
     """
-    from lagrotor.pictures.style import paper_style
+    from lagrotor.drawing.style import paper_style
 
     stem = stems()[key]
     with paper_style():

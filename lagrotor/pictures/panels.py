@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 from lagrotor.numerics.rotations import Array
-from lagrotor.pictures.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 
 COMPONENTS = {"x": OKABE_ITO["blue"], "y": OKABE_ITO["vermillion"], "z": OKABE_ITO["orange"]}
 

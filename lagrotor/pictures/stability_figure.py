@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
+from lagrotor.drawing.style import OKABE_ITO, paper_style
 from lagrotor.files import write_beside
-from lagrotor.pictures.style import OKABE_ITO, paper_style
 
 STEM = "stability"
 

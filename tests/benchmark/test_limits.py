@@ -6,7 +6,6 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
-from lagrotor.models.spring_link.system.rigid_body import finite_rotation
 
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import throughput
@@ -38,6 +37,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import IntegrationError, SingularError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.spring_link.rigid_body import finite_rotation
 from lagrotor.numerics.convergence import measured_order
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from lagrotor.benchmark.runner import chart
 from lagrotor.benchmark.scenes_and_methods import METHODS
+from lagrotor.drawing.style import paper_style
 from lagrotor.paper import scripts
-from lagrotor.pictures.style import paper_style
 
 
 @pytest.fixture(scope="module")

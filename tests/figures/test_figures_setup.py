@@ -53,7 +53,7 @@ def test_diagrams_are_the_models_geometry(script):
 
 def test_design_names_every_public_method(script):
     """Figure 3 is read off the classes: nothing that is public is left out."""
-    from lagrotor.models.spring_link.system.system import RigidBodySystem
+    from lagrotor.models.spring_link.system import RigidBodySystem
 
     shown = {line.split("(")[0] for line in script(3)["data"]()["RigidBodySystem"]}
     public = {name for name, value in vars(RigidBodySystem).items() if callable(value) and not name.startswith("_")}

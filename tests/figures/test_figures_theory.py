@@ -2,8 +2,8 @@
 
 import pytest
 
+from lagrotor.drawing.style import paper_style
 from lagrotor.pictures import figures
-from lagrotor.pictures.style import paper_style
 
 
 @pytest.mark.parametrize("number", [n for n in range(17, 29) if n not in (22, 23)])

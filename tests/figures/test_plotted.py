@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lagrotor.drawing.style import paper_style
 from lagrotor.paper import scripts
 from lagrotor.pictures import figures
-from lagrotor.pictures.style import paper_style
 
 FILES = {name: Path(__file__).with_name(f"plotted_{name}.json") for name in ("setup", "theory", "past")}
 KEPT = {name: json.loads(file.read_text(encoding="utf-8")) for name, file in FILES.items()}

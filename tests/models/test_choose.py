@@ -10,7 +10,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import LagrotorError
-from lagrotor.models.simulate import choose
+from lagrotor.models.choose import choose
 
 LADDER = ("closed_form", "linear", "minimal", "spheres")
 BARS = ((0.0, 0.0), (0.01, 0.1), (1.0, 1.0), (1.0, 0.05))

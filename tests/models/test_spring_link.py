@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from lagrotor.models.spring_link.system.rigid_body import (
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models.spring_link.rigid_body import (
     RigidBody,
     finite_rotation,
     inertia_transform,
@@ -13,14 +19,8 @@ from lagrotor.models.spring_link.system.rigid_body import (
     rotation_between,
     skew,
 )
-from lagrotor.models.spring_link.system.run import paper_system, run_solver, run_steps
-from lagrotor.models.spring_link.system.system import RigidBodySystem, link_force, printed_link_force, step_limit
-from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation
-
-from lagrotor import Link, Rotor, Scene, Shock, simulate
-from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
-from lagrotor.errors import InputError, IntegrationError
+from lagrotor.models.spring_link.run import paper_system, run_solver, run_steps
+from lagrotor.models.spring_link.system import RigidBodySystem, link_force, printed_link_force, step_limit
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)

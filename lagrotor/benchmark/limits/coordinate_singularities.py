@@ -4,7 +4,6 @@ from functools import cache
 from math import cos, sin, sqrt
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import printed_rotation
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
@@ -15,6 +14,7 @@ from lagrotor.models.ensemble import started
 from lagrotor.models.model import Model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
+from lagrotor.models.spring_link.rigid_body import printed_rotation
 from lagrotor.pair.scene import Link, Scene
 
 Array = NDArray[np.float64]

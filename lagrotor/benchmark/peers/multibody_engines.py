@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor.benchmark.runner import Method, Run, tips
 from lagrotor.errors import IntegrationError
-from lagrotor.models.spring_link.system.rigid_body import rotation_between
+from lagrotor.models.spring_link.rigid_body import rotation_between
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]

@@ -8,12 +8,12 @@ from math import exp, isfinite
 from typing import Any
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import Array, RigidBody, rotation_between, skew
-from lagrotor.models.spring_link.system.system import RigidBodySystem, step_limit
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models.simulate import check_times
+from lagrotor.models.spring_link.rigid_body import Array, RigidBody, rotation_between, skew
+from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.numerics.integrate import PULSE_REACH, check_tolerance
 from lagrotor.pair.scene import Scene, Shock
 

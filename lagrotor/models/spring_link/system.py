@@ -10,7 +10,10 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
-from lagrotor.models.spring_link.system.rigid_body import (
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.models.spring_link.rigid_body import (
     Array,
     RigidBody,
     finite_array,
@@ -18,9 +21,6 @@ from lagrotor.models.spring_link.system.rigid_body import (
     inertia_transform,
     skew,
 )
-from numpy.typing import ArrayLike
-
-from lagrotor.errors import InputError
 
 LinkForce = Callable[[Array, Array, float, float], Array]
 

@@ -5,7 +5,7 @@ import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any, Self
+from typing import IO, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -17,13 +17,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from lagrotor.drawing.style import paper_style
+from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.files import write_beside
-from lagrotor.numerics.rotations import Array, between_samples, body_rotations
-from lagrotor.pair.scene import Scene
-from lagrotor.pair.trajectory import Trajectory
-from lagrotor.pictures.style import paper_style
-from lagrotor.pictures.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
+from lagrotor.numerics.rotations import Array
 
 SUFFIXES = (".gif", ".mp4")
 FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
@@ -56,26 +54,25 @@ def frame_times(begin: float, end: float, fps: float) -> Array:
 
 
 def animate(
-    run: Trajectory, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
+    moving: "Motion", path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
 ) -> Path:
-    """Write `run` at its own speed as a film of `fps` frames per second: `.gif`, or `.mp4` where ffmpeg is there.
+    """Write a motion at its own speed as a film of `fps` frames per second: `.gif`, or `.mp4` where ffmpeg is there.
 
-    Left, the pair from the side with its wheels (drawn, not to the inertia's scale), one spoke marked so that the spin
-    is seen; right, the paths of the tips from above. `step` is told each second of the film as it begins.
+    Left, the rotors from the side with their wheels (drawn, not to the inertia's scale), one spoke marked so that the spin
+    is seen; right, the paths of the tips from above. `step` is called with each second of the film as it begins.
 
     Raises InputError for a name, a folder or a rate that will not do, before anything is drawn; LagrotorError when
     ffmpeg fails. A file is written whole or not at all.
     """
     target = Path(path)
-    check_film(target, float(run.t[-1] - run.t[0]), fps)
-    times = frame_times(run.t[0], run.t[-1], fps)
-    drawn = _told(_frames(run, times), len(times), fps, step)
+    check_film(target, float(moving.t[-1] - moving.t[0]), fps)
+    drawn = _announced(_frames(moving), len(moving.t), fps, step)
     if target.suffix == ".gif":
-        return write_beside(target, lambda file: _write_gif(file, drawn, len(times), fps))
+        return write_beside(target, lambda file: _write_gif(file, drawn, len(moving.t), fps))
     return write_beside(target, lambda file: _write_mp4(file, drawn, fps))
 
 
-def _told(frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
+def _announced(frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
     second = 0
     for i, frame in enumerate(frames):
         if i / fps >= second and (i < count - 1 or second == 0):
@@ -128,9 +125,8 @@ def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
         raise LagrotorError(f"animate: ffmpeg failed ({said or ffmpeg.returncode}): write a .gif instead")
 
 
-def _frames(run: Trajectory, times: Array) -> Iterator[Pixels]:
+def _frames(moving: "Motion") -> Iterator[Pixels]:
     """The frames (height, width, 3). What stands still is drawn once; of the rest only the data change."""
-    moving = Motion.of(run, times)
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)
@@ -138,7 +134,7 @@ def _frames(run: Trajectory, times: Array) -> Iterator[Pixels]:
         update = _Stage(moving, side, above)
         canvas.draw()  # type: ignore[no-untyped-call]
         still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
-        for i in range(len(times)):
+        for i in range(len(moving.t)):
             canvas.restore_region(still)  # type: ignore[no-untyped-call]
             for artist in update(i):
                 side.draw_artist(artist)  # which hands it to the figure's renderer: any of the figure's axes will do
@@ -147,33 +143,26 @@ def _frames(run: Trajectory, times: Array) -> Iterator[Pixels]:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """What is drawn, at the times t (m,) in s: rotations (2, m, 3, 3), tips and centres (2, m, 3), joints (2, 3) in m."""
+    """What is drawn of N rotors at the times t (m,) in s: rotations (N, m, 3, 3), tips, centres (N, m, 3), joints (N, 3) in m.
 
-    scene: Scene
+    length: of an axis, m. spins: rad/s. joined: whether a bar is drawn between the tips.
+    """
+
     t: Array
     rotations: Array
     tips: Array
     centres: Array
     joints: Array
-
-    @classmethod
-    def of(cls, run: Trajectory, times: Array) -> Self:
-        """The run between its samples: axes by Hermite cubics, the bodies turned along samples and frames together."""
-        dense = np.union1d(run.t, times)
-        axes, rates = between_samples(run.t, run.axes, run.rates, dense)
-        spins = run.momenta[:, 0] / run.scene.rotor.I3
-        at = np.searchsorted(dense, times)
-        rotations = body_rotations(dense, axes, rates, spins)[:, at]
-        reach = run.scene.rotor.length * axes[:, at]
-        feet = run.joints[:, None, :]
-        return cls(run.scene, times, rotations, feet + reach, feet + reach / 2, run.joints)
+    length: float
+    spins: tuple[float, ...]
+    joined: bool
 
 
 class _Stage:
     """The artists, and how they follow the motion: call with a frame's number for those to draw."""
 
     def __init__(self, moving: Motion, side: Axes, above: Axes) -> None:
-        self.moving, self.camera, length = moving, Camera(), moving.scene.rotor.length
+        self.moving, self.camera, length = moving, Camera(), moving.length
         self.points, self.segments = wheel(RADIUS * length, length, SPOKES, ARCS)
         self.paths = self.camera(moving.tips)
         self._still(side, above, RADIUS * length)
@@ -183,8 +172,8 @@ class _Stage:
 
         self.traces = [line(side, ink, 1.2) for ink in ROTORS]
         self.traces_above = [line(above, ink, 1.2) for ink in ROTORS]
-        self.bar = line(side, BAR, 4.0) if moving.scene.link else None
-        self.bar_above = line(above, BAR, 3.0) if moving.scene.link else None
+        self.bar = line(side, BAR, 4.0) if moving.joined else None
+        self.bar_above = line(above, BAR, 3.0) if moving.joined else None
         self.wheels = [LineCollection([], colors=[ink], linewidths=1.3, animated=True) for ink in ROTORS]
         for drawn in self.wheels:
             side.add_collection(drawn)
@@ -204,7 +193,7 @@ class _Stage:
         side.axis("off")
         side.plot(*up(moving.joints).T, color=GROUND, linewidth=2, zorder=0)
         side.plot(*up(moving.joints).T, "^", color=INK, markersize=9, zorder=0)
-        for spin, ink, name, place in zip(moving.scene.spins, ROTORS, "12", (0.02, 0.52), strict=True):
+        for spin, ink, name, place in zip(moving.spins, ROTORS, "12", (0.02, 0.52), strict=True):
             side.text(
                 place,
                 0.0,

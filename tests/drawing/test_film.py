@@ -12,11 +12,11 @@ from scipy.spatial.transform import Rotation
 
 from lagrotor import Scene, Shock, consistent_scene, simulate
 from lagrotor.commands.command_line import main
+from lagrotor.drawing.film import SIZE, frame_times
+from lagrotor.drawing.wheel import Camera, carried, wheel
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.numerics.rotations import between_samples, body_rotations, turn_between
 from lagrotor.pair.examples import SCENES
-from lagrotor.pictures.animate import SIZE, Motion, animate, frame_times
-from lagrotor.pictures.wheel import Camera, carried, wheel
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
@@ -125,7 +125,7 @@ def test_wheel_is_that_of_the_paper():
 def test_wheel_stays_rigid_along_a_run():
     ready = SCENES["anti-spin-shock-y"]
     run = simulate(ready.scene, np.linspace(0, 10, 501))
-    moving = Motion.of(run, run.t[::10])
+    moving = run.motion(run.t[::10])
     points, segments = wheel(0.4, run.scene.rotor.length, 7)
     placed = carried(points, moving.rotations, moving.centres)
     lengths = np.linalg.norm(placed[..., segments[:, 0], :] - placed[..., segments[:, 1], :], axis=-1)
@@ -159,7 +159,7 @@ def test_frame_times():
 
 def test_gif_has_its_frames_size_and_duration(short, tmp_path):
     seconds = []
-    path = animate(short, tmp_path / "pair.gif", fps=15, step=seconds.append)
+    path = short.animate(tmp_path / "pair.gif", fps=15, step=seconds.append)
     assert seconds == ["second 1", "second 2", "second 3"]
     with Image.open(path) as film:
         assert (film.n_frames, film.size) == (37, SIZE)
@@ -176,7 +176,7 @@ def test_gif_has_its_frames_size_and_duration(short, tmp_path):
 
 
 def test_frames_move(short, tmp_path):
-    with Image.open(animate(short, tmp_path / "pair.gif", fps=5)) as film:
+    with Image.open(short.animate(tmp_path / "pair.gif", fps=5)) as film:
         frames = []
         for i in range(film.n_frames):
             film.seek(i)
@@ -197,7 +197,7 @@ def test_frames_move(short, tmp_path):
 )
 def test_what_cannot_be_written_is_refused(short, tmp_path, name, fps, says):
     with pytest.raises(InputError, match=says):
-        animate(short, tmp_path / name, fps=fps)
+        short.animate(tmp_path / name, fps=fps)
     assert not list(tmp_path.iterdir())
 
 
@@ -215,7 +215,7 @@ def test_interrupted_leaves_nothing(short, tmp_path):
     old = tmp_path / "pair.gif"
     old.write_bytes(b"old")
     with pytest.raises(KeyboardInterrupt):
-        animate(short, old, step=stop)
+        short.animate(old, step=stop)
     assert old.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [old]
 
@@ -234,7 +234,7 @@ def test_mp4_hands_ffmpeg_every_frame(short, tmp_path, monkeypatch):
     (tmp_path / "bin").mkdir()
     body = "taken = len(sys.stdin.buffer.read())\nprint(taken, sys.argv[sys.argv.index('-s') + 1])"
     stand_in(tmp_path / "bin", monkeypatch, body)
-    path = animate(short, tmp_path / "pair.mp4", fps=5)
+    path = short.animate(tmp_path / "pair.mp4", fps=5)
     assert path.read_text().split() == [str(13 * SIZE[0] * SIZE[1] * 3), f"{SIZE[0]}x{SIZE[1]}"]
 
 
@@ -242,14 +242,14 @@ def test_mp4_says_what_ffmpeg_said(short, tmp_path, monkeypatch):
     (tmp_path / "bin").mkdir()
     stand_in(tmp_path / "bin", monkeypatch, "sys.exit('no such codec')")
     with pytest.raises(LagrotorError, match=r"no such codec.*gif"):
-        animate(short, tmp_path / "pair.mp4", fps=5)
+        short.animate(tmp_path / "pair.mp4", fps=5)
     assert not (tmp_path / "pair.mp4").exists()
 
 
 def test_mp4_without_ffmpeg_names_the_way_out(short, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(InputError, match=r"install it, or write a \.gif"):
-        animate(short, tmp_path / "pair.mp4")
+        short.animate(tmp_path / "pair.mp4")
 
 
 # --- command line, prompt and notebook

@@ -6,9 +6,9 @@ from math import cos, pi, radians, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.drawing.style import OKABE_ITO
 from lagrotor.errors import InputError
 from lagrotor.numerics.rotations import Array
-from lagrotor.pictures.style import OKABE_ITO
 
 RADIUS = 0.36  # of a wheel, in lengths of its axis; two wheels on a bar of that length do not meet. Not to the inertia
 

@@ -1,16 +1,13 @@
-"""A run over time: what `Trajectory.plot()` shows at a prompt."""
+"""A run over time: tips, their paths from above, energy; what `Trajectory.plot()` shows."""
 
 from io import BytesIO
-from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from lagrotor.pictures.style import paper_style
-from lagrotor.pictures.wheel import ROTORS
-
-if TYPE_CHECKING:
-    from lagrotor.pair.trajectory import Trajectory
+from lagrotor.drawing.style import paper_style
+from lagrotor.drawing.wheel import ROTORS
+from lagrotor.numerics.rotations import Array
 
 
 class RunFigure(Figure):
@@ -22,29 +19,29 @@ class RunFigure(Figure):
             return file.getvalue()
 
 
-def run_figure(run: "Trajectory") -> RunFigure:
-    """Tips x, y, z over time, from above, and the energy: five panels, a colour a rotor."""
+def run_figure(t: Array, tips: Array, energy: Array, title: str) -> RunFigure:
+    """Tips (2, n, 3) in m over t (n,) in s and from above, and the energy (n,) in J: five panels, a colour a rotor."""
     with paper_style():
         figure = RunFigure(figsize=(9.0, 6.0))
         panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
         for j, letter in enumerate("xyz"):
             panel = panels[letter]
             for i, ink in enumerate(ROTORS):
-                panel.plot(run.t, run.tips[i, :, j], color=ink, label=f"rotor {i + 1}")
+                panel.plot(t, tips[i, :, j], color=ink, label=f"rotor {i + 1}")
             panel.set_ylabel(f"{letter} of the tip [m]")
             _over_time(panel, letter == "z")
         above = panels["above"]
         for i, ink in enumerate(ROTORS):
-            above.plot(run.tips[i, :, 0], run.tips[i, :, 1], color=ink)
+            above.plot(tips[i, :, 0], tips[i, :, 1], color=ink)
         above.set(xlabel="x of the tip [m]", ylabel="y of the tip [m]", aspect="equal", xmargin=0.05)
         above.set_adjustable("datalim")
-        panels["energy"].plot(run.t, run.energy, color=ROTORS[0])
+        panels["energy"].plot(t, energy, color=ROTORS[0])
         panels["energy"].set_ylabel("energy [J]")
         panels["energy"].margins(y=0.2)
         _over_time(panels["energy"], True)
         handles, labels = panels["x"].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper left", ncols=2)
-        figure.suptitle(f"spins {run.scene.spins[0]:g} and {run.scene.spins[1]:g} rad/s, model {run.model}")
+        figure.suptitle(title)
     return figure
 
 
