@@ -3,6 +3,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from lagrotor.about import __version__ as __version__
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
@@ -33,7 +34,6 @@ _LATER = {
     "toppling_after_shock": "lagrotor.theory.drift_after_shock",
 }
 
-__version__ = "0.1.0"
 __all__ = [
     "Link",
     "Rotor",

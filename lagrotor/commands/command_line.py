@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from lagrotor import __version__
+from lagrotor.about import __version__
 from lagrotor.commands.chart_command import add_chart, chart_command
 from lagrotor.commands.options import Parser, add_pair, add_shock, add_start, check_folder
 from lagrotor.commands.paper_commands import audit_command, claims_command, reproduce_command

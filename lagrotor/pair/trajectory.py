@@ -5,7 +5,6 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from html import escape
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 from zipfile import BadZipFile
@@ -13,6 +12,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.about import __version__
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, write_beside, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
@@ -143,7 +143,7 @@ class Trajectory:
         if target.suffix == ".npz":
             arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
             about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
-            about["lagrotor"] = version("lagrotor")
+            about["lagrotor"] = __version__
             return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(about), **arrays))
         if target.suffix == ".csv":
             return write_text(target, self._columns())

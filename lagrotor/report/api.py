@@ -17,7 +17,7 @@ from lagrotor.report.page_pieces import code, prose
 _BESIDE = {
     "Ensemble": "lagrotor.models.ensemble",
     "Trajectory": "lagrotor.pair.trajectory",
-    "choose": "lagrotor.models.simulate",
+    "choose": "lagrotor.models.choose",
     "sweep": "lagrotor.models.ensemble",
     "exact_orbit": "lagrotor.models.orbits.shooting",
     "ClosedForm": "lagrotor.theory.closed_form",

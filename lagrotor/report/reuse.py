@@ -17,7 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from lagrotor import __version__
+from lagrotor.about import __version__
 from lagrotor.files import write_text
 from lagrotor.paper import scripts
 from lagrotor.report.folder import MADE

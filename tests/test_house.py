@@ -1,0 +1,121 @@
+"""The house as the README draws it: every import runs downward, no room and no module lies on a circle."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+# From the ground up: a room imports from those before it and from itself.
+FLOORS = (
+    *(
+        "about",
+        "errors",
+        "files",
+        "algebra",
+        "mechanics",
+        "numerics",
+        "drawing",
+        "pair",
+        "theory",
+        "models",
+        "benchmark",
+    ),
+    *("paper", "pictures", "", "report", "commands"),  # "": the face of the package, which hands names on
+)
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(path): path for path in sorted((ROOT / "lagrotor").rglob("*.py"))}
+
+
+def imported(path: Path) -> set[str]:
+    """Modules of the package that a file imports, wherever in it; by absolute names, which a test below asks for."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                found.add(inner if inner in MODULES else node.module)
+    return {name for name in found if name in MODULES}
+
+
+IMPORTS = {name: imported(path) for name, path in MODULES.items()}
+
+
+def floor(module: str) -> int | None:
+    """How high the room of a module lies; None for `__main__`."""
+    room = module.split(".")[1] if "." in module else ""
+    return FLOORS.index(room) if room in FLOORS else None
+
+
+def upward(imports: dict[str, set[str]]) -> list[str]:
+    return [
+        f"{name} imports {other}"
+        for name, others in imports.items()
+        for other in sorted(others)
+        if (here := floor(name)) is not None and ((there := floor(other)) is None or there > here)
+    ]
+
+
+def circles(imports: dict[str, set[str]]) -> list[set[str]]:
+    """Sets of more than one module that reach each other."""
+
+    def reach(start: str) -> set[str]:
+        seen: set[str] = set()
+        left = [start]
+        while left:
+            for other in imports[left.pop()]:
+                if other not in seen:
+                    seen.add(other)
+                    left.append(other)
+        return seen
+
+    reached = {name: reach(name) for name in imports}
+    return [{a, b} for a in imports for b in reached[a] if a < b and a in reached[b]]
+
+
+def test_every_room_has_its_floor() -> None:
+    rooms = {
+        path.stem for path in (ROOT / "lagrotor").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()
+    }
+    assert rooms - {"__init__", "__main__"} == set(FLOORS) - {""}
+
+
+def test_no_import_runs_upward() -> None:
+    assert upward(IMPORTS) == []
+
+
+def test_no_module_lies_on_a_circle() -> None:
+    assert circles(IMPORTS) == []
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_imports_name_their_module_in_full(name: str) -> None:
+    nodes = ast.walk(ast.parse(MODULES[name].read_text()))
+    assert all(node.level == 0 for node in nodes if isinstance(node, ast.ImportFrom))
+
+
+def test_an_upward_import_and_a_circle_would_be_seen() -> None:
+    changed = IMPORTS | {"lagrotor.errors": {"lagrotor.pair.scene"}}
+    assert upward(changed) == ["lagrotor.errors imports lagrotor.pair.scene"]
+    assert {"lagrotor.errors", "lagrotor.pair.scene"} in circles(changed)
+
+
+def test_a_face_hands_names_on_and_defines_nothing() -> None:
+    for name, path in MODULES.items():
+        if path.name == "__init__.py" and name != "lagrotor":
+            kinds = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.Expr)
+            assert all(isinstance(node, kinds) for node in ast.parse(path.read_text()).body), name
+
+
+def test_the_readme_draws_this_house() -> None:
+    drawing = (ROOT / "README.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
+    drawn = [word.rstrip("/") for line in drawing.splitlines() for word in line[:25].split()]
+    assert drawn == [room for room in FLOORS if room]
