@@ -14,7 +14,7 @@ from typing import Any
 from lagrotor.errors import LagrotorError
 from lagrotor.files import write_text
 
-RECORDED = Path(__file__).with_name("recorded.json")
+RECORDED = Path(__file__).with_name("recorded_speed.json")
 _PACKAGES = (
     "numpy",
     "scipy",
