@@ -17,7 +17,8 @@ from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair.lagrangians import axis, rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, I, J, R, m, omega, omega_1, omega_2
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 
 theta, phi, psi = ROTOR.q
@@ -111,7 +112,7 @@ sp.Tuple(sp.Eq(share, solved[share]), sp.Eq(turning, solved[turning]))
 
 # %%
 statements = [
-    Statement(
+    stated(
         "2.01",
         chain(F.subs(on_bar), F_A + F_B),
         given={m: 0},
@@ -119,7 +120,7 @@ statements = [
         evidence=("With mass m the sum falls short of F by m times the acceleration of the link's centre.",),
     ),
     *(
-        Statement(
+        stated(
             identifier,
             along(of_rotor(i, L_slow), I * i * r_hat, 0),
             evidence=(neglected,),
@@ -128,7 +129,7 @@ statements = [
         for identifier, i in (("2.02", omega_1), ("2.03", omega_2))
     ),
     *(
-        Statement(
+        stated(
             identifier,
             (
                 *chain(torque.subs(dict(zip(F_A, force, strict=True))), R * r_hat.cross(force)),
@@ -145,7 +146,7 @@ statements = [
         )
         for identifier, i, force, leans in (("2.04", omega_1, F_A, "2.02"), ("2.05", omega_2, F_B, "2.03"))
     ),
-    Statement(
+    stated(
         "2.06",
         (
             *chain(F_A.subs(halves), F / 2 + f),
@@ -159,7 +160,7 @@ statements = [
             "f = F_A/2 - F_B/2 = F_A - F/2, hence F_A = F/2 + f and F_B = F/2 - f.",
         ),
     ),
-    Statement(
+    stated(
         "2.07",
         chain(
             omega_1 * I * w,
@@ -170,7 +171,7 @@ statements = [
         depends_on=("2.04", "2.05", "2.06"),
         steps=("(3) and (4) with one axis for both rotors, solved for r x f and r'",),
     ),
-    Statement(
+    stated(
         "2.08",
         chain(r.cross(f_solved) + rho * r.cross(f_solved), r.cross(F) / 2 - rho * r.cross(F) / 2),
         wrong="The left side has the wrong sign.",
@@ -181,7 +182,7 @@ statements = [
         depends_on=("2.07",),
         evidence=("The left side has the wrong sign: collecting 2.07 gives rho r x F/2 - r x F/2.",),
     ),
-    Statement(
+    stated(
         "2.09",
         chain(r.cross(f_solved), printed_g),
         wrong="The sign of 2.08 is carried on.",
@@ -190,7 +191,7 @@ statements = [
         depends_on=("2.08",),
         evidence=("It inherits the sign of 2.08: the faster rotor takes more of the force, not less.",),
     ),
-    Statement(
+    stated(
         "2.10",
         chain(omega_1 * I * w, r.cross(F) / 2 + printed_g),
         wrong="The sign of 2.08 is carried on.",
@@ -200,7 +201,7 @@ statements = [
         correction=chain(omega_1 * I * w, r.cross(F) / 2 + correct_g),
         depends_on=("2.09", "2.04"),
     ),
-    Statement(
+    stated(
         "2.11",
         chain(w, printed_6),
         wrong="The sign of 2.08 makes the factor 2/(1 + rho) where the premises give 2 rho/(1 + rho).",

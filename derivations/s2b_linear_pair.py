@@ -18,7 +18,8 @@ from lagrotor.mechanics import euler_lagrange, jacobian
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.ledger import chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 
 eps = sp.Symbol("epsilon", positive=True)
@@ -126,7 +127,7 @@ opposite = [sp.cancel(e.diff(F[0]).subs(spins).subs({b: 0, omega_2: -omega_1})) 
 shares = sp.factor((G_1 * y_drift[0] / (G_2 * y_drift[1])).subs({b: 0, F[1]: 0}))
 
 statements = [
-    Statement(
+    stated(
         "2.12",
         (*chain(w, r.cross(F) / ((omega_1 + omega_2) * I)), *chain(mean_drift, printed_drift)),
         given={omega_2: omega_1},
@@ -149,7 +150,7 @@ statements = [
             "integrate the y equations; X = X_0 + X_1 t is the drift, Omega the nutation about it",
         ),
     ),
-    Statement(
+    stated(
         "2.13",
         tuple(r for each in own_drift for r in chain(each, printed_half, printed_drift.subs(equal))),
         given={F[1]: sp.Integer(0)},

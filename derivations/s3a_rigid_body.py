@@ -16,7 +16,8 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.symbols import ROTOR
-from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.ledger import chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 
 
@@ -140,15 +141,15 @@ sp.Tuple(right, wrong)
 
 # %%
 statements = [
-    Statement("3.01", chain(total_mass, printed_M), definition=True),
-    Statement(
+    stated("3.01", chain(total_mass, printed_M), definition=True),
+    stated(
         "3.02",
         chain(total_force, F1 + F2 + F3),
         definition=True,
         evidence=("The internal forces cancel in pairs: the sum is the rate of the whole momentum.",),
     ),
-    Statement("3.03", chain(X_cm, printed_X_cm), definition=True, depends_on=("3.01",)),
-    Statement(
+    stated("3.03", chain(X_cm, printed_X_cm), definition=True, depends_on=("3.01",)),
+    stated(
         "3.04",
         chain(U_cm, U1 + U2 + U3),
         wrong="The weights m_i/M of the mean are missing.",
@@ -160,21 +161,21 @@ statements = [
             f"A body of three equal particles in a common motion would move {sp.Integer(len(places))} times too fast.",
         ),
     ),
-    Statement(
+    stated(
         "3.05",
         chain(L, printed_L),
         depends_on=("3.03",),
         evidence=("The velocity of the centre drops out of U_i, because the sum of m_i (X_i - X_cm) is zero.",),
     ),
-    Statement(
+    stated(
         "3.06",
         chain(torque, printed_tau),
         definition=True,
         depends_on=("3.03",),
         evidence=("It is what the external forces do in a small turn about the centre, by the angle of the turn.",),
     ),
-    Statement("3.07", chain(total_mass * rate(U_cm), F1 + F2 + F3), depends_on=("3.01", "3.02", "3.03")),
-    Statement(
+    stated("3.07", chain(total_mass * rate(U_cm), F1 + F2 + F3), depends_on=("3.01", "3.02", "3.03")),
+    stated(
         "3.08",
         chain(spinning_up, printed_tau),
         given={s: 0},
@@ -185,19 +186,19 @@ statements = [
             f"turn by themselves: dL/dt = {tuple(spin_up)} N m at a torque of {tuple(outside)}.",
         ),
     ),
-    Statement(
+    stated(
         "3.09",
         chain(field, common + Omega_turn.cross(Q * d0)),
         steps=("X_i = X_cm + Q d_0", "Omega is the axial vector of Q' Q^T"),
     ),
-    Statement(
+    stated(
         "3.10",
         chain(rigid_L, printed_I * Omega),
         depends_on=("3.05", "3.09"),
         evidence=("1(X)^2 is read as |X|^2 times the unit matrix, (X)(X)^T as the outer product.",),
     ),
-    Statement("3.11", chain(inertia, printed_I), definition=True, depends_on=("3.10",)),
-    Statement(
+    stated("3.11", chain(inertia, printed_I), definition=True, depends_on=("3.10",)),
+    stated(
         "3.12",
         chain(I_turned, Q.adjugate() * I_0 * Q, Q.T * I_0 * Q),
         wrong="R and its transpose have changed places.",

@@ -16,7 +16,8 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal, decide_zero
 from lagrotor.pair.lagrangians import axis
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 
 dt = sp.Symbol("Delta_t", positive=True)
@@ -160,7 +161,7 @@ head_on = {**dict.fromkeys((*U1, *U2), 0), U1[2]: 1, **dict.fromkeys(e_hat.free_
 
 # %%
 statements = [
-    Statement(
+    stated(
         "3.13",
         (
             *through(L + tau * dt, exact_L, 1),
@@ -178,7 +179,7 @@ statements = [
             f"X_cm with the old or with the new U: both first differ at order {by_old.order}.",
         ),
     ),
-    Statement(
+    stated(
         "3.14",
         chain(vertex_rate, X_r.cross(w * n)),
         wrong="The two factors of the cross product have changed places.",
@@ -191,7 +192,7 @@ statements = [
             f"rotation, it stretches by the square root of {stretch} across a spin of 10.",
         ),
     ),
-    Statement(
+    stated(
         "3.15",
         chain(exact_dR, printed_dR),
         given={in_sine: w},
@@ -202,7 +203,7 @@ statements = [
             "The matrix is the exponential of dt Omega_x: it solves dR' = Omega_x dR from 1.",
         ),
     ),
-    Statement(
+    stated(
         "3.16",
         chain(projector, Omega * Omega.T),
         wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
@@ -214,7 +215,7 @@ statements = [
             "shows that the program divides by |Omega|^2.",
         ),
     ),
-    Statement(
+    stated(
         "3.17",
         chain(Omega_of_L, R.T * stored * R * L),
         wrong="R and its transpose have changed places, as in 3.12.",
@@ -223,7 +224,7 @@ statements = [
         depends_on=("3.12",),
         evidence=("It follows from 3.12 as printed and falls with it; with equal inertias the two agree.",),
     ),
-    Statement(
+    stated(
         "3.18",
         chain(Omega_of_L.T, (R.T * stored * R * L).T, L.T * R.T * stored * R, row * R.T * stored * R),
         wrong="R and its transpose have changed places, as in 3.12.",
@@ -235,7 +236,7 @@ statements = [
             "what is transposed is 3.17.",
         ),
     ),
-    Statement(
+    stated(
         "3.19",
         chain(on_1.dot(e_hat), printed_size),
         wrong="A number stands for a vector: the direction of the link is missing.",
@@ -252,6 +253,6 @@ statements = [
         ),
         steps=("spring energy S/2 |X_1 - X_2|^2", "Rayleigh's function D/2 (s')^2, s' = (U_1 - U_2).e"),
     ),
-    Statement("3.20", chain(on_2, -corrected_F12), depends_on=("3.19",)),
+    stated("3.20", chain(on_2, -corrected_F12), depends_on=("3.19",)),
 ]
 Judged(statements)

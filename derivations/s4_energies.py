@@ -16,7 +16,8 @@ from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import coordinates, energy
 from lagrotor.pair.lagrangians import rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, J
-from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.ledger import chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 
 
@@ -136,7 +137,7 @@ excess
 
 # %%
 statements = [
-    Statement(
+    stated(
         "4.01",
         (
             *chain(2000 * newton / metre, printed_S.subs(units)),
@@ -150,7 +151,7 @@ statements = [
             f"{float(two_tips.subs(n, 1)):.3g}/sqrt(n) for two bodies of mass M: overdamped unless n is large.",
         ),
     ),
-    Statement(
+    stated(
         "4.02",
         chain(sum(K), printed_E),
         correction=chain(total, printed_E + S / 2 * sum(s**2 for s in lengths.q)),
@@ -162,13 +163,13 @@ statements = [
             "of which is in this E: hence the spike.",
         ),
     ),
-    Statement(
+    stated(
         "4.03",
         chain(first_value, sp.Rational(1, 2) * (1 * 10**2 + 1 * 10**2), 100),
         depends_on=("4.02",),
         evidence=(f"I_3 omega^2/2 = {one_rotor} J for each rotor, nothing for the bar; springs unstretched.",),
     ),
-    Statement(
+    stated(
         "4.04",
         (
             *chain(height, printed_shock.subs(tau, 0)),
@@ -181,7 +182,7 @@ statements = [
             f"time; the run begins {2 / width} widths before the peak and misses none of it that a double could hold.",
         ),
     ),
-    Statement(
+    stated(
         "4.05",
         chain(sum(K), listed_E),
         given={M_3: M_2},

@@ -20,7 +20,8 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.lagrangians import ansatz_lagrangian, axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, J, Phi, R, a, b, ell, k, r0
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.theory.paired_precession.series import paired_series
 
@@ -112,8 +113,8 @@ sp.Eq(ph1 + ph2, r0 * azimuth_sum, evaluate=False)
 
 # %%
 statements = [
-    Statement("5.07", chain(L, printed_pair(ph1_v, ph2_v)), given={J: I1}, condition=about_joint, depends_on=("5.01",)),
-    Statement(
+    stated("5.07", chain(L, printed_pair(ph1_v, ph2_v)), given={J: I1}, condition=about_joint, depends_on=("5.01",)),
+    stated(
         "5.08",
         chain(L, printed_pair(ph1_v, ph2_v)),
         given={J: I1},
@@ -124,7 +125,7 @@ statements = [
             "has azimuth varphi − pi/2 (decided); the printed + pi/2 points the other way, which nothing later uses.",
         ),
     ),
-    Statement(
+    stated(
         "5.09",
         (
             Relation(squared - R**2, squared - ell**2),
@@ -134,7 +135,7 @@ statements = [
         condition="r_i read as the tips' positions, as in 5.17; with axes from the joints the printed length is 0 at rest",
         evidence=(f"Rank of the bar's Jacobian is one: {freedom} of 6 coordinates are free.",),
     ),
-    Statement(
+    stated(
         "5.10",
         chain(
             L.subs({ps1_v: psi_v, ps2_v: -psi_v}),
@@ -148,7 +149,7 @@ statements = [
             "−psi' + phi_2' cos theta_2, and only these are conserved.",
         ),
     ),
-    Statement(
+    stated(
         "5.11",
         chain(ansatz, *printed_ansatz),
         given={J: I1},

@@ -20,7 +20,8 @@ from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, I1, I3, PAIR, A, B, I, J
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper.ledger import Statement, chain
+from lagrotor.paper.ledger import chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 
 theta_1, theta_2, phi, psi = ANSATZ.q
@@ -106,7 +107,7 @@ printed_B = (
 A_uniform, B_uniform = integral_A.subs(uniform), integral_B.subs(uniform)
 
 statements = [
-    Statement(
+    stated(
         "5.12",
         chain(integral_A, *printed_A),
         given=uniform,
@@ -121,7 +122,7 @@ statements = [
             "then carries a force of first order (massless bar).",
         ),
     ),
-    Statement(
+    stated(
         "5.13",
         chain(integral_B, *printed_B),
         given=uniform,
@@ -132,7 +133,7 @@ statements = [
             f"Measured in the paper's angles, where psi is integrated: it swings by {B_in_euler(0.2):.1g} kg m²/s in 2 s.",
         ),
     ),
-    Statement(
+    stated(
         "5.14",
         chain(
             I * psi_v,

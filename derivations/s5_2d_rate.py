@@ -15,7 +15,8 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.algebra import decide_zero
 from lagrotor.pair.lagrangians import ansatz_integrals
 from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.single_rotor import pair_precession_rate
@@ -66,7 +67,7 @@ massless = natural_rate(Scene(spins=(10, -10)))
 heavy = natural_rate(Scene(spins=(10, -10), link=Link(mass=1, inertia=1)))
 
 statements = [
-    Statement(
+    stated(
         "5.15",
         chain(rate, printed_rate),
         given=uniform,
@@ -80,7 +81,7 @@ statements = [
             f"spins ±10 and no bar mass, {heavy:.4g} with the bar of mass 1 and inertia 1.",
         ),
     ),
-    Statement(
+    stated(
         "5.16",
         (Relation(printed_B, value_B), Relation(printed_A, value_A, half, 1)),
         wrong="B lacks the factor I.",

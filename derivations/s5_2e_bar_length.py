@@ -14,7 +14,8 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import PAIR, r0, theta_0
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 
 th1, ph1, _, th2, ph2, _ = PAIR.q
@@ -59,19 +60,19 @@ largest = sp.sqrt(1 + (2 * r0) ** 2)
 at_paper = float(largest.subs(r0, sp.Rational(204, 1000)))
 
 statements = [
-    Statement(
+    stated(
         "5.17",
         (Relation(sp.sqrt(flat.subs(scaled)), sp.sqrt(squared.subs(scaled)), small, 2),),
         depends_on=("5.09",),
         evidence=("Left out is (cos theta_1 − cos theta_2)² in the square of the length (decided).",),
     ),
-    Statement(
+    stated(
         "5.18",
         chain(under_ansatz, printed_vectors, printed_C),
         depends_on=("5.17",),
         evidence=("Judged on the squares: both sides of the root are lengths and not negative.",),
     ),
-    Statement(
+    stated(
         "5.19",
         (
             Relation(sp.Integer(1), level.subs(phi, 0)),

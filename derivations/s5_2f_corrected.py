@@ -18,7 +18,8 @@ from lagrotor.algebra import decide_zero
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import ANSATZ, A, B, I, Phi, k, r0, sigma, theta_0
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 from lagrotor.theory.natural_frequency import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import (
@@ -136,7 +137,7 @@ assert (
 printed_last = (2 * A - B * (sp.cos(theta_0) + sp.cos(theta_0))) / (I * (4 - (sp.cos(theta_0) + sp.cos(theta_0)) ** 2))
 
 statements = [
-    Statement(
+    stated(
         "5.20",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_sines, sines, strict=True)),
         wrong="The correction keeps the bar at the wrong length, longer than it is by 2 r_0².",
@@ -153,7 +154,7 @@ statements = [
             "sin theta_1 = −sin theta_2. The azimuths must move too (5.22).",
         ),
     ),
-    Statement(
+    stated(
         "5.21",
         (
             *chain(derived, printed_first, printed_last),
@@ -176,7 +177,7 @@ statements = [
             f"slope {rate_slope:.3f}; at r_0 = 0.204 the ratio is {at_paper:.5f}.",
         ),
     ),
-    Statement(
+    stated(
         "5.22",
         tuple(Relation(p, q, r0, 2) for p, q in zip(printed_x, (x1 - half, x2 + half), strict=True)),
         wrong="A constant of second order in the amplitude is missing.",

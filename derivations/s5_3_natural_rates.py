@@ -44,7 +44,8 @@ from lagrotor.pair.symbols import (
     r0,
     sigma,
 )
-from lagrotor.paper.ledger import Relation, Statement, chain
+from lagrotor.paper.ledger import Relation, chain
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Judged
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
@@ -203,7 +204,7 @@ in_J = {I1: J - M * R**2 / 4}
 last_digit = sp.Rational(1, 20) / sp.Rational(114, 10)
 
 statements = [
-    Statement(
+    stated(
         "5.23",
         (
             Relation(sp.Rational(4, 5) * omega, of_paper_rotor, theta, 1),
@@ -218,7 +219,7 @@ statements = [
         ),
         steps=("theta'' = 0 in the equation of theta", "phi' = G/(J cos theta)"),
     ),
-    Statement(
+    stated(
         "5.24",
         (Relation(sp.Rational(114, 10), equal_of_paper.subs({omega: 20, theta: 0}), within=last_digit),),
         measured=True,
@@ -233,7 +234,7 @@ statements = [
             f"of 40 N (sin theta = {pair_amplitude:.4f}).",
         ),
     ),
-    Statement(
+    stated(
         "5.25",
         (Relation(c_printed * sp.Rational(4, 5) * omega, equal_of_paper.subs(theta, 0), within=last_digit),),
         measured=True,
@@ -250,7 +251,7 @@ statements = [
             "A massless bar leaves c = 1. Spins of other ratios have no single constant (5.28).",
         ),
     ),
-    Statement(
+    stated(
         "5.26",
         chain(opposite_rate(1, 1), printed_product, sp.Rational(57, 100)),
         wrong="The product is 5.7, not 0.57, and no bar that the paper lists has that rate.",
@@ -272,7 +273,7 @@ statements = [
             "The constant of equal spins does not carry over: opposite spins twist the bar, and its inertia K counts.",
         ),
     ),
-    Statement(
+    stated(
         "5.27",
         (
             Relation(printed_27, equal),
@@ -302,7 +303,7 @@ statements = [
             "the centres of precession are displaced, and the rate rises with the shock (claim C23).",
         ),
     ),
-    Statement(
+    stated(
         "5.28",
         (Relation(printed_28, equal_natural), Relation(printed_28**2, opposite_squared)),
         wrong="The constant belongs to one bar and to equal spins.",

@@ -15,7 +15,8 @@ from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, J, K, M, R, a, b, ell, k, m, omega, r0, sigma
-from lagrotor.paper.ledger import Relation, Statement
+from lagrotor.paper.ledger import Relation
+from lagrotor.paper.legacy import stated
 from lagrotor.paper.notebook import Formula, Judged
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
@@ -108,7 +109,7 @@ printed_rate = sp.Rational(7125, 10000) * omega * I3 / (sp.cos(theta) * (I1 + R*
 whole, twisting = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 2 * K * R**2 / ell**2
 
 statements = [
-    Statement(
+    stated(
         "6.01",
         (
             Relation(sp.Integer(5), sp.Integer(with_spins)),
@@ -140,7 +141,7 @@ statements = [
             "Small toppling is no oscillation: it has no restoring force, and comes round only as a full turn.",
         ),
     ),
-    Statement(
+    stated(
         "6.02",
         (
             Relation(printed_rate, equal),

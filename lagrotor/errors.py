@@ -25,6 +25,10 @@ class NotASymmetryError(LagrotorError, ValueError):
     """A vector field that does not leave the Lagrangian invariant."""
 
 
+class ProofError(LagrotorError, AssertionError):
+    """A step of a derivation that does not hold, or that cannot be decided."""
+
+
 class SingularError(LagrotorError, ArithmeticError):
     """Coordinates or constraints that are singular at this state."""
 

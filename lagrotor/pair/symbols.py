@@ -3,8 +3,10 @@
 Coordinates, velocities and accelerations are plain symbols: `theta_1`, `theta_1_dot`, `theta_1_ddot`.
 """
 
+import re
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import sympy as sp
 
@@ -119,6 +121,14 @@ def _add_coordinates() -> None:
 _add_coordinates()
 
 
-def latex(expression: sp.Basic) -> str:
-    """LaTeX of an expression in the glossary's letters."""
-    return sp.latex(expression, symbol_names={s: GLOSSARY[s].latex for s in expression.free_symbols if s in GLOSSARY})
+def latex(expression: Any) -> str:
+    """LaTeX in the glossary's letters, with dots over what a symbol's name calls a velocity or an acceleration."""
+    free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
+    return sp.latex(expression, symbol_names={s: _letter_of(s) for s in free})
+
+
+def _letter_of(symbol: sp.Symbol) -> str:
+    if symbol in GLOSSARY:
+        return GLOSSARY[symbol].latex
+    dotted = re.fullmatch(r"(.+)_(d?dot)", symbol.name)
+    return rf"\{dotted[2]}{{{sp.latex(sp.Symbol(dotted[1]))}}}" if dotted else sp.latex(symbol)

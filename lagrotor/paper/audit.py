@@ -10,20 +10,24 @@ from lagrotor.pair.symbols import latex
 from lagrotor.paper import scripts
 from lagrotor.paper.catalogue import equation, equations
 from lagrotor.paper.ledger import Relation, Statement, Verdict, follow_errors, judge
+from lagrotor.paper.notebook import Remark
 
 Progress = Callable[[str], None]
 
 
 def statements(stem: str) -> list[Statement]:
     """What one derivation script hands to the ledger."""
-    return list(scripts.run("derivations", stem)["statements"])
+    script = scripts.executed("derivations", stem)
+    return [*script.names.get("statements", ()), *script.shown(Statement)]
 
 
 def findings(prefix: str) -> list[tuple[str, str]]:
     """(title, sentence) of what the derivations with this prefix found beyond the judged equations."""
     found = []
     for stem in scripts.names("derivations", prefix):
-        found += scripts.run("derivations", stem).get("findings", [])
+        script = scripts.executed("derivations", stem)
+        found += script.names.get("findings", [])
+        found += [(remark.title, remark.text) for remark in script.shown(Remark)]
     return found
 
 
@@ -61,7 +65,7 @@ def record(verdict: Verdict) -> dict[str, Any]:
         "printed": entry.latex,
         "derived": _sides(statement.relations, "derived"),
         "verdict": verdict.verdict,
-        "condition": verdict.condition,
+        "premises": [premise.sentence for premise in verdict.premises],
         "order": verdict.order,
         "small": latex(verdict.small) if verdict.small else None,
         "domain": [latex(factor) + r" \neq 0" for factor in verdict.domain],

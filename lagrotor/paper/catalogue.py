@@ -2,8 +2,9 @@
 
 import re
 import tomllib
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -23,14 +24,78 @@ SECTIONS = {
 
 
 @dataclass(frozen=True)
+class Line:
+    """One printed line `quantity = member = member …`, each member an expression in the paper's letters.
+
+    quantity: what the line is about, in LaTeX. order, small: where it is claimed through small**order only. within: for a
+    number read off a run, half a unit of its last printed digit, relative. scene: values that the text gives for this line.
+    names: the line only introduces a letter.
+    """
+
+    quantity: str
+    members: tuple[Any, ...] = ()
+    order: int = 0
+    small: Any = None
+    within: Any = None
+    scene: Mapping[Any, Any] = field(default_factory=dict)
+    names: bool = False
+
+
+@dataclass(frozen=True)
 class Equation:
-    """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one."""
+    """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one.
+
+    line: its printed lines as written in the catalogue. reading: how they were read, where sympy's parser of LaTeX does not
+    read them. letters: what the text around the equation says of its letters. refers: letter → id of the equation that
+    defines it, whose derived side stands for it. measured: the equation is a number read off a run.
+    """
 
     id: str
     section: str
     title: str
     latex: str
     number: int | None = None
+    line: tuple[Mapping[str, Any], ...] = ()
+    reading: str = ""
+    letters: Mapping[str, str] = field(default_factory=dict)
+    refers: Mapping[str, str] = field(default_factory=dict)
+    measured: bool = False
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """The printed lines as expressions. Raises InputError where one cannot be read."""
+        from lagrotor.paper.letters import declared, read
+
+        names = declared(_letters(self.section))
+        for letter, meaning in self.letters.items():
+            names[letter] = read(meaning, names, f"equation {self.id}, letter {letter}")
+        return tuple(_line(row, names, f"equation {self.id}") for row in self.line)
+
+
+def _line(row: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
+    from lagrotor.paper.letters import read
+
+    def read_off(digits: str) -> Any:
+        number = read(digits, {}, where)
+        return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
+
+    return Line(
+        quantity=row["quantity"],
+        members=tuple(read(member, names, where) for member in row.get("members", ())),
+        order=row.get("order", 0),
+        small=read(row["small"], names, where) if "small" in row else None,
+        within=read_off(row["read_off"]) if "read_off" in row else None,
+        scene={read(name, names, where): read(value, names, where) for name, value in row.get("scene", {}).items()},
+        names=row.get("names", False),
+    )
+
+
+@cache
+def _letters(section: str) -> Mapping[str, str]:
+    """The letters that a section has besides the glossary's, kind → names."""
+    with (_FOLDER / "equations.toml").open("rb") as file:
+        found: Mapping[str, str] = tomllib.load(file).get("letters", {}).get(section, {})
+    return found
 
 
 @dataclass(frozen=True)

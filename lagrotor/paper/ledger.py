@@ -1,20 +1,23 @@
-"""The ledger: it is handed what the paper prints and what was derived, and decides.
+"""The ledger: it holds what the paper prints, is given what was derived and what was assumed, and decides.
 
-A derivation never says that an equation is right. It makes a `Statement`: pairs of a printed and a derived expression,
-the condition under which they may agree, the small quantity in which they may only be close. `judge` turns it into a
-`Verdict`, by exact identity or by the order of the first term that differs; nothing else can.
+A derivation never says that an equation is right, and it cannot touch what is printed: `verdict("5.15", derived, …)` takes
+the printed lines from the catalogue. `judge` tries the premises, fewest first, on both sides at once, and decides by exact
+identity or by the order of the first term that differs; nothing else can.
 """
 
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
 from lagrotor.algebra import Decision, agreement_order, decide_equal
 from lagrotor.errors import InputError, NotExactError
-from lagrotor.paper.catalogue import equation
+from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.paper.catalogue import Line, equation
+from lagrotor.paper.letters import scalars
+from lagrotor.paper.premises import Premise, in_parameters, subsets
 from lagrotor.paper.tables import Cell, Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
@@ -27,7 +30,7 @@ BEYOND = 4
 class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
-    within: for a number read off a run, the relative error that its printed digits allow.
+    within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
     """
 
     printed: Side
@@ -35,10 +38,19 @@ class Relation:
     small: sp.Symbol | None = None
     claimed: int = 0
     within: sp.Rational | None = None
+    quantity: str = ""
+
+    def under(self, premises: Iterable[Premise]) -> "Relation":
+        """The relation with premises put into both sides; an approximation makes it one between leading terms."""
+        held = self
+        for premise in premises:
+            small = premise.small if premise.small is not None else held.small
+            held = replace(held, printed=premise.on(held.printed), derived=premise.on(held.derived), small=small)
+        return held
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
-    """The relations of a printed line `… = p_1 = p_2 = …`, each member held against the derived expression."""
+    """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression."""
     return tuple(Relation(sp.sympify(p), sp.sympify(derived), small, claimed) for p in printed)
 
 
@@ -46,44 +58,128 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 class Statement:
     """What one equation of the paper is held to.
 
-    relations: printed against derived. given: substitutions that state a condition, tried when the bare relations fail.
-    correction: what should stand there, as relations of its own; quantities: what each of them gives, in LaTeX.
-    wrong: what was wrong, in a line.
-    definition: the line only names something.
-    measured: the line is a number read off a run; the relations hold what it should have been, and how near.
-    depends_on: ids of the equations that this one uses. evidence: sentences with the numbers that were computed.
+    relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
+    correction: what should stand there, as relations of their own. wrong: what is wrong, in a line. names: the line only
+    introduces a letter. measured: it is a number read off a run. depends_on: ids of the equations that this one uses.
+    evidence: sentences with the numbers that were computed.
     """
 
     id: str
     relations: tuple[Relation, ...]
-    given: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    condition: str = ""
+    premises: tuple[Premise, ...] = ()
     correction: tuple[Relation, ...] = ()
     wrong: str = ""
-    quantities: tuple[str, ...] = ()
-    definition: bool = False
+    names: bool = False
     measured: bool = False
     depends_on: tuple[str, ...] = ()
     evidence: tuple[str, ...] = ()
-    steps: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for identifier in (self.id, *self.depends_on):
             equation(identifier)
-        if not self.relations:
-            raise InputError(f"Statement: {self.id} holds nothing against anything: give it a relation")
+        if not self.relations and not self.names:
+            raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
+
+    def _repr_html_(self) -> str:
+        return verdict_table([judge(self)])._repr_html_()
+
+
+def verdict(
+    identifier: str,
+    derived: Side | Mapping[str, Side] = None,
+    premises: Iterable[Premise] = (),
+    correction: Side | Mapping[str, Side] = None,
+    wrong: str = "",
+    uses: Iterable["str | Statement"] = (),
+    evidence: Iterable[str] = (),
+) -> Statement:
+    """What the paper prints as `identifier`, from the catalogue, against what was derived under no premise.
+
+    derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is
+    given without any premise put in. correction: likewise, what should stand there; it is judged against `derived`, which
+    may hold quantities besides the printed ones. uses: ids of equations that this one rests on, or their statements, which
+    give the letters that are defined there their derived meaning. Raises InputError for a quantity that is printed and not
+    derived, or corrected and not derived, and for a definition that something is held against.
+    """
+    entry = equation(identifier)
+    quantities = _by_quantity(derived, entry.lines)
+    names = bool(entry.lines) and all(line.names for line in entry.lines)
+    if names and quantities:
+        raise InputError(f"verdict: {identifier} only introduces a letter, and nothing can be held against it")
+    uses = tuple(uses)
+    meanings = _defined_elsewhere(identifier, entry.refers, uses)
+    relations = [
+        r for line in entry.lines if not line.names for r in _relations(identifier, line, quantities, meanings)
+    ]
+    return Statement(
+        identifier,
+        tuple(relations),
+        tuple(premises),
+        tuple(_corrected(identifier, entry.lines, quantities, _by_quantity(correction, entry.lines))),
+        wrong,
+        names,
+        entry.measured,
+        tuple(used if isinstance(used, str) else used.id for used in uses),
+        tuple(evidence),
+    )
+
+
+def _defined_elsewhere(
+    identifier: str, refers: Mapping[str, str], uses: tuple["str | Statement", ...]
+) -> dict[sp.Symbol, Side]:
+    """Letters of a line that another equation defines → what was derived for that one."""
+    stated = {used.id: used.relations[0].derived for used in uses if isinstance(used, Statement)}
+    for letter, other in refers.items():
+        if other not in stated:
+            raise InputError(f"verdict: {identifier}: {letter} is defined in {other}: give its statement among `uses`")
+    return {scalars()[letter]: stated[other] for letter, other in refers.items()}
+
+
+def _by_quantity(given: Side | Mapping[str, Side], lines: tuple[Line, ...]) -> dict[str, Side]:
+    if given is None:
+        return {}
+    if isinstance(given, Mapping):
+        return {name: sp.sympify(value) for name, value in given.items()}
+    return {lines[0].quantity if lines else "": sp.sympify(given)}
+
+
+def _relations(
+    identifier: str, line: Line, quantities: Mapping[str, Side], meanings: Mapping[sp.Symbol, Side]
+) -> Iterable[Relation]:
+    if line.quantity not in quantities:
+        raise InputError(
+            f"verdict: {identifier} prints {line.quantity}: derive it ({', '.join(quantities) or 'nothing is'})"
+        )
+    derived = quantities[line.quantity]
+    if line.scene:
+        derived = in_parameters(derived).subs(line.scene)
+    for member in line.members:
+        yield Relation(member.subs(meanings), derived, line.small, line.order, line.within, line.quantity)
+
+
+def _corrected(
+    identifier: str, lines: tuple[Line, ...], quantities: Mapping[str, Side], correction: Mapping[str, Side]
+) -> Iterable[Relation]:
+    by_name = {line.quantity: line for line in lines}
+    for name, right in correction.items():
+        if name not in quantities:
+            raise InputError(f"verdict: {identifier}: the correction gives {name}, which was not derived")
+        line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
+        small, order = (line.small, line.order) if line else (None, 0)
+        yield Relation(right, quantities[name], small, order, None, name)
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was decided of one equation. `order`, `small`: for holds-to-order; `domain`: factors that must not vanish.
+    """What was decided of one equation. premises: the fewest under which it holds; `order`, `small`: of a series;
+    `domain`: factors that must not vanish.
 
     `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: nothing to ask).
     """
 
     statement: Statement
     verdict: Answer
-    condition: str | None
+    premises: tuple[Premise, ...]
     order: int | None
     small: sp.Symbol | None
     domain: tuple[sp.Expr, ...]
@@ -97,19 +193,24 @@ class Verdict:
         """The equation's id in the catalogue."""
         return self.statement.id
 
+    @property
+    def condition(self) -> str | None:
+        """The premises as one sentence; None where nothing was assumed."""
+        return "; ".join(premise.sentence for premise in self.premises) or None
+
     def _repr_html_(self) -> str:
         return verdict_table([self])._repr_html_()
 
 
 def verdict_table(verdicts: Iterable[Verdict]) -> Table:
-    """Verdicts below each other, each with its condition or order, what was wrong and the evidence."""
+    """Verdicts below each other, each with its premises or order, what was wrong and the evidence."""
     return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
 
 
 def _row(v: Verdict) -> tuple[Cell, ...]:
     order = f"through order {v.order} in {v.small}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
-    decided = tuple(filter(None, (v.verdict, v.condition, order, corrected)))
+    decided = tuple(filter(None, (v.verdict, *(p.sentence for p in v.premises), order, corrected)))
     return f"{v.id}: {equation(v.id).title}", decided, tuple(filter(None, (v.statement.wrong, *v.evidence)))
 
 
@@ -122,48 +223,49 @@ class _Finding:
     reasons: tuple[str, ...] = ()
 
 
+_AGREES = ("holds", "holds-to-order")
+
+
 def judge(statement: Statement) -> Verdict:
-    """Decide a statement; the correction, where there is one, by the same rules."""
+    """Decide a statement; the correction, where there is one, by the same rules and without any premise."""
     began = time.perf_counter()
-    finding, condition = _with_condition(statement)
-    correction: Answer | None = None
-    if statement.correction:
-        correction = _find(statement.correction).answer
-    if finding.answer != "undecided" and statement.definition:
-        finding = replace(finding, answer="definition") if finding.answer == "holds" else finding
-    if statement.measured and finding.answer == "holds":
-        finding = replace(finding, answer="measured")
+    finding, used = (_Finding("definition"), ()) if statement.names else _fewest_premises(statement)
+    answer = finding.answer
+    if finding.small is not None and all(premise.small != finding.small for premise in used):
+        used = (*used, _smallness(finding.small))
+    if answer == "holds" and used:
+        answer = "holds-if"
+    if statement.measured and finding.answer in _AGREES:
+        answer = "measured"
     return Verdict(
         statement=statement,
-        verdict=finding.answer,
-        condition=condition,
+        verdict=answer,
+        premises=used,
         order=finding.order,
         small=finding.small,
         domain=finding.domain,
-        correction_verdict=correction,
+        correction_verdict=_find(statement.correction).answer if statement.correction else None,
         evidence=(*statement.evidence, *finding.reasons),
         seconds=time.perf_counter() - began,
     )
 
 
-def _with_condition(statement: Statement) -> tuple[_Finding, str | None]:
-    bare = _find(statement.relations)
-    if bare.answer in ("holds", "holds-to-order") or not statement.given:
-        return bare, None
-    under = _find(tuple(_given(r, statement.given) for r in statement.relations))
-    if under.answer in ("holds", "holds-to-order"):
-        text = ", ".join(f"{name} = {value}" for name, value in statement.given.items())
-        condition = f"{text} ({statement.condition})" if statement.condition else text
-        answer: Answer = "holds-if" if under.answer == "holds" else "holds-to-order"
-        return replace(under, answer=answer), condition
-    return bare, None
+def _smallness(small: sp.Symbol) -> Premise:
+    """The approximation that the print itself makes, as a premise."""
+    what = GLOSSARY[small].meaning.split(":")[0] if small in GLOSSARY else "parameter"
+    return Premise(f"small {what} {small}", small=small)
 
 
-def _given(relation: Relation, given: Mapping[sp.Symbol, sp.Expr]) -> Relation:
-    def put(side: Side) -> Side:
-        return side.subs(list(given.items()), simultaneous=True)
-
-    return replace(relation, printed=put(relation.printed), derived=put(relation.derived))
+def _fewest_premises(statement: Statement) -> tuple[_Finding, tuple[Premise, ...]]:
+    """The finding under the fewest premises that suffice; without any where none do."""
+    bare: _Finding | None = None
+    for premises in subsets(statement.premises):
+        finding = _find(relation.under(premises) for relation in statement.relations)
+        bare = bare or finding
+        if finding.answer in _AGREES:
+            return finding, premises
+    assert bare
+    return bare, ()
 
 
 def _find(relations: Iterable[Relation]) -> _Finding:
@@ -190,15 +292,23 @@ def _single(relation: Relation) -> _Finding:
             seen = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
             return _Finding("undecided", reasons=(f"{exact.reason} ({seen})",))
         return _Finding("refuted", domain=domain)
+    return _to_order(relation, relation.small, domain)
+
+
+def _to_order(relation: Relation, small: sp.Symbol, domain: tuple[sp.Expr, ...]) -> _Finding:
+    """How far two series agree; of vectors, the first component that differs decides."""
+    matrices = isinstance(relation.printed, sp.MatrixBase)
+    pairs = zip(relation.printed, relation.derived, strict=True) if matrices else [(relation.printed, relation.derived)]
     try:
-        first = agreement_order(relation.printed, relation.derived, relation.small, relation.claimed + BEYOND)
+        terms = [agreement_order(p, d, small, relation.claimed + BEYOND) for p, d in pairs]
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
+    first = min(terms, key=lambda term: term.through + 1 if term.order is None else term.order)
     reached = first.through if first.order is None else first.order - 1
     if reached >= relation.claimed:
-        return _Finding("holds-to-order", reached, relation.small, domain)
-    reason = f"first differs at order {first.order} in {relation.small}, by {first.coefficient}"
-    return _Finding("refuted", reached, relation.small, domain, (reason,))
+        return _Finding("holds-to-order", reached, small, domain)
+    reason = f"first differs at order {first.order} in {small}, by {first.coefficient}"
+    return _Finding("refuted", reached, small, domain, (reason,))
 
 
 # The equations in which the paper's work ends: the rate, the trajectories, the natural frequency.

@@ -3,28 +3,25 @@
 Statements are judged and trials heard when they are shown, so that who runs a script for its names does not wait.
 """
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-import sympy as sp
-
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Statement, judge, verdict_table
+from lagrotor.paper.proof import Formula as Formula
 from lagrotor.paper.tables import Table
 from lagrotor.paper.trials import Trial, hear
 
 
 @dataclass(frozen=True)
-class Formula:
-    """An expression or a matrix with dots over its rates: sympy alone would make theta_1_dot an index 1dot."""
+class Remark:
+    """Something that a derivation found besides the judged equations: a heading and what was found, with its numbers."""
 
-    expression: sp.Basic
+    title: str
+    text: str
 
-    def _repr_latex_(self) -> str:
-        rates = {s: re.fullmatch(r"(.+)_(d?dot)", s.name) for s in self.expression.free_symbols}
-        names = {s: rf"\{rate[2]}{{{sp.latex(sp.Symbol(rate[1]))}}}" for s, rate in rates.items() if rate}
-        return rf"$\displaystyle {sp.latex(self.expression, symbol_names=names)}$"
+    def _repr_markdown_(self) -> str:
+        return f"**{self.title}.** {self.text}"
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
 
 def corrected(statement: Statement) -> tuple[str, ...]:
     """The correction of an equation in LaTeX, a line for each of its relations."""
-    return tuple(map(_line, statement.quantities, statement.correction))
+    return tuple(_line(relation.quantity, relation) for relation in statement.correction)
 
 
 def _line(quantity: str, relation: Relation) -> str:

@@ -115,8 +115,6 @@ def _equation(verdict: Verdict, report: Report) -> str:
     if derived := sides(statement.relations, "derived"):
         parts += ["As derived:", *map(_formula, derived)]
     parts += [_fact(fact) for fact in facts(verdict, report)]
-    if statement.steps:
-        parts += ["Steps:", "\n".join(f"{i}. {_prose(step)}" for i, step in enumerate(statement.steps, 1))]
     return "\n\n".join(parts)
 
 

@@ -35,13 +35,11 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     derived = formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
     read = formulas(sides(statement.relations, "printed"))
     source = code(entry.latex) + (f"<p>As read, to be judged:</p>{read}" if read else "")
-    steps = "".join(f"<li>{prose(step)}</li>" for step in statement.steps)
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, 'As derived', derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{fold('Steps', f'<ol>{steps}</ol>') if steps else ''}"
         f"{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
 

@@ -75,13 +75,11 @@ def _paper(report: Report, name: str) -> list[str]:
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
     found = sides(statement.relations, "derived")
-    steps = "\n".join(rf"\item {prose(step)}" for step in statement.steps)
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
         rf"\textbf{{As printed.}} {printed(entry.latex)}",
         rf"\textbf{{As derived.}} {' '.join(map(derived, found)) or 'nothing to derive'}",
         *(_fact(fact) for fact in facts(verdict, report)),
-        rf"\textbf{{Steps.}}\begin{{enumerate}}\setlength{{\itemsep}}{{0pt}}{steps}\end{{enumerate}}" if steps else "",
     ]
     return "\n\n".join(filter(None, parts))
 

@@ -1,0 +1,97 @@
+"""The letters of the paper: what each name in a printed line stands for, as sympy symbols, vectors and functions."""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+import sympy as sp
+from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
+
+from lagrotor.errors import InputError
+from lagrotor.pair.symbols import GLOSSARY
+
+
+def vector(name: str) -> sp.Matrix:
+    """A vector of three real components name_x, name_y, name_z, (3, 1)."""
+    return sp.Matrix(sp.symbols(f"{name}_x {name}_y {name}_z", real=True))
+
+
+def rotation(phi: sp.Expr, theta: sp.Expr, psi: sp.Expr) -> sp.Matrix:
+    """R_z(phi) R_x(theta) R_z(psi), (3, 3): from the body's frame to the ground's."""
+    return sp.rot_axis3(phi).T * sp.rot_axis1(theta).T * sp.rot_axis3(psi).T
+
+
+def cross(u: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
+    """u × v."""
+    return u.cross(v)
+
+
+def cross_matrix(v: sp.Matrix) -> sp.Matrix:
+    """The matrix of v ×, (3, 3)."""
+    return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def dot(u: sp.Matrix, v: sp.Matrix) -> sp.Expr:
+    """u · v."""
+    return u.dot(v)
+
+
+def column(*entries: sp.Expr) -> sp.Matrix:
+    """A vector of the given components."""
+    return sp.Matrix(entries)
+
+
+# What a printed line may call.
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, column)},
+    **{
+        name: getattr(sp, name)
+        for name in ("sin", "cos", "tan", "exp", "sqrt", "eye", "diag", "zeros", "diff", "integrate")
+    },
+    **{name: getattr(sp, name) for name in ("pi", "oo", "Integer", "Float", "Rational")},
+}
+
+
+@cache
+def scalars() -> dict[str, sp.Symbol]:
+    """Every symbol of the glossary by its name."""
+    return {symbol.name: symbol for symbol in GLOSSARY}
+
+
+def declared(letters: Mapping[str, str]) -> dict[str, Any]:
+    """Letters that a section has besides the glossary's: kind → names in a row.
+
+    Kinds: "vector", (3, 1); "symmetric", a symmetric matrix (3, 3); or an assumption of sympy's, such as "real" or
+    "positive". Raises InputError for another kind.
+    """
+    found: dict[str, Any] = {}
+    for kind, names in letters.items():
+        for name in names.split():
+            if kind == "vector":
+                found[name] = vector(name)
+            elif kind == "symmetric":
+                found[name] = sp.Matrix(
+                    3, 3, lambda i, j, n=name: sp.Symbol(f"{n}_{'xyz'[min(i, j)]}{'xyz'[max(i, j)]}", real=True)
+                )
+            elif kind in ("real", "positive", "nonnegative"):
+                found[name] = sp.Symbol(name, **{kind: True})
+            else:
+                raise InputError(f"letters: {kind!r} is not a kind of letter: vector, symmetric, real, positive")
+    return found
+
+
+def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
+    """The expression that `text` writes in these letters; decimals are read as the rationals they are.
+
+    Raises InputError where it cannot be read, or holds a letter that is not declared.
+    """
+    names = {**FUNCTIONS, **scalars(), **letters}
+    try:
+        value = parse_expr(
+            text, local_dict=names, global_dict=dict(FUNCTIONS), transformations=(auto_number, rationalize)
+        )
+    except NameError as missing:
+        raise InputError(f"{where}: {text!r}: {missing}: declare the letter, or give its meaning") from None
+    except (SyntaxError, TypeError, AttributeError, ValueError) as refusal:
+        raise InputError(f"{where}: {text!r} cannot be read: {refusal}") from None
+    return value

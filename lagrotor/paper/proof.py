@@ -1,0 +1,88 @@
+"""A step of a derivation, shown and decided: `prove(left, right, "in words")` displays both sides, or refuses."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.algebra import agreement_order, decide_equal
+from lagrotor.errors import ProofError
+from lagrotor.pair.symbols import latex
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression, a matrix or an equation, shown as mathematics; `name` is LaTeX for what it is equal to."""
+
+    expression: Any
+    name: str = ""
+
+    @property
+    def tex(self) -> str:
+        """The formula as LaTeX."""
+        left = f"{self.name} = " if self.name else ""
+        return left + latex(self.expression)
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.tex}$"
+
+
+@dataclass(frozen=True)
+class Step:
+    """Equations that were proved. pairs: (left, right). domain: factors that must not vanish. order: of a series in `small`."""
+
+    pairs: tuple[tuple[Any, Any], ...]
+    says: str
+    domain: tuple[sp.Expr, ...]
+    small: sp.Symbol | None = None
+    order: int | None = None
+
+    @property
+    def tex(self) -> str:
+        """The equations below each other, as LaTeX."""
+        end = rf" + O\left({latex(self.small)}^{{{(self.order or 0) + 1}}}\right)" if self.small is not None else ""
+        lines = [f"{latex(left)} &= {latex(right)}{end}" for left, right in self.pairs]
+        return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.tex}$"
+
+
+def prove(left: Any, right: Any, says: str = "", small: sp.Symbol | None = None, order: int | None = None) -> Step:
+    """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
+
+    says: what is proved, in words. Raises ProofError with the difference where it does not hold or is not decided.
+    """
+    pairs = _pairs(left, right)
+    domain: dict[sp.Expr, None] = {}
+    for a, b in pairs:
+        if small is not None:
+            _through(a, b, small, order or 0, says)
+            continue
+        decision = decide_equal(a, b)
+        if decision.answer != "zero":
+            raise ProofError(f"prove: {says or 'this step'} is {decision.answer}: {a} against {b}: {decision.reason}")
+        domain |= dict.fromkeys(f for f in decision.domain if not (f.is_positive or f.is_number))
+    return Step(pairs, says, tuple(domain), small, order)
+
+
+def _pairs(left: Any, right: Any) -> tuple[tuple[Any, Any], ...]:
+    if isinstance(left, sp.Equality) and not isinstance(right, Sequence):
+        raise ProofError("prove: give the two sides, not an equation")
+    if isinstance(left, Sequence) or isinstance(right, Sequence):
+        rows = list(left), list(right)
+        if len(rows[0]) != len(rows[1]):
+            raise ProofError(f"prove: {len(rows[0])} left sides and {len(rows[1])} right sides")
+        return tuple((sp.sympify(a), sp.sympify(b)) for a, b in zip(*rows, strict=True))
+    return ((sp.sympify(left), sp.sympify(right)),)
+
+
+def _through(a: Any, b: Any, small: sp.Symbol, order: int, says: str) -> None:
+    entries = zip(a, b, strict=True) if isinstance(a, sp.MatrixBase) else [(a, b)]
+    for p, q in entries:
+        first = agreement_order(p, q, small, order)
+        if first.order is not None and first.order <= order:
+            raise ProofError(
+                f"prove: {says or 'this step'} fails at order {first.order} in {small}, by {first.coefficient}: {p} against {q}"
+            )
