@@ -30,7 +30,7 @@ class Premise:
     @property
     def sentence(self) -> str:
         """What is assumed, and by how much the paper's own scene breaks it."""
-        return f"{self.says} (not so in the paper's own scene: {self.broken})" if self.broken else self.says
+        return f"{self.says} (broken by the paper's own scene: {self.broken})" if self.broken else self.says
 
     def on(self, side: Any) -> Any:
         """A side with the premise put in."""
