@@ -82,7 +82,7 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
-    added.description = "Judge the paper's equations. All derivations run, whatever ids: a verdict depends on others."
+    added.description = "Judge the paper's equations. For single ids only their own derivations run."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
 

@@ -2,21 +2,17 @@
 
 import argparse
 from collections import Counter
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from lagrotor.commands.terminal import progress, say, table, wrapped
 from lagrotor.errors import InputError
 
-if TYPE_CHECKING:
-    from lagrotor.paper.ledger import Statement
-
-_LONGEST = 100  # characters of a correction that is shown in a terminal
-
 
 def reproduce_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.record import recorded
     from lagrotor.report.content import told
     from lagrotor.report.formulas.mathml_latex import converter
-    from lagrotor.report.reproduce import recorded, reproduce
+    from lagrotor.report.reproduce import reproduce
 
     made = reproduce(given.out, progress)
     page = given.out / "index.html"
@@ -33,53 +29,47 @@ def reproduce_command(given: argparse.Namespace) -> int:
     print(f"{made.figures} figures; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
-    return _compared(made.changes, recorded())
+    return _compared(made.changes, bool(recorded()))
 
 
 def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import audit, scripts
-    from lagrotor.paper.catalogue import equation, equations
+    from lagrotor.paper.catalogue import equations
+    from lagrotor.paper.record import changes, recorded
     from lagrotor.report.content import note, word
-    from lagrotor.report.reproduce import changes, outcomes, recorded
 
-    for identifier in given.ids:
-        equation(identifier)
-    with progress(len(scripts.names("derivations", "s"))) as step:
-        verdicts = audit.audit(step)
-    judged = {verdict.id for verdict in verdicts}
-    if waiting := [i for i in given.ids if i not in judged]:
-        raise InputError(f"equation {waiting[0]} is not yet judged: no derivation states it")
-    shown = [verdict for verdict in verdicts if not given.ids or verdict.id in given.ids]
+    identifiers = [_known(identifier, equations()) for identifier in given.ids]
+    with progress(len(identifiers) or len(scripts.names("derivations", "s"))) as step:
+        shown = [audit.audit(i, step) for i in identifiers] if identifiers else list(audit.audit(progress=step))
     if given.json:
         print(audit.to_json(shown))
+    elif identifiers:
+        print("\n\n".join(map(audit.in_words, shown)))
     else:
-        rows = []
-        for v in shown:
-            rows.append((v.id, word(v.verdict), ": ".join(filter(None, (equation(v.id).title, note(v))))))
-            if v.verdict in ("refuted", "measured") and v.statement.correction:
-                rows.append(("", "", f"right: {in_a_line(v.statement)}"))
-        print(table(("id", "verdict", "equation: order or condition"), rows))
+        rows = [(v.id, word(v.verdict), ": ".join(filter(None, (equations()[v.id].title, note(v))))) for v in shown]
+        print(table(("id", "verdict", "equation: order, premises"), rows))
     on_record = recorded()
-    return _compared(changes(outcomes(shown), on_record, given.ids or equations()), on_record)
+    return _compared(changes({v.id: v.verdict for v in shown}, on_record, identifiers or equations()), bool(on_record))
 
 
-def in_a_line(statement: "Statement") -> str:
-    """The correction of an equation as plain text, or where it stands when that is too long to read in a terminal."""
-    told = "; ".join(
-        str(r.printed) + (f" + O({r.small ** (r.claimed + 1)})" if r.small else "") for r in statement.correction
-    )
-    return told if len(told) <= _LONGEST else "see the errata sheet (lagrotor reproduce)"
+def _known(identifier: str, ids: Collection[str]) -> str:
+    """An id that the paper has. Raises InputError that names near ones: 5.1 may be 5.01 or 5.10."""
+    if identifier in ids:
+        return identifier
+    section, _, place = identifier.rpartition(".")
+    near = [i for i in (f"{section}.0{place}", f"{section}.{place}0", f"C{identifier.lstrip('Cc'):0>2}") if i in ids]
+    first, last = next(iter(ids)), list(ids)[-1]
+    hint = f"{' or '.join(near)}?" if near else f"ids run from {first} to {last}"
+    raise InputError(f"{identifier!r} is not in the catalogue: {hint}")
 
 
 def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import trials
     from lagrotor.paper.catalogue import claims
+    from lagrotor.paper.record import changes, recorded
     from lagrotor.report.content import word
-    from lagrotor.report.reproduce import changes, outcomes, recorded
 
-    if unknown := [i for i in given.ids if i not in claims()]:
-        raise InputError(f"claim {unknown[0]!r} is not in the catalogue: ids run from C01 to C{len(claims()):02d}")
-    wanted = frozenset(given.ids or claims())
+    wanted = frozenset(_known(identifier, claims()) for identifier in given.ids) or frozenset(claims())
     with progress(len(wanted)) as step:
         results = trials.hear_all(step, wanted)
     if given.json:
@@ -90,11 +80,11 @@ def claims_command(given: argparse.Namespace) -> int:
             print(wrapped(f"{identifier}  {claims()[identifier].text}", 5))
             print(wrapped(f"     {word(finding.outcome)}: {finding.explanation}", 5), end="\n\n")
     on_record = recorded()
-    return _compared(changes(outcomes(heard=results), on_record, wanted), on_record)
+    return _compared(changes({r.trial.id: r.finding.outcome for r in results}, on_record, wanted), bool(on_record))
 
 
-def _compared(changes: list[str], on_record: dict[str, str] | None) -> int:
-    if on_record is None:
+def _compared(changes: list[str], on_record: bool) -> int:
+    if not on_record:
         return say("no verdicts are on record yet: nothing to compare these with", 0)
     for change in changes:
         say(f"changed: {change}", 1)

@@ -231,7 +231,11 @@ def judge(statement: Statement) -> Verdict:
     began = time.perf_counter()
     finding, used = (_Finding("definition"), ()) if statement.names else _fewest_premises(statement)
     answer = finding.answer
-    if finding.small is not None and all(premise.small != finding.small for premise in used):
+    if (
+        finding.answer in _AGREES
+        and finding.small is not None
+        and all(premise.small != finding.small for premise in used)
+    ):
         used = (*used, _smallness(finding.small))
     if answer == "holds" and used:
         answer = "holds-if"
@@ -309,23 +313,3 @@ def _to_order(relation: Relation, small: sp.Symbol, domain: tuple[sp.Expr, ...])
         return _Finding("holds-to-order", reached, small, domain)
     reason = f"first differs at order {first.order} in {small}, by {first.coefficient}"
     return _Finding("refuted", reached, small, domain, (reason,))
-
-
-# The equations in which the paper's work ends: the rate, the trajectories, the natural frequency.
-RESULTS = ("2.12", "5.15", "5.22", "5.28", "6.02")
-
-
-def follow_errors(verdicts: Iterable[Verdict]) -> list[Verdict]:
-    """For each refuted equation, whether a result of the paper that rests on it falls too, judged from sound premises."""
-    listed = list(verdicts)
-    by_id = {v.id: v for v in listed}
-    users = {i: [v.id for v in listed if i in v.statement.depends_on] for i in by_id}
-
-    def reaches(identifier: str, seen: frozenset[str]) -> bool:
-        if by_id[identifier].verdict == "refuted" and identifier in RESULTS:
-            return True
-        return any(reaches(u, seen | {u}) for u in users[identifier] if u not in seen)
-
-    return [
-        replace(v, reaches_result=reaches(v.id, frozenset({v.id}))) if v.verdict == "refuted" else v for v in listed
-    ]

@@ -6,6 +6,7 @@ Statements are judged and trials heard when they are shown, so that who runs a s
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from lagrotor.paper import scripts
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Statement, judge, verdict_table
 from lagrotor.paper.proof import Formula as Formula
@@ -52,3 +53,13 @@ class Heard:
 def findings_table(findings: Iterable[tuple[str, str]]) -> Table:
     """What a script found beyond the judged equations."""
     return Table("Findings", ("what", "found"), tuple(findings))
+
+
+def findings(prefix: str) -> list[tuple[str, str]]:
+    """(title, sentence) of what the derivations with this prefix found beyond the judged equations."""
+    found = []
+    for stem in scripts.names("derivations", prefix):
+        script = scripts.executed("derivations", stem)
+        found += script.names.get("findings", [])
+        found += [(remark.title, remark.text) for remark in script.shown(Remark)]
+    return found

@@ -9,7 +9,7 @@ from sympy.printing.latex import tex_greek_dictionary
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.pair.symbols import latex
-from lagrotor.report.readable import readable
+from lagrotor.paper.readable import readable
 
 _HEAD = r"""\documentclass[11pt]{article}
 \usepackage[a4paper,margin=22mm]{geometry}

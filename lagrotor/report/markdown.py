@@ -8,6 +8,7 @@ import sympy as sp
 from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import claims, equation
 from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
@@ -31,7 +32,6 @@ from lagrotor.report.content import (
     word,
 )
 from lagrotor.report.errata import errata
-from lagrotor.report.readable import readable
 from lagrotor.report.results import balance, headlines
 
 

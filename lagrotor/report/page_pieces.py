@@ -5,11 +5,11 @@ from html import escape
 
 import sympy as sp
 
+from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.report.content import Fact, Report, anchor, word
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
-from lagrotor.report.readable import readable
 
 # Characters of MathML that fill a page.
 _LONGEST = 15_000

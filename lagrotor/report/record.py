@@ -2,19 +2,19 @@
 with, `python -m lagrotor.report.record speed` the seconds that the report tells.
 """
 
-import json
 import sys
 
 from lagrotor.benchmark.recorded_speed import renew_speed
 from lagrotor.files import write_text
 from lagrotor.paper import audit, trials
-from lagrotor.report.reproduce import RECORDED, outcomes
+from lagrotor.paper.record import RECORDED, OnRecord, as_text
 
 
 def renew() -> None:
-    """Judge every equation, try every claim, and write id → verdict."""
-    found = outcomes(audit.audit(), trials.hear_all())
-    write_text(RECORDED, json.dumps(found, indent=1) + "\n")
+    """Judge every equation, try every claim, and write the verdicts with what they use."""
+    found = {v.id: OnRecord(v.verdict, v.statement.depends_on) for v in audit.audit()}
+    found |= {result.trial.id: OnRecord(result.finding.outcome) for result in trials.hear_all()}
+    write_text(RECORDED, as_text(found))
 
 
 if __name__ == "__main__":

@@ -9,10 +9,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from lagrotor.errors import LagrotorError
 from lagrotor.files import write_text
-from lagrotor.paper import audit, catalogue, scripts, tables, trials
+from lagrotor.paper import audit, scripts, tables, trials
 from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.notebook import findings
+from lagrotor.paper.record import OnRecord, changes, recorded
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.trials import Result
 from lagrotor.pictures import figures
@@ -29,7 +30,6 @@ from lagrotor.report.page import page
 from lagrotor.report.reuse import Kept, digest
 from lagrotor.report.supplement import supplement
 
-RECORDED = Path(catalogue.__file__).with_name("recorded.json")
 # Derivations that state no equation: tables, benchmarks, theory past the paper, the table of it.
 _BESIDES = "mbtp"
 Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
@@ -58,7 +58,7 @@ def reproduce(target: Path, progress: Progress) -> Outcome:
     is no report. Until all is done the old report stays.
     """
     began, on_record, old = time.perf_counter(), recorded(), check_target(target)
-    made_from = json.dumps([reuse.inputs(), on_record, converter()])
+    made_from = json.dumps([reuse.inputs(), {i: row.verdict for i, row in on_record.items()}, converter()])
     whole = digest(reuse.foundation(), made_from, beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
         return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
@@ -98,9 +98,9 @@ def _steps(kept: Kept) -> int:
     return sum(len(scripts.names("derivations", prefix)) for prefix in f"s{_BESIDES}") + claims + drawn + 2
 
 
-def _find(kept: Kept, on_record: dict[str, str] | None, step: Callable[[str], None]) -> Report:
+def _find(kept: Kept, on_record: dict[str, OnRecord], step: Callable[[str], None]) -> Report:
     """Everything that the report tells."""
-    verdicts = audit.audit(lambda stem: step(f"derivation {stem}"))
+    verdicts = audit.audit(progress=lambda stem: step(f"derivation {stem}"))
     heard = _hear(kept, step)
     for prefix in _BESIDES:
         for stem in scripts.names("derivations", prefix):
@@ -111,10 +111,10 @@ def _find(kept: Kept, on_record: dict[str, str] | None, step: Callable[[str], No
         pictures=tuple(_draw(kept, step)),
         changes=tuple(changes(outcomes(verdicts, heard), on_record)),
         claims=tuple(heard),
-        findings=tuple(audit.findings("s")),
+        findings=tuple(findings("s")),
         tables=tuple(tables.tables("m1")),
         past=tuple(tables.tables("p")),
-        theory=tuple(audit.findings("t")),
+        theory=tuple(findings("t")),
         speed=tuple(tables.tables("b")),
         stability=tuple(tables.tables("m3")),
         versions=tuple(reuse.versions().items()),
@@ -176,29 +176,6 @@ def _write_json(file: Path, found: Any) -> None:
     write_text(file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
 
 
-def recorded() -> dict[str, str] | None:
-    """The verdicts on record, id → verdict; None when there are none yet. Raises LagrotorError for a broken file."""
-    try:
-        found = json.loads(RECORDED.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return None
-    except ValueError as error:
-        raise LagrotorError(f"{RECORDED} cannot be read ({error}): restore it") from None
-    return dict(found)
-
-
 def outcomes(verdicts: Iterable[Verdict] = (), heard: Iterable[Result] = ()) -> dict[str, str]:
     """Id → verdict or outcome, in the form that is recorded."""
     return {v.id: v.verdict for v in verdicts} | {r.trial.id: r.finding.outcome for r in heard}
-
-
-def changes(found: dict[str, str], on_record: dict[str, str] | None, only: Iterable[str] = ()) -> list[str]:
-    """A sentence for each id in `only`, or of all, whose verdict differs from the recorded one."""
-    if on_record is None:
-        return []
-    asked = set(only) or found.keys() | on_record.keys()
-    return [
-        f"{i}: recorded {on_record.get(i, 'nothing')}, found {found.get(i, 'nothing')}"
-        for i in (*catalogue.equations(), *catalogue.claims())
-        if i in asked and on_record.get(i) != found.get(i)
-    ]

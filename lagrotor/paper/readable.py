@@ -5,6 +5,16 @@ import re
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
+_SIGNS = {
+    "times": " × ",
+    "cdot": " · ",
+    "sin": "sin ",
+    "cos": "cos ",
+    "quad": " ",
+    "qquad": " ",
+    "left": " ",
+    "right": " ",
+}
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _END = "[\\w)\u0307\u0308]"  # of what stands before an operator
@@ -18,6 +28,24 @@ def readable(text: str) -> str:
     text = re.sub(rf"(?<={_END})\*\*(?=[\w(])", "^", text)
     text = re.sub(rf"(?<={_END})\*(?=[\w(])", "·", text)
     return re.sub(r"(?<![^\s(=:;/])-(?=[\dͰ-Ͽ])|(?<= )-(?= )", "−", text)
+
+
+def from_latex(source: str) -> str:
+    r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any spins)} is Ω₀² (any spins)."""
+    text = re.sub(
+        r"\\(?:text|mathcal|mathrm)\s*\{([^{}]*)\}|\\(?:mathcal|mathrm)\s+(\w)", lambda m: m[1] or m[2], source
+    )
+    text = re.sub(r"\\(?:vec|hat)\s*", "", text)
+    text = re.sub(r"\\(d?dot)\s*(?:\{\\?(\w+)\}|\\?(\w+?))(?:_\{?(\d+)\}?)?(?![A-Za-z])", _dotted, text)
+    text = re.sub(r"\\([A-Za-z]+)", lambda m: _SIGNS.get(m[1]) or _LETTERS.get(m[1], m[1]), text)
+    text = re.sub(r"_\{?(\d+)\}?", lambda m: m[1].translate(_LOW), text)
+    text = re.sub(r"\^\{?(\d+)\}?", lambda m: m[1].translate(_HIGH), text)
+    return " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).split())
+
+
+def _dotted(match: re.Match[str]) -> str:
+    name, index = match[2] or match[3], match[4] or ""
+    return _LETTERS.get(name, name) + _ABOVE[f"_{match[1]}"] + index.translate(_LOW)
 
 
 def _letter(match: re.Match[str]) -> str:

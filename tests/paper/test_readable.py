@@ -2,7 +2,7 @@
 
 import pytest
 
-from lagrotor.report.readable import readable
+from lagrotor.paper.readable import readable
 
 
 @pytest.mark.parametrize(
