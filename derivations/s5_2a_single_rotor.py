@@ -113,7 +113,11 @@ verdict("5.02", rate, premises=[about_joint], uses=["5.01", "5.03"])
 # The axial momentum is $M_3 = I_3\omega$. For equal inertias the rate then depends on one constant, $a = M_z/I$:
 
 # %%
-verdict("5.05", rate.subs(M_3, I3 * omega), premises=[equal_inertias], uses=["5.02", "5.04"])
+rate_of_spin = rate.subs(M_3, I3 * omega)
+prove(rate_of_spin, (M_z - I3 * omega * c) / (J * s**2), "the rate of precession by the axial velocity")
+
+# %%
+verdict("5.05", rate_of_spin, premises=[equal_inertias], uses=["5.02", "5.04"])
 
 # %% [markdown]
 # ## The constant $a$
