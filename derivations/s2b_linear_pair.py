@@ -14,7 +14,7 @@
 import sympy as sp
 
 from lagrotor.algebra import decide_equal, decide_zero
-from lagrotor.mechanics import euler_lagrange, jacobian
+from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
 from lagrotor.paper import scripts
@@ -34,16 +34,16 @@ F, r, w = (premises[name] for name in ("F", "r", "w"))  # w: the axes' rate by (
 # $2(a+b)X'' = -G_1y_1' - G_2y_2' + RF_x$, $\;ay_1''+by_2'' = G_1X' + RF_y$, $\;ay_2''+by_1'' = G_2X'$.
 
 # %%
-system, gyroscopic = axes_pair()
+system = axes_pair()
 pull = sp.Matrix(sp.symbols("lambda_1 lambda_2 N", real=True))
 tip_force = sp.Matrix([F[0], F[1], 0, 0, 0, 0]) * R
-balance = euler_lagrange(system.L, AXES) - gyroscopic - jacobian(system.g, AXES).T * pull - tip_force
+balance = euler_lagrange(system.L, AXES) - system.push - system.rows.T * pull - tip_force
 x1, y1, z1, x2, y2, z2 = AXES.q
 upright = {z1: 1, z2: 1, **dict.fromkeys((AXES.v[2], AXES.v[5], AXES.a[2], AXES.a[5]), 0)}
 tilts = [s for row in (AXES.q, AXES.v, AXES.a) for s in row if s not in upright]
 scaled = upright | {s: eps * s for s in [*tilts, *pull, F[0], F[1]]}
 linear = balance.subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
-tie = system.g[2].subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
+tie = system.constraints[2].subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
 assert decide_zero(tie - k * (x2 - x1)).answer == "zero"
 X, X_v, X_a = sp.symbols("X X_dot X_ddot", real=True)
 common = {x1: X, x2: X, AXES.v[0]: X_v, AXES.v[3]: X_v, AXES.a[0]: X_a, AXES.a[3]: X_a}

@@ -14,7 +14,7 @@
 # %%
 import sympy as sp
 
-from lagrotor.mechanics import accelerations, cyclic_coordinates, momenta, total_derivative
+from lagrotor.mechanics import System, accelerations, momenta, total_derivative
 from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
 from lagrotor.paper.ledger import verdict
@@ -78,7 +78,7 @@ verdict("5.01", L, premises=[about_joint])
 # $\phi$ and $\psi$ do not occur in $L$, so their momenta are constants of the motion.
 
 # %%
-assert set(cyclic_coordinates(L, ROTOR)) == {phi, psi}
+assert set(System(ROTOR, L).cyclic) == {phi, psi}
 p_theta, p_phi, p_psi = momenta(L, ROTOR)
 prove(
     (p_phi, p_psi),

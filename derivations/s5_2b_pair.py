@@ -63,7 +63,7 @@ squared = (tips[1] - tips[0]).dot(tips[1] - tips[0])
 system = pair_with_bar()
 state = {th1: sp.Rational(1, 3), ph1: sp.Rational(2, 5), th2: sp.Rational(1, 4), ph2: sp.Rational(-3, 7), k: 1}
 freedom = degrees_of_freedom(system, {**dict.fromkeys(PAIR.q, 0), **state, a: 1, b: 0, I3: 1})
-sp.Eq(system.g[0], 0)
+sp.Eq(system.constraints[0], 0)
 
 # %% [markdown]
 # ## The ansatz in the Lagrangian
@@ -87,7 +87,7 @@ printed_ansatz = tuple(
     for last in (-psi_v - phi_v * sp.cos(a2), psi_v + phi_v * sp.cos(a2))
 )
 
-g = system.g[0].subs({ph1: sp.pi / 2, ph2: -sp.pi / 2, k: 1})
+g = system.constraints[0].subs({ph1: sp.pi / 2, ph2: -sp.pi / 2, k: 1})
 at_quarter = decide_zero(g - (1 + sp.sin(th1) * sp.sin(th2) - sp.cos(th1) * sp.cos(th2))).answer
 assert at_quarter == "zero"  # 1 − cos(theta_1 + theta_2) = 0: theta_2 = −theta_1
 

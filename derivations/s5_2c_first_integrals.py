@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor import Scene, Shock, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.mechanics import cyclic_coordinates, noether_integral, noether_rate
+from lagrotor.mechanics import System
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair.lagrangians import ansatz_integrals, ansatz_lagrangian, pair_with_bar
@@ -37,7 +37,7 @@ equal = "equal inertias about the joint; the paper's rotor has J = 5/4 and I_3 =
 
 # %%
 L = ansatz_lagrangian()
-assert set(cyclic_coordinates(L, ANSATZ)) == {phi, psi}
+assert set(System(ANSATZ, L).cyclic) == {phi, psi}
 integral_A, integral_B = ansatz_integrals()
 Formula(sp.Matrix([integral_A, integral_B]).expand())
 
@@ -50,12 +50,11 @@ Formula(sp.Matrix([integral_A, integral_B]).expand())
 
 # %%
 system = pair_with_bar()
-lam = sp.Symbol("lambda", real=True)
 turning = {"A": [0, 1, 0, 0, -1, 0], "B": [0, 0, 1, 0, 0, -1]}
-rates = {name: noether_rate(system, xi, [lam]) for name, xi in turning.items()}
+rates = {name: system.noether_rate(xi) for name, xi in turning.items()}
 conserved = {name: decide_zero(rate).answer for name, rate in rates.items()}
 assert conserved == {"A": "nonzero", "B": "zero"}
-exact_B = noether_integral(system.L, PAIR, turning["B"])
+exact_B = system.noether(turning["B"]).expression
 first, second = (theta_1, phi, psi), (theta_2, -phi, -psi)
 first_v, second_v = (ANSATZ.v[0], phi_v, psi_v), (ANSATZ.v[1], -phi_v, -psi_v)
 on_ansatz = dict(zip((*PAIR.q, *PAIR.v), (*first, *second, *first_v, *second_v), strict=True))

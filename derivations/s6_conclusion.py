@@ -35,7 +35,7 @@ in_bar = {name: INERTIAS[name].subs(J, J_OF) for name in (a, b)}
 angles = [sp.Rational(1, 3), sp.Rational(2, 5), 0, sp.Rational(1, 4), sp.Rational(-3, 7), 0]
 with_spins = degrees_of_freedom(pair_with_bar(), {**dict(zip(PAIR.q, angles, strict=True)), a: 1, b: 0, I3: 1, k: 1})
 upright = {**dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True)), k: 1, a: 1, b: 0}
-without_spins = degrees_of_freedom(axes_pair()[0], upright)
+without_spins = degrees_of_freedom(axes_pair(), upright)
 {"with the spins": with_spins, "without": without_spins}
 
 # %% [markdown]

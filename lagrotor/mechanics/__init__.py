@@ -1,17 +1,8 @@
-"""Analytical mechanics from a Lagrangian in plain symbols: equations of motion, constraints, symmetries."""
+"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries and small motions."""
 
-from lagrotor.mechanics.constraints import (
-    Constrained,
-    acceleration_bias,
-    constrained_accelerations,
-    degrees_of_freedom,
-    jacobian,
-    project_position,
-    project_velocity,
-    schur,
-    solve_constrained,
-    velocity_residual,
-)
+from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
+from lagrotor.mechanics.equations import constrained_accelerations, degrees_of_freedom
+from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     accelerations,
@@ -21,43 +12,33 @@ from lagrotor.mechanics.lagrangian import (
     euler_lagrange,
     mass_matrix,
     momenta,
+    t,
     total_derivative,
 )
-from lagrotor.mechanics.symmetry import (
-    cyclic_coordinates,
-    is_conserved,
-    legendre,
-    noether_integral,
-    noether_rate,
-    routhian,
-    variation,
-)
+from lagrotor.mechanics.linear_modes import LinearSystem, Mode
+from lagrotor.mechanics.symmetry import FirstIntegral, legendre
+from lagrotor.mechanics.system import System
 
 __all__ = [
-    "Constrained",
     "Coordinates",
-    "acceleration_bias",
+    "Equilibrium",
+    "FirstIntegral",
+    "LinearSystem",
+    "Mode",
+    "System",
     "accelerations",
     "bias",
     "constrained_accelerations",
     "coordinates",
-    "cyclic_coordinates",
     "degrees_of_freedom",
     "energy",
     "euler_lagrange",
-    "is_conserved",
-    "jacobian",
     "legendre",
     "mass_matrix",
     "momenta",
-    "noether_integral",
-    "noether_rate",
     "project_position",
     "project_velocity",
-    "routhian",
-    "schur",
     "solve_constrained",
+    "t",
     "total_derivative",
-    "variation",
-    "velocity_residual",
 ]

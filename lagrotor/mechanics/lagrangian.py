@@ -1,12 +1,12 @@
 """From a Lagrangian to its equations of motion, in plain symbols.
 
-A Lagrangian L(q, v) is an expression in the coordinates q and the velocities v = q'. Along a motion its
+A Lagrangian L(q, v, t) is an expression in the coordinates q, the velocities v = q' and the time t. Along a motion its
 Euler–Lagrange equations are affine in the accelerations a = q'':
 
-    d/dt ∂L/∂v − ∂L/∂q  =  M a + h  =  Q,        M = ∂²L/∂v∂v,        h = (∂²L/∂v∂q) v − ∂L/∂q,
+    d/dt ∂L/∂v − ∂L/∂q  =  M a + h  =  Q,      M = ∂²L/∂v∂v,      h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q,
 
-with the mass matrix M, the bias h and the generalised forces Q. Because q, v and a are independent symbols, never
-functions of time, d/dt is the vector field  v ∂/∂q + a ∂/∂v.  L does not depend on time explicitly.
+with the mass matrix M, the bias h and the generalised forces Q. Because q, v, a and t are independent symbols, q never
+a function of t, d/dt is the vector field  v ∂/∂q + a ∂/∂v + ∂/∂t.
 
 Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 2.7; Arnold, Mathematical Methods of Classical
 Mechanics, §§12, 19.
@@ -19,6 +19,8 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, SingularError
+
+t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class Coordinates:
                 f"Coordinates: {len(self.q)} coordinates, {len(self.v)} velocities, {len(self.a)} accelerations: "
                 "each coordinate has one velocity and one acceleration; give equally many, at least one"
             )
-        symbols = self.q + self.v + self.a
+        symbols = (*self.q, *self.v, *self.a, t)
         if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
 
@@ -59,8 +61,8 @@ def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
 
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:
-    """df/dt = Σ v ∂f/∂q + a ∂f/∂v, along any motion, of an expression f(q, v)."""
-    drift = gradient(expression, c.q).dot(c.v)
+    """df/dt = Σ v ∂f/∂q + a ∂f/∂v + ∂f/∂t, along any motion, of an expression f(q, v, t)."""
+    drift = gradient(expression, c.q).dot(c.v) + sp.diff(expression, t)
     return drift + gradient(expression, c.v).dot(c.a)
 
 
@@ -75,12 +77,13 @@ def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """h = (∂²L/∂v∂q) v − ∂L/∂q, shape (n, 1): centrifugal, Coriolis and gyroscopic terms, and −(potential forces)."""
-    return momenta(L, c).jacobian(c.q) * sp.Matrix(c.v) - gradient(L, c.q)
+    """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1): centrifugal, gyroscopic and driving terms, −(potential forces)."""
+    p = momenta(L, c)
+    return p.jacobian(c.q) * sp.Matrix(c.v) + p.diff(t) - gradient(L, c.q)
 
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:
-    """The Jacobi integral E = v·∂L/∂v − L, a constant of the motion when Q = 0. Goldstein §2.7."""
+    """The Jacobi integral E = v·∂L/∂v − L, with dE/dt = Q·v − ∂L/∂t along a motion. Goldstein §2.7."""
     return momenta(L, c).dot(c.v) - L
 
 

@@ -1,56 +1,15 @@
-"""Small motions: linear modes about an equilibrium, and the Lindstedt–Poincaré series of a periodic orbit.
-
-Nayfeh & Mook, Nonlinear Oscillations, 2.3; Goldstein, Poole & Safko, Classical Mechanics, ch. 6.
-"""
+"""The Lindstedt–Poincaré series of a periodic orbit. Nayfeh & Mook, Nonlinear Oscillations, 2.3."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-import sympy as sp
 from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.constraints import Constrained, jacobian
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, constant
-from lagrotor.mechanics.lagrangian import euler_lagrange, force_column
 
 Residual = Callable[[Sequence[FourierSeries], FourierSeries], list[FourierSeries]]
-
-
-@dataclass(frozen=True)
-class LinearSystem:
-    """M a + C v + K q = 0 in independent small coordinates; `basis` (n, d) carries them to the full ones."""
-
-    mass: sp.Matrix
-    gyroscopic: sp.Matrix
-    stiffness: sp.Matrix
-    basis: sp.Matrix
-
-    def characteristic(self, s: sp.Symbol) -> sp.Expr:
-        """det(s² M + s C + K), factored."""
-        return sp.factor((s**2 * self.mass + s * self.gyroscopic + self.stiffness).det(method="berkowitz"))
-
-
-def linearise(
-    system: Constrained, at: Mapping[sp.Symbol, Any], forces: Sequence[sp.Expr] | None = None
-) -> LinearSystem:
-    """The linear system about an equilibrium `at` (q values; rates zero), in a basis of the constraints' null space.
-
-    For an equilibrium that the constraints need not hold (multipliers zero there).
-    """
-    c = system.c
-    still = dict(at) | dict.fromkeys((*c.v, *c.a), 0)
-    motion = euler_lagrange(system.L, c) - force_column(forces, c, "linearise")
-    if any(e != 0 for e in motion.subs(still)):
-        raise SingularError(f"linearise: {dict(at)} is no equilibrium: a force is left over; start from one")
-    tangent = jacobian(system.g, c).subs(still).nullspace()
-    basis = sp.Matrix.hstack(*tangent) if system.g else sp.eye(len(c.q))
-    mass, gyroscopic, stiffness = (
-        (basis.T * motion.jacobian(list(names)).subs(still) * basis).applyfunc(sp.factor) for names in (c.a, c.v, c.q)
-    )
-    return LinearSystem(mass, gyroscopic, stiffness, basis)
 
 
 @dataclass(frozen=True)

@@ -1,78 +1,108 @@
 """Symmetries, their Noether integrals, and the reductions they allow.
 
-A point transformation q → q + ε ξ(q) carries velocities along by v → v + ε ξ', so a Lagrangian changes by
+A transformation q → q + ε ξ(q, v, t) carries velocities along by v → v + ε ξ', so a Lagrangian changes by
 
-    δL = ∂L/∂q · ξ + ∂L/∂v · ξ',        and along a motion        d/dt (p · ξ) = δL + λ · (G ξ).
+    δL = ∂L/∂q · ξ + ∂L/∂v · ξ',     and along a motion     d/dt (p · ξ) = δL + Q · ξ + λ · (G ξ).
 
-The momentum p · ξ is therefore conserved when ξ leaves L invariant and is tangent to the constraints in force. The
-translation of a cyclic coordinate is the plainest case; its conserved momentum allows the Legendre transform in that
-velocity alone, to the Routhian.
+If δL is the total time derivative of a gauge function F(q, v, t), and neither forces nor constraints act along ξ, then
+p · ξ − F is conserved. The translation of a cyclic coordinate is the plainest case; its conserved momentum allows the
+Legendre transform in that velocity alone, to the Routhian. The field ξ = v with F = L is the translation of time.
 
 Arnold, Mathematical Methods of Classical Mechanics, §20; Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
-§§2.6, 8.1, 8.3; Noether, Invariante Variationsprobleme (1918).
+§§2.6, 8.1, 8.3, 13.7; Noether, Invariante Variationsprobleme (1918).
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import decide_zero
+from lagrotor.algebra import Decision, decide_equal, decide_zero
 from lagrotor.errors import DomainError, InputError, NotASymmetryError
-from lagrotor.mechanics.constraints import Constrained, jacobian
-from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, momenta, total_derivative
+from lagrotor.mechanics.equations import Equations, constrained_accelerations
+from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, momenta, t, total_derivative
+
+Kind = TypeVar("Kind", bound=Equations)
 
 
-def cyclic_coordinates(L: sp.Expr, c: Coordinates) -> tuple[sp.Symbol, ...]:
-    """Those q on which L does not depend: ∂L/∂q decided to vanish identically. Goldstein §2.6."""
-    return tuple(q for q in c.q if _vanishes(sp.diff(L, q)))
+@dataclass(frozen=True)
+class FirstIntegral:
+    """A conserved quantity in q, v and t; it was decided where none of the factors in `domain` vanishes."""
+
+    expression: sp.Expr
+    domain: tuple[sp.Expr, ...]
 
 
-def variation(L: sp.Expr, c: Coordinates, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q): L along the prolonged vector field.
+def cyclic_coordinates(system: Equations) -> tuple[sp.Symbol, ...]:
+    """Those q with a conserved momentum: ∂L/∂q, Q and the column of G decided to vanish identically. Goldstein §2.6."""
+    return tuple(
+        q
+        for j, q in enumerate(system.c.q)
+        if _vanish([sp.diff(system.L, q), system.push[j], *(system.rows[i, j] for i in range(system.rows.rows))])
+    )
 
-    Raises InputError when ξ does not have n components or contains a velocity.
+
+def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
+    """δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t): L along the prolonged vector field.
+
+    Raises InputError when ξ does not have n components or contains an acceleration.
     """
-    field = _field("variation", c, xi)
+    c, field = system.c, _field(system, xi)
     carried = field.applyfunc(lambda component: total_derivative(component, c))
-    return gradient(L, c.q).dot(field) + gradient(L, c.v).dot(carried)
+    return gradient(system.L, c.q).dot(field) + gradient(system.L, c.v).dot(carried)
 
 
-def noether_integral(L: sp.Expr, c: Coordinates, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """p · ξ, conserved along every free motion, because ξ leaves L invariant. Arnold §20.
+def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
+    """Whether δL + Q · ξ = dF/dt and G ξ = 0 identically, F the gauge function: then p · ξ − F is conserved.
 
-    Raises NotASymmetryError when δL is not decided to vanish identically, InputError as `variation` does.
+    Sufficient: a ξ that preserves the constraints only as a surface, or a δL that is dF/dt only on it, is not enough.
     """
-    delta = variation(L, c, xi)
-    decision = decide_zero(delta)
+    gauge = sp.sympify(gauge)
+    if higher := gauge.free_symbols & {*system.c.a}:
+        raise InputError(
+            f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
+        )
+    field = _field(system, xi)
+    left = variation(system, xi) + system.push.dot(field) - total_derivative(gauge, system.c)
+    entries = sp.Matrix([left, *(system.rows * field)])
+    return decide_equal(entries, sp.zeros(len(entries), 1))
+
+
+def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> FirstIntegral:
+    """p · ξ − F, conserved along every motion, because ξ changes L by dF/dt alone. Arnold §20.
+
+    Raises NotASymmetryError when that is not decided, InputError as `variation` does.
+    """
+    decision = invariance(system, xi, gauge)
     if decision.answer != "zero":
         raise NotASymmetryError(
-            f"noether_integral: δL = {delta} (decided: {decision.answer}): q → q + ε ξ does not leave L invariant; "
-            "noether_rate tells how p · ξ changes"
+            f"noether: q → q + ε ξ does not leave the motion invariant ({decision.answer}: {decision.reason}) with "
+            f"δL = {variation(system, xi)} and the gauge function {gauge}; give gauge=F with δL = dF/dt, or see how "
+            "p · ξ changes: noether_rate"
         )
-    return momenta(L, c).dot(list(xi))
+    return FirstIntegral(momenta(system.L, system.c).dot(list(xi)) - sp.sympify(gauge), decision.domain)
 
 
-def noether_rate(system: Constrained, xi: Sequence[sp.Expr], lam: Sequence[sp.Expr]) -> sp.Expr:
-    """d/dt (p · ξ) = δL + λ · (G ξ) along the constrained motion without other forces, λ one for each constraint.
+def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
+    """d/dt (p · ξ) = δL + Q · ξ + λ · (G ξ) along a motion, with the names of the system's multipliers."""
+    field = _field(system, xi)
+    work = sum((lam * e for lam, e in zip(system.multipliers, system.rows * field, strict=True)), sp.S.Zero)
+    return variation(system, xi) + system.push.dot(field) + work
 
-    The second term is the work of the constraint forces on ξ: zero when ξ is tangent to the constraints.
-    Raises InputError when there are not k multipliers, or as `variation` does.
+
+def conserved(system: Equations, f: sp.Expr) -> Decision:
+    """Whether f(q, v, t) is a first integral: df/dt with the accelerations put in, decided.
+
+    Under constraints the accelerations are those of a consistent state; what vanishes only by virtue of the constraints
+    is "undecided".
     """
-    if len(lam) != len(system.g):
-        raise InputError(
-            f"noether_rate: {len(lam)} multipliers for {len(system.g)} constraints: each constraint has one; "
-            "give as many"
-        )
-    work = sum((force * slope for force, slope in zip(lam, _crossing(system, xi), strict=True)), sp.S.Zero)
-    return variation(system.L, system.c, xi) + work
-
-
-def is_conserved(system: Constrained, xi: Sequence[sp.Expr]) -> bool:
-    """Whether δL and every component of G ξ are decided to vanish identically, so that p · ξ is conserved.
-
-    Sufficient: a ξ that preserves g = 0 only as a surface, and a δL that vanishes only on it, give False.
-    """
-    return all(_vanishes(e) for e in (variation(system.L, system.c, xi), *_crossing(system, xi)))
+    a, _ = constrained_accelerations(system)
+    moved = total_derivative(sp.sympify(f), system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
+    decision = decide_zero(moved)
+    if decision.answer == "nonzero" and system.multipliers:
+        return replace(decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}")
+    return decision
 
 
 def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
@@ -81,36 +111,78 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     Raises DomainError when L is not quadratic in v, SingularError when det M vanishes identically, InputError when p
     does not name n new symbols.
     """
-    return -_reduced("legendre", L, c, c.v, p)
+    if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
+        raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")
+    _check_momenta("legendre", c.v, p, {*c.q, *c.v, *c.a} | L.free_symbols)
+    return -_reduced(L, c.v, p, _velocities("legendre", L, c.v, p))
 
 
-def routhian(L: sp.Expr, c: Coordinates, cyclic: Sequence[sp.Symbol], p: Sequence[sp.Symbol]) -> sp.Expr:
-    """R = L − Σ p v over the cyclic coordinates, their velocities eliminated at the momentum values p.
+def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
+    """The system in the other coordinates, whose Lagrangian is the Routhian R = L − Σ p v at the momentum values p.
 
-    R is a Lagrangian for the other coordinates (Goldstein §8.3, there with the opposite sign). Only the cyclic
-    velocities have to enter L quadratically.
+    cyclic: names of cyclic coordinates, "phi psi", with momenta called p_phi, p_psi; or a mapping from them to momenta of
+    your own. Forces, friction and constraints go with it, their cyclic velocities eliminated too; v = −∂R/∂p gives those
+    back. Goldstein §8.3 (there with the opposite sign). Only the cyclic velocities have to enter L quadratically.
 
     Raises NotASymmetryError when a coordinate is not cyclic, and DomainError, SingularError, InputError as `legendre`.
     """
-    if strangers := [str(q) for q in cyclic if q not in c.q]:
-        raise InputError(f"routhian: {', '.join(strangers)} not among the coordinates {c.q}: name some of these")
-    if bound := [str(q) for q in cyclic if not _vanishes(sp.diff(L, q))]:
+    c, L = system.c, system.L
+    chosen = _chosen(c, cyclic)
+    free = cyclic_coordinates(system)
+    if bound := [str(q) for q in chosen if q not in free]:
         raise NotASymmetryError(
-            f"routhian: L depends on {', '.join(bound)}: its momentum is not conserved; leave it among the coordinates"
+            f"routh: L, a force or a constraint depends on {', '.join(bound)}: its momentum is not conserved; leave it "
+            "among the coordinates"
         )
-    return _reduced("routhian", L, c, [c.v[c.q.index(q)] for q in cyclic], p)
+    places = [c.q.index(q) for q in chosen]
+    u, p = [c.v[i] for i in places], list(chosen.values())
+    taken = {*c.q, *c.v, *c.a, t} | (set() if isinstance(cyclic, Mapping) else L.free_symbols)
+    _check_momenta("routh", u, p, taken)
+    kept = [i for i in range(len(c.q)) if i not in places]
+    if not kept:
+        raise InputError("routh: every coordinate is cyclic: no coordinate is left to move; keep one")
+    velocities = _velocities("routh", L, u, p)
+    rest = Coordinates(*(tuple(names[i] for i in kept) for names in (c.q, c.v, c.a)))
+    put = dict(zip(u, velocities, strict=True))
+    forces = tuple(system.push[i].subs(put) for i in kept) if system.forces or system.dissipation != 0 else ()
+    rolling = tuple(f.subs(put) for f in system.rolling)
+    if entering := {*chosen} & set().union(*(e.free_symbols for e in (*forces, *rolling, *system.constraints))):
+        raise NotASymmetryError(
+            f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
+        )
+    return replace(
+        system, c=rest, lagrangian=_reduced(L, u, p, velocities), rolling=rolling, dissipation=sp.S.Zero, forces=forces
+    )
 
 
-def _reduced(where: str, L: sp.Expr, c: Coordinates, u: Sequence[sp.Symbol], p: Sequence[sp.Symbol]) -> sp.Expr:
-    """L − p·u at its stationary point in the velocities u: L|₀ − ½ (p − b)·A⁻¹(p − b), b = ∂L/∂u|₀, A = ∂²L/∂u∂u."""
-    if not u or len(p) != len(u) or len({*p}) != len(p) or {*p} & (L.free_symbols | {*c.q, *c.v, *c.a}):
+def _chosen(
+    c: Coordinates, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]
+) -> dict[sp.Symbol, sp.Expr]:
+    """The coordinates that are named, each with its momentum."""
+    by_name = {str(q): q for q in c.q}
+    names = cyclic.replace(",", " ").split() if isinstance(cyclic, str) else list(cyclic)
+    if strangers := [str(name) for name in names if str(name) not in by_name]:
+        raise InputError(f"routh: {', '.join(strangers)} not among the coordinates {c.q}: name some of these")
+    if not names or len({*map(str, names)}) != len(names):
+        raise InputError(f"routh: {cyclic!r} must name at least one cyclic coordinate, each once")
+    if isinstance(cyclic, Mapping):
+        return {by_name[str(name)]: sp.sympify(p) for name, p in cyclic.items()}
+    return {by_name[str(name)]: sp.Symbol(f"p_{name}", real=True) for name in names}
+
+
+def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], taken: set[sp.Basic]) -> None:
+    if len(p) != len(u) or set().union(*(e.free_symbols for e in p)) & taken:
         raise InputError(
-            f"{where}: momenta {tuple(p)} for the velocities {tuple(u)}: at least one velocity, and for each a symbol "
-            "of its own that L does not use; rename them"
+            f"{where}: momenta {tuple(p)} for the velocities {tuple(u)}: for each velocity a momentum of its own, in "
+            "symbols that are not used yet; rename them"
         )
+
+
+def _velocities(where: str, L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr]) -> list[sp.Expr]:
+    """u from p = b + A u, b = ∂L/∂u at u = 0, A = ∂²L/∂u∂u."""
     slope = gradient(L, u)
-    A = slope.jacobian(u)
-    if not all(_vanishes(sp.diff(entry, w)) for entry in A for w in u):
+    A = slope.jacobian(list(u))
+    if not _vanish([sp.diff(entry, w) for entry in A for w in u]):
         raise DomainError(
             f"{where}: L is not quadratic in {', '.join(map(str, u))}: p = ∂L/∂v is not linear there; "
             "solve it for the velocities by hand"
@@ -118,24 +190,25 @@ def _reduced(where: str, L: sp.Expr, c: Coordinates, u: Sequence[sp.Symbol], p: 
     at_rest = dict.fromkeys(u, 0)
     excess = sp.Matrix(list(p)) - slope.subs(at_rest)
     singular = f"{where}: ∂²L/∂v∂v is singular in {', '.join(map(str, u))}: p does not determine the velocities"
-    velocities = linear_solve(A.subs(at_rest), excess, f"{singular}; use fewer coordinates")
-    return L.subs(at_rest) - excess.dot(velocities) / 2
+    return list(linear_solve(A.subs(at_rest), excess, f"{singular}; use fewer coordinates"))
 
 
-def _vanishes(expression: sp.Expr) -> bool:
-    return decide_zero(expression).answer == "zero"
+def _reduced(L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], velocities: Sequence[sp.Expr]) -> sp.Expr:
+    """L − p·u at its stationary point, the velocities u = A⁻¹ (p − b):  L|₀ − ½ (p − b)·u."""
+    at_rest = dict.fromkeys(u, 0)
+    excess = sp.Matrix(list(p)) - gradient(L, u).subs(at_rest)
+    return L.subs(at_rest) - excess.dot(sp.Matrix(list(velocities))) / 2
 
 
-def _crossing(system: Constrained, xi: Sequence[sp.Expr]) -> sp.Matrix:
-    """G ξ, shape (k, 1): how fast the transformation leaves each constraint."""
-    return jacobian(system.g, system.c) * _field("G ξ", system.c, xi)
+def _vanish(expressions: Sequence[sp.Expr]) -> bool:
+    return all(decide_zero(e).answer == "zero" for e in expressions)
 
 
-def _field(where: str, c: Coordinates, xi: Sequence[sp.Expr]) -> sp.Matrix:
-    field = sp.Matrix(list(xi))
-    if len(field) != len(c.q) or field.free_symbols & {*c.v, *c.a}:
+def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
+    field = sp.Matrix([sp.sympify(component) for component in xi])
+    if len(field) != len(system.c.q) or field.free_symbols & {*system.c.a}:
         raise InputError(
-            f"{where}: ξ = {tuple(xi)}: a point transformation has one component ξ(q) for each of {c.q}, free of "
-            "velocities; write it so"
+            f"noether: ξ = {tuple(xi)}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "
+            "accelerations; write it so"
         )
     return field

@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import acceleration_bias, bias, jacobian, mass_matrix, total_derivative
+from lagrotor.mechanics import bias, mass_matrix, total_derivative
 from lagrotor.models.model import Array, Model, Observed, python_rate
 from lagrotor.numerics.codegen import Program, compile_program, solve_symmetric
 from lagrotor.numerics.integrate import Rate
@@ -28,7 +28,7 @@ def program(massive: bool, body: int) -> Program:
     """(theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → rates of the twelve."""
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
-    mass, G = mass_matrix(lagrangian, PAIR), jacobian(system.g, PAIR)
+    mass, G = mass_matrix(lagrangian, PAIR), system.rows
     force = -bias(lagrangian, PAIR)
     if body:
         i = 3 * (body - 1)
@@ -41,7 +41,7 @@ def program(massive: bool, body: int) -> Program:
     stages, free = solve_symmetric(mass, force.row_join(G.T), "m")
     lam = sp.Symbol("lam", real=True)
     row, acceleration, pull = G.row(0), free[:, 0], free[:, 1]
-    gamma = acceleration_bias(system.g, PAIR)[0]
+    gamma = system.gamma[0]
     stages.append((lam, -(row.dot(acceleration) + gamma) / row.dot(pull)))
     moved = acceleration + lam * pull
     accelerations = [moved[order.index(i)] for i in range(6)]

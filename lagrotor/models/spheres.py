@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from lagrotor.mechanics import acceleration_bias, bias, jacobian, mass_matrix, velocity_residual
+from lagrotor.mechanics import bias, mass_matrix
 from lagrotor.mechanics.lagrangian import linear_solve
 from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
 from lagrotor.numerics.codegen import Program, Stage, compile_program, solve_symmetric
@@ -43,10 +43,10 @@ def program(massive: bool, bar: bool, body: int) -> Program:
     """(r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; `body` 0: no force."""
     if bar and not massive:
         return _slim(body)
-    system, gyroscopic = axes_pair(bar)
+    system = axes_pair(bar)
     lagrangian = system.L if massive else system.L.subs(b, 0)
-    mass, G = mass_matrix(lagrangian, AXES), jacobian(system.g, AXES)
-    force = gyroscopic - bias(lagrangian, AXES)
+    mass, G = mass_matrix(lagrangian, AXES), system.rows
+    force = system.push - bias(lagrangian, AXES)
     if body:
         force[3 * body - 3 : 3 * body, 0] += sp.Matrix(FORCE)
     # M⁻¹ of the block matrix [[a, b], [b, a]] ⊗ 1.
@@ -57,7 +57,7 @@ def program(massive: bool, bar: bool, body: int) -> Program:
     assert (whole * mass).xreplace(dict(pivots)).applyfunc(sp.cancel) == sp.eye(6)
 
     free = whole * force
-    gamma = acceleration_bias(system.g, AXES)
+    gamma = system.gamma
     named_gamma = [(sp.Symbol(f"g_{i}", real=True), e) for i, e in enumerate(gamma)]
     # The gyroscopic part of G M⁻¹ Q vanishes where r . (r × r') does.
     right = -(G * free).applyfunc(lambda e: _on_constraint(e, bar)) - sp.Matrix([s for s, _ in named_gamma])
@@ -161,10 +161,10 @@ def generated(scene: Scene, pulsed: bool) -> tuple[Program, tuple[float, ...]]:
 @lru_cache(maxsize=8)
 def _projection_function(massive: bool, bar: bool) -> Any:
     """One Newton step onto the constraints and their rates, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
-    system, _ = axes_pair(bar)
+    system = axes_pair(bar)
     mass = mass_matrix(system.L if massive else system.L.subs(b, 0), AXES)
-    G, pull = jacobian(system.g, AXES), linear_solve(mass, jacobian(system.g, AXES).T, "the axes' mass matrix")
-    off = sp.Matrix(system.g).row_join(velocity_residual(system.g, AXES))
+    G, pull = system.rows, linear_solve(mass, system.rows.T, "the axes' mass matrix")
+    off = sp.Matrix(system.constraints).row_join(system.residual)
     stages, x = solve_symmetric(G * pull, off, "p")
     corrected = sp.Matrix([*AXES.q, *AXES.v]) - (pull * x[:, 0]).col_join(pull * x[:, 1])
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()))

@@ -8,7 +8,7 @@ import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import jacobian, mass_matrix, project_position, project_velocity
+from lagrotor.mechanics import project_position, project_velocity
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.pair.symbols import AXES, a, b, k
@@ -35,12 +35,12 @@ def consistent_scene(
         raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         raise InputError("consistent_scene: axes and rates must be finite")
-    system, _ = axes_pair()
+    system = axes_pair()
     values: dict[Any, float] = dict(zip((a, b), scene.inertias, strict=True))
     values[k] = (link or Link()).length / scene.rotor.length
-    mass = np.array(mass_matrix(system.L, AXES).subs(values), dtype=float)
-    g = sp.lambdify([AXES.q], [e.subs(values) for e in system.g])
-    G = sp.lambdify([AXES.q], jacobian(system.g, AXES).subs(values))
+    mass = np.array(system.mass.subs(values), dtype=float)
+    g = sp.lambdify([AXES.q], [e.subs(values) for e in system.constraints])
+    G = sp.lambdify([AXES.q], system.rows.subs(values))
 
     def residual(state: Array) -> Array:
         return np.array(g(state), dtype=float)

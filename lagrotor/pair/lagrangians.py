@@ -13,7 +13,7 @@ from typing import Literal
 
 import sympy as sp
 
-from lagrotor.mechanics import Constrained, Coordinates, momenta, total_derivative
+from lagrotor.mechanics import Coordinates, System, momenta, total_derivative
 from lagrotor.pair.symbols import (
     ANSATZ,
     AXES,
@@ -67,13 +67,13 @@ def pair_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
     return _rotor_energy(inertia, q[0], *v[:3]) + _rotor_energy(inertia, q[3], *v[3:])
 
 
-def pair_with_bar() -> Constrained:
+def pair_with_bar() -> System:
     """The exact pair in Euler angles: (6 coordinates, 1 constraint), the bar's energy included."""
     q = PAIR.q
     r1, r2 = axis(q[0], q[1]), axis(q[3], q[4])
     v1, v2 = (r.applyfunc(lambda e: total_derivative(e, PAIR)) for r in (r1, r2))
     lagrangian = pair_lagrangian(a) + b * sp.expand_trig(v1.dot(v2))
-    return Constrained(lagrangian, PAIR, (link_constraint(r1, r2),))
+    return System(PAIR, lagrangian, (link_constraint(r1, r2),))
 
 
 def link_constraint(r1: sp.Matrix, r2: sp.Matrix) -> sp.Expr:
@@ -95,10 +95,10 @@ def ansatz_integrals(inertia: sp.Expr = J) -> tuple[sp.Expr, sp.Expr]:
     return p[2], p[3]
 
 
-def axes_pair(bar: bool = True) -> tuple[Constrained, sp.Matrix]:
-    """The pair as two points on unit spheres: (system in the six components, gyroscopic forces (6, 1)).
+def axes_pair(bar: bool = True) -> System:
+    """The pair as two points on unit spheres, in their six components.
 
-    After Routh reduction of the spins each axis feels G_i r_i × r_i'. Constraints: two unit lengths, and the bar's
+    After Routh reduction of the spins each axis feels the force G_i r_i × r_i'. Constraints: two unit lengths, and the bar's
     if there is one. No coordinate is singular.
     """
     q, v = sp.Matrix(AXES.q), sp.Matrix(AXES.v)
@@ -107,7 +107,7 @@ def axes_pair(bar: bool = True) -> tuple[Constrained, sp.Matrix]:
     units = ((r1.dot(r1) - 1) / 2, (r2.dot(r2) - 1) / 2)
     constraints = (*units, link_constraint(r1, r2)) if bar else units
     forces = (G_1 * r1.cross(v1)).col_join(G_2 * r2.cross(v2))
-    return Constrained(lagrangian, AXES, constraints), forces
+    return System(AXES, lagrangian, constraints, forces=tuple(forces))
 
 
 def mercator_axis(u: sp.Expr, alpha: sp.Expr) -> sp.Matrix:

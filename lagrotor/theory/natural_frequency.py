@@ -7,7 +7,7 @@ from math import hypot, sqrt
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.perturbation import LinearSystem, linearise
+from lagrotor.mechanics import LinearSystem
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.symbols import AXES, G_1, G_2, K, a, b, ell, m
@@ -20,9 +20,7 @@ _G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)
 @cache
 def linear_pair() -> LinearSystem:
     """The coupled pair linearised at rest, in (x, y_1, y_2), for any spins and any bar."""
-    system, gyroscopic = axes_pair()
-    upright = dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True))
-    return linearise(system, upright, list(gyroscopic))
+    return axes_pair().linearise(dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True)))
 
 
 @cache

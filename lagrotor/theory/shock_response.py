@@ -19,7 +19,7 @@ import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.perturbation import LinearSystem
+from lagrotor.mechanics import LinearSystem
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import G_1, G_2, P_1, P_2, P_X, a, b
 from lagrotor.theory.closed_form import ClosedForm

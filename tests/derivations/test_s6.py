@@ -47,7 +47,7 @@ def test_only_the_count_of_modes_is_wrong() -> None:
 
 
 def test_without_the_bar_there_are_more_degrees_of_freedom() -> None:
-    assert degrees_of_freedom(axes_pair(bar=False)[0], NAMES["upright"]) == NAMES["without_spins"] + 1
+    assert degrees_of_freedom(axes_pair(bar=False), NAMES["upright"]) == NAMES["without_spins"] + 1
 
 
 def test_roots_in_numbers() -> None:

@@ -1,4 +1,4 @@
-"""Linear modes and Lindstedt–Poincaré series of textbook oscillators."""
+"""Lindstedt–Poincaré series of textbook oscillators."""
 
 from fractions import Fraction
 
@@ -9,9 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import Constrained, coordinates
 from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.mechanics.perturbation import lindstedt_poincare, linearise
+from lagrotor.mechanics.perturbation import lindstedt_poincare
 
 
 def value(series: FourierSeries, eps: float, phase: float) -> float:
@@ -94,31 +93,3 @@ def test_a_resonance_is_refused() -> None:
 
     with pytest.raises(SingularError, match="resonance"):
         lindstedt_poincare(residual, [sp.QQ.zero] * 2, [{1: sp.QQ.one}, {}], 3, sp.QQ)
-
-
-def test_linear_modes_of_a_double_pendulum() -> None:
-    # Equal masses and lengths, g = l = 1: w² = 2 ± sqrt 2.
-    c = coordinates("p q")
-    (p, q), (pv, qv) = c.q, c.v
-    lagrangian = pv**2 + qv**2 / 2 + pv * qv * sp.cos(p - q) + 2 * sp.cos(p) + sp.cos(q)
-    s = sp.Symbol("s")
-    polynomial = linearise(Constrained(lagrangian, c), {p: 0, q: 0}).characteristic(s)
-    assert sp.expand(polynomial - (s**4 + 4 * s**2 + 2)) == 0
-
-
-def test_linear_modes_in_redundant_coordinates() -> None:
-    """A mass on a horizontal circle held by a spring along y: x'' = 0 is bound by the constraint, w² = stiffness."""
-    c = coordinates("x y")
-    (x, y), (xv, yv) = c.q, c.v
-    k = sp.Symbol("k", positive=True)
-    system = Constrained((xv**2 + yv**2) / 2 - k * y**2 / 2, c, (x**2 + y**2 - 1,))
-    s = sp.Symbol("s")
-    linear = linearise(system, {x: 1, y: 0})
-    assert linear.basis.shape == (2, 1)
-    assert sp.expand(linear.characteristic(s) / linear.mass[0] - (s**2 + k)) == 0
-
-
-def test_a_place_that_is_no_equilibrium_is_refused() -> None:
-    c = coordinates("p")
-    with pytest.raises(SingularError, match="no equilibrium"):
-        linearise(Constrained(c.v[0] ** 2 / 2 + sp.cos(c.q[0]), c), {c.q[0]: 1})

@@ -1,0 +1,203 @@
+"""The equations of motion of a Lagrangian system with forces, friction and constraints, and time where it enters.
+
+    M a + h = Q + Gᵀ λ,        G v + b = 0,        G a + γ = 0.
+
+Q: the given forces less ∂D/∂v of Rayleigh's dissipation function D. The rows of G, b and γ come from the holonomic
+constraints g(q, t) = 0 (row ∂g/∂q, b = ∂g/∂t) and, after them, from the rolling constraints f(q, v, t) = 0, which are
+affine in the velocities (row ∂f/∂v, b what is left at v = 0); γ is the rest of the second, or first, time derivative.
+
+Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 1.5, 2.4, 2.7; Neimark & Fufaev, Dynamics of
+Nonholonomic Systems, ch. III.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError
+from lagrotor.mechanics import lagrangian as free
+from lagrotor.mechanics.constraints import dependent_rows
+from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, singular_mass, t, total_derivative
+
+
+@dataclass(frozen=True)
+class Equations:
+    """A Lagrangian L(q, v, t) in the coordinates c, and what else acts on it.
+
+    constraints: expressions g(q, t) that stay zero. rolling: expressions f(q, v, t), affine in the velocities, that stay
+    zero. dissipation: Rayleigh's function D(q, v, t), W. forces: the generalised forces Q(q, v, t), one for each
+    coordinate, or none.
+
+    Raises InputError for what does not make sense, with the way out.
+    """
+
+    c: Coordinates
+    lagrangian: sp.Expr
+    constraints: tuple[sp.Expr, ...] = ()
+    rolling: tuple[sp.Expr, ...] = ()
+    dissipation: sp.Expr = sp.S.Zero
+    forces: tuple[sp.Expr, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.c, Coordinates):
+            raise InputError(
+                f"System: {self.c!r} must be Coordinates: coordinates('theta phi') makes them; they come first"
+            )
+        for name in ("constraints", "rolling", "forces"):
+            given = getattr(self, name)
+            if isinstance(given, sp.Expr | str) or not isinstance(given, Sequence | sp.MatrixBase):
+                raise InputError(f"System: {name} = {given} must be a tuple of expressions: write ({given},)")
+            object.__setattr__(self, name, tuple(_expression(f"{name}[{i}]", e) for i, e in enumerate(given)))
+        object.__setattr__(self, "dissipation", _expression("dissipation", self.dissipation))
+        if self.forces and len(self.forces) != len(self.c.q):
+            raise InputError(
+                f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
+                "coordinate; give 0 where no force acts"
+            )
+        self._check_symbols()
+
+    def _check_symbols(self) -> None:
+        velocities, higher = {*self.c.v}, {*self.c.a}
+        for name in ("constraints", "rolling", "forces"):
+            for i, e in enumerate(getattr(self, name)):
+                _free_of(f"{name}[{i}]", e, higher, "an equation of motion gives them; write it without")
+                if name == "constraints":
+                    way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
+                    _free_of(f"constraints[{i}]", e, velocities, way)
+                elif name == "rolling":
+                    if not e.free_symbols & velocities:
+                        raise InputError(f"System: rolling[{i}] = {e} has no velocity: give it to constraints")
+                    slope = gradient(e, self.c.v)
+                    if any(decide_zero(entry).answer != "zero" for entry in slope.jacobian(list(self.c.v))):
+                        raise InputError(
+                            f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
+                            "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"
+                        )
+        _free_of("dissipation", self.dissipation, higher, "D depends on q, v and t alone")
+        if self.dissipation != 0 and not self.dissipation.free_symbols & velocities:
+            raise InputError(
+                f"System: dissipation = {self.dissipation} has no velocity: it is Rayleigh's function D(q, v) with the "
+                "force −∂D/∂v, k v**2/2 for linear friction"
+            )
+
+    @cached_property
+    def L(self) -> sp.Expr:
+        """The Lagrangian as an expression."""
+        L = _expression("L", self.lagrangian)
+        _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
+        return L
+
+    @cached_property
+    def mass(self) -> sp.Matrix:
+        """M = ∂²L/∂v∂v, shape (n, n)."""
+        return free.mass_matrix(self.L, self.c)
+
+    @cached_property
+    def bias(self) -> sp.Matrix:
+        """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
+        return free.bias(self.L, self.c)
+
+    @cached_property
+    def push(self) -> sp.Matrix:
+        """Q: the given forces less ∂D/∂v, shape (n, 1)."""
+        return free.force_column(self.forces or None, self.c, "System") - gradient(self.dissipation, self.c.v)
+
+    @cached_property
+    def residual(self) -> sp.Matrix:
+        """G v + b, shape (k, 1): the time derivatives of the constraints, and the rolling constraints; zero on a motion."""
+        found = [*(total_derivative(g, self.c) for g in self.constraints), *self.rolling]
+        return sp.Matrix(len(found), 1, found)
+
+    @cached_property
+    def rows(self) -> sp.Matrix:
+        """G, shape (k, n)."""
+        k, n = len(self.residual), len(self.c.q)
+        return sp.Matrix(k, n, lambda i, j: sp.diff(self.residual[i], self.c.v[j]))
+
+    @cached_property
+    def gamma(self) -> sp.Matrix:
+        """γ, shape (k, 1), so that the time derivative of `residual` is G a + γ."""
+        still = dict.fromkeys(self.c.a, 0)
+        return self.residual.applyfunc(lambda e: total_derivative(e, self.c).subs(still))
+
+    @cached_property
+    def multipliers(self) -> tuple[sp.Symbol, ...]:
+        """λ_1 … λ_k, the names of the multipliers in `motion` and `power`."""
+        return tuple(sp.Symbol(f"lambda_{i + 1}", real=True) for i in range(len(self.residual)))
+
+    @cached_property
+    def motion(self) -> sp.Matrix:
+        """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
+        lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
+        return free.euler_lagrange(self.L, self.c) - self.push - self.rows.T * lam
+
+    @cached_property
+    def energy(self) -> sp.Expr:
+        """The Jacobi integral E = v·∂L/∂v − L. `power` is its time derivative."""
+        return free.energy(self.L, self.c)
+
+    @cached_property
+    def power(self) -> sp.Expr:
+        """dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers; b as in `Equations`."""
+        moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))
+        work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
+        return self.push.dot(self.c.v) + work - sp.diff(self.L, t)
+
+
+def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
+    """(a, λ), shapes (n, 1) and (k, 1), at a state that satisfies the constraints, exact, by one division for each:
+
+        λ = −S⁻¹ (G M⁻¹ (Q − h) + γ),   S = G M⁻¹ Gᵀ,        a = M⁻¹ (Q − h + Gᵀ λ).
+
+    For small systems: the adjugate grows fast with their number of coordinates. Raises SingularError when det M or det S
+    vanishes identically.
+    """
+    M, G = system.mass, system.rows
+    # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
+    right = (system.push - system.bias).row_join(G.T)
+    solved = linear_solve(M, right, singular_mass("accelerations", M, system.c))
+    unbound, W = solved[:, :1], solved[:, 1:]
+    lam = -linear_solve(G * W, G * unbound + system.gamma, dependent_rows("accelerations", "det S = 0"))
+    return unbound + W * lam, lam
+
+
+def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
+    """n − rank G at one configuration. The rank is numerical: the singular values of G above rounding.
+
+    Raises InputError when a symbol of G has no value in `at`.
+    """
+    G = system.rows.subs(dict(at))
+    if G.free_symbols:
+        raise InputError(
+            f"degrees_of_freedom: {', '.join(sorted(map(str, G.free_symbols)))} without a value: "
+            "the rank of G belongs to one configuration; give every symbol a number"
+        )
+    k, n = G.shape
+    return n - int(np.linalg.matrix_rank(np.array(G.tolist(), dtype=float))) if k else n
+
+
+def _expression(name: str, given: Any) -> sp.Expr:
+    try:
+        e = sp.sympify(given, strict=True)
+    except (sp.SympifyError, TypeError):
+        raise InputError(f"System: {name} = {given!r} is no expression: build it from sympy symbols") from None
+    if not isinstance(e, sp.Expr):
+        raise InputError(f"System: {name} = {given!r} is no expression: build it from sympy symbols")
+    if moving := e.atoms(sp.Derivative, sp.core.function.AppliedUndef):
+        raise InputError(
+            f"System: {name} contains {', '.join(sorted(map(str, moving)))}: coordinates and velocities are plain "
+            "symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
+        )
+    if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+        raise InputError(f"System: {name} = {e} is not finite: correct it")
+    return e
+
+
+def _free_of(name: str, e: sp.Expr, unwanted: set[sp.Symbol], way: str) -> None:
+    if found := e.free_symbols & unwanted:
+        raise InputError(f"System: {name} contains {', '.join(sorted(map(str, found)))}: {way}")

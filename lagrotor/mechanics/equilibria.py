@@ -1,0 +1,165 @@
+"""Equilibria, exact: the conditions as polynomials in cosines, sines and lengths, solved factor by factor.
+
+One unknown after another is eliminated by a factor of degree one or two in it; what is found satisfies the conditions, or
+is not returned. Where no factor can be solved so, the equilibrium is refused with what to give.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrotor.algebra import decide_zero, normal_form
+from lagrotor.errors import InputError, NotExactError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import euler_lagrange, t
+
+_HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
+Solution = dict[sp.Symbol, sp.Expr]
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Values of the unknowns, `at`, and the conditions (relations) under which they are real and nothing is singular."""
+
+    at: Mapping[sp.Symbol, sp.Expr]
+    domain: tuple[sp.Basic, ...] = ()
+
+
+def equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol] = ()) -> tuple[Equilibrium, ...]:
+    """Configurations at rest where no force is left: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
+
+    unknowns: what to solve for, the coordinates unless others are named, as the momentum of a steady precession:
+    `top.routh("phi psi").equilibria("p_phi")`. Angles in sines and cosines are found between −π and π.
+
+    Raises InputError when the conditions depend on time, or cannot be solved exactly.
+    """
+    c = system.c
+    still = dict.fromkeys((*c.v, *c.a), 0)
+    lam = sp.Matrix(system.multipliers)
+    force = euler_lagrange(system.L, c).subs(still) - system.push.subs(still)
+    pulled = (system.rows.T * lam).subs(still) if len(lam) else sp.zeros(len(c.q), 1)
+    conditions = [e for e in (*(force - pulled), *system.constraints, *system.residual.subs(still)) if e != 0]
+    if any(t in e.free_symbols for e in conditions):
+        raise InputError("equilibria: a force or a constraint depends on time: there is no equilibrium; simulate it")
+    wanted = _unknowns(system, unknowns)
+    polynomials, pairs = _polynomials(conditions, wanted)
+    symbols = [*(x for pair in pairs.values() for x in pair), *wanted, *system.multipliers]
+    fixed = {q: q for q in c.q if q not in wanted and any(q in e.free_symbols for e in conditions)}
+    found: list[Equilibrium] = []
+    for solution in _solve(polynomials, symbols, {}):
+        equilibrium = _equilibrium(solution, wanted, pairs, fixed)
+        if equilibrium is not None and equilibrium not in found:
+            found.append(equilibrium)
+    return tuple(found)
+
+
+def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:
+    names = [*(unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns)]
+    known = {str(s): s for s in sorted(system.L.free_symbols | {*system.c.q} | system.push.free_symbols, key=str)}
+    if strangers := [str(name) for name in names if str(name) not in known]:
+        raise InputError(f"equilibria: {', '.join(strangers)} not in the system: solve for some of {', '.join(known)}")
+    return tuple(known[str(name)] for name in names) or system.c.q
+
+
+def _polynomials(
+    conditions: Sequence[sp.Expr], wanted: Sequence[sp.Symbol]
+) -> tuple[list[sp.Expr], dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]]:
+    """Numerators of the conditions, the cosine and sine of each wanted angle as symbols, tied by c² + s² = 1."""
+    forms = []
+    for e in conditions:
+        try:
+            forms.append(normal_form(e))
+        except NotExactError:
+            forms.append(sp.together(sp.expand_trig(e)))
+    pairs: dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]] = {}
+    for node in sorted(set().union(*(e.atoms(sp.cos, sp.sin) for e in forms)), key=sp.default_sort_key):
+        if node.free_symbols & {*wanted}:
+            name = str(node.args[0])
+            pairs.setdefault(node.args[0], (sp.Symbol(f"cos({name})", real=True), sp.Symbol(f"sin({name})", real=True)))
+    put = {f(u): symbol for u, pair in pairs.items() for f, symbol in zip((sp.cos, sp.sin), pair, strict=True)}
+    numerators = [sp.numer(sp.together(e.xreplace(put))) for e in forms]
+    angles = [q for u in pairs for q in u.free_symbols & {*wanted}]
+    mixed = {q for q in angles if angles.count(q) > 1 or any(q in e.free_symbols for e in numerators)}
+    if mixed or any(e.has(sp.Function) and e.atoms(sp.Function) & _holding(e, wanted) for e in numerators):
+        raise _unsolved(conditions, wanted)
+    return [*numerators, *(c**2 + s**2 - 1 for c, s in pairs.values())], pairs
+
+
+def _holding(e: sp.Expr, wanted: Sequence[sp.Symbol]) -> set[sp.Basic]:
+    return {node for node in e.atoms(sp.Function) if node.free_symbols & {*wanted}}
+
+
+def _solve(polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], known: Solution) -> Iterator[Solution]:
+    """Each way to make all polynomials zero, by factors of degree one or two in one unknown."""
+    left: list[list[sp.Expr]] = []
+    whole: list[sp.Expr] = []
+    for e in polynomials:
+        numerator = sp.numer(sp.together(sp.sympify(e).subs(known)))
+        if numerator == 0 or decide_zero(numerator).answer == "zero":
+            continue
+        whole.append(e)
+        factors = [f for f, _ in sp.factor_list(numerator)[1] if f.free_symbols & {*unknowns}]
+        if not factors:
+            return  # a condition on the parameters, which are independent
+        left.append(factors)
+    if not left:
+        yield known
+        return
+    branches = [[(f, *_easiest(f, unknowns)) for f in factors] for factors in left]
+    place = min(range(len(left)), key=lambda i: (max(effort for _, _, effort in branches[i]), len(branches[i])))
+    best, others = branches[place], whole[:place] + whole[place + 1 :]
+    if max(effort for _, _, effort in best) == _HOPELESS:
+        raise _unsolved([sp.Mul(*factors) for factors in left], unknowns)
+    for factor, x, _ in best:
+        for root in sp.roots(sp.Poly(factor, x)):
+            if root.is_real is not False:
+                put = {x: root}
+                yield from _solve(others, unknowns, {s: e.subs(put) for s, e in known.items()} | put)
+
+
+def _easiest(factor: sp.Expr, unknowns: Sequence[sp.Symbol]) -> tuple[sp.Symbol, int]:
+    """The unknown that this factor gives with the least effort: linear, then a plain quadratic."""
+    inside = [x for x in unknowns if x in factor.free_symbols]
+    efforts = []
+    for x in inside:
+        polynomial = sp.Poly(factor, x)
+        alone = not polynomial.LC().free_symbols & {*unknowns}
+        solved = alone and (polynomial.degree() == 1 or (polynomial.degree() == 2 and len(inside) == 1))
+        efforts.append((10 * polynomial.degree() + len(inside) if solved else _HOPELESS, str(x), x))
+    effort, _, x = min(efforts)
+    return x, effort
+
+
+def _equilibrium(
+    solution: Solution,
+    wanted: Sequence[sp.Symbol],
+    pairs: Mapping[sp.Expr, tuple[sp.Symbol, sp.Symbol]],
+    fixed: Mapping[sp.Symbol, sp.Expr],
+) -> Equilibrium | None:
+    """The solution in the coordinates themselves, where it is real; None where it is not."""
+    at: Solution = dict(fixed) | {x: solution[x] for x in wanted if x in solution}
+    domain: list[sp.Basic] = []
+    for u, (c, s) in pairs.items():
+        cosine, sine = solution.get(c), solution.get(s)
+        if cosine is None or sine is None:
+            return None
+        (angle,) = u.free_symbols & {*wanted}
+        if cosine.is_number and sine.is_number:
+            value = sp.atan2(sine, cosine)
+        else:
+            value = -sp.acos(cosine) if sine.could_extract_minus_sign() else sp.acos(cosine)
+            domain.append(sp.Le(sp.Abs(cosine), 1))
+        at[angle] = value * angle / u
+    for e in solution.values():
+        domain += [sp.Ge(p.base, 0) for p in e.atoms(sp.Pow) if p.exp == sp.S.Half and p.base.free_symbols]
+    domain = [d for d in dict.fromkeys(domain) if d != sp.true]
+    return None if sp.false in domain else Equilibrium(at, tuple(domain))
+
+
+def _unsolved(conditions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> InputError:
+    return InputError(
+        f"equilibria: {', '.join(f'{e} = 0' for e in conditions)} is not solved for {', '.join(map(str, unknowns))} by "
+        "factors of degree one or two: name another unknown that enters more simply (a momentum, a parameter), or put "
+        "numbers in and solve numerically"
+    )

@@ -1,0 +1,232 @@
+"""Small motion about an equilibrium or a steady motion: its linear system, modes, and the condition of its stability.
+
+Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 6; Merkin, Introduction to the Theory of Stability, chs. 4, 6;
+Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel forms).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.algebra import decide_zero, normal_form
+from lagrotor.errors import InputError, NotExactError, SingularError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.lagrangian import euler_lagrange, t
+
+_S = sp.Symbol("s")
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A solution Re(shape exp(rate t)): rate = i ω for an oscillation, 1/s; shape (n, 1) in the full coordinates."""
+
+    rate: sp.Expr
+    shape: sp.Matrix
+
+
+@dataclass(frozen=True)
+class LinearSystem:
+    """M a + C v + K q = 0 in independent small coordinates; `basis` (n, d) carries them to the full ones.
+
+    `gyroscopic` is C, with friction and nonconservative forces in it where there are any.
+    """
+
+    mass: sp.Matrix
+    gyroscopic: sp.Matrix
+    stiffness: sp.Matrix
+    basis: sp.Matrix
+
+    def characteristic(self, s: sp.Symbol) -> sp.Expr:
+        """det(s² M + s C + K), factored."""
+        return sp.factor(self._pencil(s).det(method="berkowitz"))
+
+    def _pencil(self, s: sp.Expr) -> sp.Matrix:
+        return s**2 * self.mass + s * self.gyroscopic + self.stiffness
+
+    def modes(self, values: Mapping[sp.Symbol, Any] | None = None) -> tuple[Mode, ...]:
+        """The modes, exact where the factors of the characteristic polynomial are of degree two in s or s²; with `values`
+        for every symbol, numbers, sorted by |rate|.
+
+        Raises InputError when neither is possible, or a symbol has no value.
+        """
+        if values is not None:
+            return self._numeric_modes(values)
+        found: list[Mode] = []
+        for factor, _ in sp.factor_list(sp.numer(sp.together(self.characteristic(_S))))[1]:
+            if factor.has(_S):
+                for rate in _roots(sp.Poly(factor, _S)):
+                    space = self._pencil(rate).applyfunc(_reduce).nullspace(iszerofunc=_is_zero)
+                    found += [Mode(rate, (self.basis * vector).applyfunc(_reduce)) for vector in space]
+        return tuple(found)
+
+    def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
+        parts = [m.subs(dict(values)) for m in (self.mass, self.gyroscopic, self.stiffness, self.basis)]
+        if missing := set().union(*(m.free_symbols for m in parts)):
+            raise InputError(
+                f"modes: {', '.join(sorted(map(str, missing)))} without a value: give every symbol a number"
+            )
+        M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in parts)
+        d = len(M)
+        below = np.linalg.solve(M, np.hstack([-K, -C]))
+        rates, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((d, d)), np.eye(d)]), below]))
+        order = sorted(range(2 * d), key=lambda i: (round(float(abs(rates[i])), 9), rates[i].imag))
+        return tuple(Mode(sp.sympify(complex(rates[i])), sp.Matrix(basis @ vectors[:d, i])) for i in order)
+
+    @cached_property
+    def stable_if(self) -> sp.Basic:
+        """When every mode stays bounded or decays, as a condition on the parameters, sufficient and, but for equality,
+        necessary.
+
+        Without friction (det(s² M + s C + K) even in s): all roots s² real, negative and distinct: the coefficients and
+        the Hankel minors of the roots' power sums are positive. Otherwise: the Routh–Hurwitz determinants are positive.
+        Factors that are positive by the symbols' assumptions are divided out. Zero roots, of cyclic coordinates, are left
+        aside.
+        """
+        polynomial = sp.Poly(self.characteristic(_S), _S)
+        coefficients = [_reduce(c) for c in polynomial.all_coeffs()]
+        while coefficients and _is_zero(coefficients[-1]):
+            coefficients.pop()
+        even = all(_is_zero(c) for c in coefficients[1::2])
+        return _conjunction(_all_negative(coefficients[::2]) if even else _hurwitz(coefficients))
+
+
+def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> LinearSystem:
+    """The linear system about an equilibrium, in a basis of the null space of the constraints.
+
+    at: values of the coordinates on which the motion depends; velocities are zero unless given (a steady motion in a
+    coordinate on which nothing depends), and a parameter may be given too. Where the equations are 0/0 there, they are
+    first reduced.
+
+    Raises SingularError when the point is no equilibrium, or a singular one of these coordinates; InputError when
+    something depends on time.
+    """
+    c = system.c
+    point = dict(at.at if isinstance(at, Equilibrium) else at)
+    used = system.motion.free_symbols | system.residual.free_symbols
+    if missing := [str(q) for q in c.q if q not in point and q in used]:
+        raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
+    still = dict.fromkeys((*c.v, *c.a), 0) | point
+    motion = euler_lagrange(system.L, c) - system.push
+    if moving := [str(q) for q, v in zip(c.q, c.v, strict=True) if q in used and still[v] != 0]:
+        raise InputError(f"linearise: {', '.join(moving)} moves there and enters the equations: give it no velocity")
+    if any(decide_zero(sp.diff(e, t)).answer != "zero" for e in (*motion, *system.residual)):
+        raise InputError("linearise: the motion depends on time explicitly: there is no equilibrium; simulate it")
+    force = _value(motion, still, c.q)
+    G = _value(system.rows, still, c.q)
+    lam = _held_by(force, G, at)
+    held = motion - system.rows.T * lam
+    tangent = G.nullspace(iszerofunc=_is_zero)
+    basis = sp.Matrix.hstack(*tangent) if G.rows else sp.eye(len(c.q))
+    mass, gyroscopic, stiffness = (
+        (basis.T * _value(held.jacobian(list(names)), still, c.q) * basis).applyfunc(_reduce)
+        for names in (c.a, c.v, c.q)
+    )
+    return LinearSystem(mass, gyroscopic, stiffness, basis)
+
+
+def _held_by(force: sp.Matrix, G: sp.Matrix, at: Any) -> sp.Matrix:
+    """The multipliers that hold the point: force = Gᵀ λ."""
+    normal = G * G.T
+    lam = normal.inv(method="ADJ") * G * force if G.rows else sp.zeros(0, 1)
+    left = [decide_zero(e).answer for e in force - G.T * lam]
+    # What `equilibria` solved is an equilibrium, also where its roots are outside the class that is decided.
+    if "nonzero" in left or ("undecided" in left and not isinstance(at, Equilibrium)):
+        raise SingularError(f"linearise: {at} is no equilibrium: a force is left over; start from one")
+    return lam
+
+
+def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol, ...]) -> sp.Matrix:
+    """A matrix at the point, parameters first; an entry that is 0/0 there is reduced before."""
+    parameters = {s: value for s, value in still.items() if s not in q}
+
+    def value(entry: sp.Expr) -> sp.Expr:
+        entry = entry.subs(parameters, simultaneous=True)
+        found = entry.subs(still, simultaneous=True)
+        if found.has(sp.nan, sp.zoo, sp.oo):
+            try:
+                found = normal_form(entry).subs(still, simultaneous=True)
+            except NotExactError:
+                found = sp.nan
+        if found.has(sp.nan, sp.zoo, sp.oo):
+            raise SingularError(
+                f"linearise: {entry} is singular at {dict(still)}: use coordinates that are regular there"
+            )
+        return found
+
+    return matrix.applyfunc(value) if len(matrix) else matrix
+
+
+def _reduce(e: sp.Expr) -> sp.Expr:
+    """A shorter form of the same: unique where the class of decisions has one."""
+    try:
+        return sp.factor(normal_form(e))
+    except NotExactError:
+        return sp.factor(e)
+
+
+def _is_zero(e: sp.Expr) -> bool:
+    return e == 0 or decide_zero(e).answer == "zero"
+
+
+def _roots(factor: sp.Poly) -> list[sp.Expr]:
+    """Roots of a factor of degree one or two in s, or of degree one or two in s²."""
+    s = factor.gen
+    if factor.degree() <= 2:
+        return list(sp.roots(factor, multiple=True))
+    even = all(power % 2 == 0 for (power,) in factor.monoms())
+    if even and factor.degree() == 4:
+        squares = sp.roots(sp.Poly(factor.as_expr().subs(s, sp.sqrt(s)), s), multiple=True)
+        return [sign * sp.sqrt(square) for square in squares for sign in (1, -1)]
+    raise InputError(f"modes: {factor.as_expr()} = 0 is not solved in closed form: give values={{symbol: number, …}}")
+
+
+def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:
+    """What must be positive for a_0 x^n + … + a_n to have real, negative and distinct roots only."""
+    a = [_reduce(x / a[0]) for x in a]
+    n = len(a) - 1
+    sums: list[sp.Expr] = [sp.Integer(n)]
+    for k in range(1, 2 * n - 1):  # Newton's identities
+        total = sum((a[i] * sums[k - i] for i in range(1, min(k, n + 1)) if i <= n), sp.S.Zero)
+        sums.append(-total - (k * a[k] if k <= n else 0))
+    hankel = [sp.Matrix(m, m, lambda i, j: sums[i + j]).det(method="berkowitz") for m in range(2, n + 1)]
+    return [*a[1:], *hankel]
+
+
+def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
+    """The leading coefficient divided out, the coefficients and the Routh–Hurwitz determinants."""
+    a = [_reduce(x / a[0]) for x in a]
+    n = len(a) - 1
+
+    def entry(i: int, j: int) -> sp.Expr:
+        place = 2 * (j + 1) - (i + 1)
+        return a[place] if 0 <= place <= n else sp.S.Zero
+
+    return [*a[1:], *(sp.Matrix(m, m, entry).det(method="berkowitz") for m in range(2, n))]
+
+
+def _conjunction(expressions: list[sp.Expr]) -> sp.Basic:
+    """All of them positive: positive factors divided out, and what another one implies left out."""
+    kept = list(dict.fromkeys(part for e in expressions for part in _essential(e) if not part.is_positive))
+    if any(e.is_nonpositive for e in kept):
+        return sp.false
+    implied = {e for e in kept for other in kept if e != other and _exceeds(e, other)}
+    return sp.And(*(sp.Gt(e, 0) for e in kept if e not in implied))
+
+
+def _exceeds(e: sp.Expr, other: sp.Expr) -> bool:
+    """Whether e − other is a sum of terms that are not negative."""
+    return all(term.is_nonnegative for term in sp.Add.make_args(sp.expand(e - other)))
+
+
+def _essential(e: sp.Expr) -> list[sp.Expr]:
+    """What must be positive for e to be: its factors of odd power together, the squares of the others each."""
+    above, below = sp.fraction(sp.together(_reduce(e)))
+    coefficient, factors = sp.factor_list(above * below)
+    odd = [factor for factor, power in factors if power % 2 and not factor.is_positive]
+    product = sp.sign(coefficient) * sp.Mul(*odd)
+    return [sp.expand(product) if len(odd) == 1 else product, *(f**2 for f, power in factors if power % 2 == 0)]

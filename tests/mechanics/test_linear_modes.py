@@ -1,0 +1,190 @@
+"""Linear modes, equilibria and conditions of stability of textbook systems."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.algebra import decide_equal
+from lagrotor.errors import InputError, SingularError
+from lagrotor.mechanics import LinearSystem, System, coordinates, t
+
+m, l, g, k, R, Omega, I1, I3 = sp.symbols("m l g k R Omega I_1 I_3", positive=True)
+
+
+def test_linear_modes_of_a_double_pendulum() -> None:
+    # Equal masses and lengths, g = l = 1: w² = 2 ± sqrt 2.
+    c = coordinates("p q")
+    (p, q), (pv, qv) = c.q, c.v
+    lagrangian = pv**2 + qv**2 / 2 + pv * qv * sp.cos(p - q) + 2 * sp.cos(p) + sp.cos(q)
+    s = sp.Symbol("s")
+    polynomial = System(c, lagrangian).linearise({p: 0, q: 0}).characteristic(s)
+    assert sp.expand(polynomial - (s**4 + 4 * s**2 + 2)) == 0
+
+
+def test_linear_modes_in_redundant_coordinates() -> None:
+    """A mass on a horizontal circle held by a spring along y: x'' = 0 is bound by the constraint, w² = stiffness."""
+    c = coordinates("x y")
+    (x, y), (xv, yv) = c.q, c.v
+    k = sp.Symbol("k", positive=True)
+    system = System(c, (xv**2 + yv**2) / 2 - k * y**2 / 2, (x**2 + y**2 - 1,))
+    s = sp.Symbol("s")
+    linear = system.linearise({x: 1, y: 0})
+    assert linear.basis.shape == (2, 1)
+    assert sp.expand(linear.characteristic(s) / linear.mass[0] - (s**2 + k)) == 0
+
+
+def test_a_place_that_is_no_equilibrium_is_refused() -> None:
+    c = coordinates("p")
+    with pytest.raises(SingularError, match="no equilibrium"):
+        System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0])).linearise({c.q[0]: 1})
+
+
+def pendulum() -> System:
+    c = coordinates("theta")
+    return System(c, m * l**2 * c.v[0] ** 2 / 2 + m * g * l * sp.cos(c.q[0]))
+
+
+def hoop() -> System:
+    c = coordinates("theta")
+    spun = c.v[0] ** 2 + Omega**2 * sp.sin(c.q[0]) ** 2
+    return System(c, m * R**2 * spun / 2 + m * g * R * sp.cos(c.q[0]))
+
+
+def top() -> System:
+    """A symmetric top: I1 about its tip."""
+    c = coordinates("phi theta psi")
+    theta, (phi_v, theta_v, psi_v) = c.q[1], c.v
+    turning = I1 * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2
+    return System(c, turning / 2 - m * g * l * sp.cos(theta))
+
+
+def test_a_pendulum_hangs_stably_and_stands_unstably() -> None:
+    found = pendulum().equilibria()
+    (theta,) = pendulum().c.q
+    assert [dict(e.at) for e in found] == [{theta: 0}, {theta: sp.pi}]
+    hanging, standing = (pendulum().linearise(e) for e in found)
+    assert hanging.stable_if == sp.true and standing.stable_if == sp.false
+    assert {mode.rate**2 for mode in hanging.modes()} == {-g / l}
+
+
+def test_a_bead_leaves_the_lowest_point_when_the_hoop_turns_faster_than_g_over_R() -> None:
+    """Goldstein, problem 2.17: cos theta = g/(R Omega²), stable where it exists; the bottom is stable below."""
+    system = hoop()
+    theta = system.c.q[0]
+    found = {e.at[theta]: e for e in system.equilibria()}
+    tilted = sp.acos(g / (R * Omega**2))
+    assert set(found) == {0, sp.pi, tilted, -tilted}
+    assert system.linearise(found[0]).stable_if == (g - R * Omega**2 > 0)
+    assert system.linearise(found[tilted]).stable_if == (R * Omega**2 - g > 0)
+    assert sp.Le(g / (R * Omega**2), 1) in found[tilted].domain
+
+
+def test_a_top_sleeps_when_its_momentum_squared_exceeds_4_I1_m_g_l() -> None:
+    """Goldstein §5.7. Upright, both momenta are equal, and the Routhian is 0/0 there: it is reduced first."""
+    p = sp.Symbol("p", real=True)
+    upright = top().routh({"phi": p, "psi": p}).linearise({top().c.q[1]: 0})
+    assert upright.stable_if == sp.Gt(p**2 - 4 * I1 * m * g * l, 0)
+    # The same from two regular angles, where the gyroscopic term is at work.
+    c = coordinates("a b psi")
+    (a, b, _), (a_v, b_v, psi_v) = c.q, c.v
+    across = a_v**2 * sp.cos(b) ** 2 + b_v**2
+    regular = System(c, (I1 * across + I3 * (psi_v + a_v * sp.sin(b)) ** 2) / 2 - m * g * l * sp.cos(a) * sp.cos(b))
+    assert regular.routh({"psi": p}).linearise({a: 0, b: 0}).stable_if == sp.Gt(p**2 - 4 * I1 * m * g * l, 0)
+    # Equal momenta are needed: with others the upright place is singular.
+    with pytest.raises(SingularError, match="singular at"):
+        top().routh("phi psi").linearise({top().c.q[1]: 0})
+
+
+def test_steady_precession_is_solved_for_the_momentum_where_the_angle_is_a_quartic() -> None:
+    reduced = top().routh("phi psi")
+    with pytest.raises(InputError, match="name another unknown"):
+        reduced.equilibria()
+    found = reduced.equilibria("p_phi")
+    assert len(found) == 2
+    # Against the quadratic of the precession rate, I1 cos(theta) n² − p_psi n + m g l = 0 with p_phi = I1 n sin² + p_psi cos.
+    values = {I1: 0.7, m: 1.1, g: 9.81, l: 0.4, sp.Symbol("p_psi", real=True): 5.0, top().c.q[1]: 0.6}
+    rates = np.roots([0.7 * np.cos(0.6), -5.0, 1.1 * 9.81 * 0.4])
+    expected = sorted(0.7 * n * np.sin(0.6) ** 2 + 5.0 * np.cos(0.6) for n in rates)
+    solved = sorted(float(e.at[sp.Symbol("p_phi", real=True)].subs(values)) for e in found)
+    assert solved == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_rod_holds_its_pendulum_by_a_multiplier() -> None:
+    """x² + y² = l²: hanging, the linear stiffness comes from the rod's force alone; w² = g/l."""
+    c = coordinates("x y")
+    (x, y), (x_v, y_v) = c.q, c.v
+    rod = System(c, m * (x_v**2 + y_v**2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
+    assert [dict(e.at) for e in rod.equilibria()] == [{x: 0, y: -l}, {x: 0, y: l}] or len(rod.equilibria()) == 2
+    hanging = rod.linearise({x: 0, y: -l})
+    assert decide_equal(hanging.stiffness[0] / hanging.mass[0], g / l).answer == "zero"
+    assert rod.linearise({x: 0, y: l}).stable_if == sp.false
+
+
+def test_friction_makes_the_condition_of_routh_and_hurwitz() -> None:
+    """A follower-free pair: s² + c s + k is stable for k > 0 alone; a negative friction never."""
+    c, w = coordinates("x"), sp.Symbol("w", real=True)
+    damped = System(c, c.v[0] ** 2 / 2 - w * c.q[0] ** 2 / 2, dissipation=k * c.v[0] ** 2 / 2)
+    assert damped.linearise({c.q[0]: 0}).stable_if == sp.Gt(w, 0)
+    driven = System(c, c.v[0] ** 2 / 2 - w * c.q[0] ** 2 / 2, forces=(k * c.v[0],))
+    assert driven.linearise({c.q[0]: 0}).stable_if == sp.false
+
+
+def test_a_steady_turn_is_linearised_with_its_velocity() -> None:
+    """A spherical pendulum that turns at the rate Omega: the frequency of its nutation, Omega² (1 + 3 cos² theta)."""
+    c = coordinates("theta phi")
+    (theta, phi), (theta_v, phi_v) = c.q, c.v
+    L = m * l**2 * (theta_v**2 + sp.sin(theta) ** 2 * phi_v**2) / 2 + m * g * l * sp.cos(theta)
+    tilt = sp.Symbol("theta_0", real=True)
+    steady = System(c, L.subs(g, l * Omega**2 * sp.cos(tilt))).linearise({theta: tilt, phi_v: Omega})
+    s = sp.Symbol("s")
+    squared = steady.characteristic(s) / (steady.mass.det() * s**2) - s**2
+    assert decide_equal(squared, Omega**2 * (1 + 3 * sp.cos(tilt) ** 2)).answer == "zero"
+    with pytest.raises(SingularError, match="no equilibrium"):
+        System(c, L).linearise({theta: tilt, phi_v: Omega})
+    with pytest.raises(InputError, match="phi moves there and enters"):
+        System(c, L + sp.cos(phi)).linearise({theta: 0, phi: 0, phi_v: Omega})
+
+
+def test_points_are_complete_and_time_has_no_equilibrium() -> None:
+    with pytest.raises(InputError, match="theta without a value"):
+        pendulum().linearise({})
+    c = coordinates("x")
+    shaken = System(c, c.v[0] ** 2 / 2 - t * c.q[0] ** 2)
+    with pytest.raises(InputError, match="simulate it"):
+        shaken.equilibria()
+    with pytest.raises(InputError, match="simulate it"):
+        shaken.linearise({c.q[0]: 0})
+    with pytest.raises(InputError, match="nothing not in the system"):
+        pendulum().equilibria("nothing")
+
+
+def test_modes_are_numbers_where_no_closed_form_is() -> None:
+    c = coordinates("x y z")
+    springs = sum((k + i) * (a - b) ** 2 for i, (a, b) in enumerate(zip(c.q, (*c.q[1:], 0), strict=True)))
+    linear = System(c, sum(v**2 for v in c.v) / 2 - springs / 2).linearise(dict.fromkeys(c.q, 0))
+    with pytest.raises(InputError, match="give values"):
+        linear.modes()
+    found = linear.modes({k: 2.0})
+    stiffness = np.array(linear.stiffness.subs(k, 2.0).tolist(), float)
+    expected = np.sqrt(np.linalg.eigvalsh(stiffness)).repeat(2)
+    assert [abs(complex(mode.rate)) for mode in found] == pytest.approx(expected.tolist(), rel=1e-12)
+    with pytest.raises(InputError, match="k without a value"):
+        linear.modes({})
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.integers(-4, 4), min_size=4, max_size=4))
+def test_the_condition_of_stability_says_what_the_eigenvalues_say(entries: list[int]) -> None:
+    """Random gyroscopic systems of two coordinates, exact condition against numeric roots, away from the border."""
+    b, p, q, r = entries
+    K, C = sp.Matrix([[p, q], [q, r]]), sp.Matrix([[0, b], [-b, 0]])
+    linear = LinearSystem(sp.eye(2), C, K, sp.eye(2))
+    s = sp.Symbol("s")
+    squares = np.roots([float(x) for x in sp.Poly(linear.characteristic(s), s).all_coeffs()[::2]])
+    gap = min(abs(squares[0] - squares[1]), *abs(squares))
+    if gap < 1e-6:
+        return
+    stable = bool((abs(squares.imag) < 1e-9).all() and (squares.real < 0).all())
+    assert bool(linear.stable_if) is stable

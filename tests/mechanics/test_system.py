@@ -1,0 +1,267 @@
+"""Systems with time, forces, friction and velocity constraints: textbook equations, laws of energy, refusals."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.algebra import decide_equal, decide_zero
+from lagrotor.errors import InputError, NotASymmetryError
+from lagrotor.mechanics import System, constrained_accelerations, coordinates, t, total_derivative
+
+m, l, g, k, R, Omega, A, w = sp.symbols("m l g k R Omega A omega", positive=True)
+ANGLE = coordinates("theta")
+(theta,), (theta_v,), (theta_a,) = ANGLE.q, ANGLE.v, ANGLE.a
+SPACE = coordinates("x y z")
+PARTICLE = m * sum(v**2 for v in SPACE.v) / 2 - m * g * SPACE.q[2]
+
+
+def bead_on_a_hoop() -> System:
+    """A bead on a hoop that turns about the vertical at the rate Omega; theta from the lowest point."""
+    return System(ANGLE, m * R**2 * (theta_v**2 + Omega**2 * sp.sin(theta) ** 2) / 2 + m * g * R * sp.cos(theta))
+
+
+def driven_bead() -> System:
+    """The same from the particle in space, its place given in theta and the time."""
+    place = (R * sp.sin(theta) * sp.cos(Omega * t), R * sp.sin(theta) * sp.sin(Omega * t), -R * sp.cos(theta))
+    return System(SPACE, PARTICLE).in_coordinates(ANGLE, dict(zip(SPACE.q, place, strict=True)))
+
+
+def kapitza() -> System:
+    """A pendulum on a pivot that is shaken by A cos(omega t) up and down; theta from below."""
+    height = A * sp.cos(w * t) - l * sp.cos(theta)
+    place = {SPACE.q[0]: l * sp.sin(theta), SPACE.q[1]: sp.S.Zero, SPACE.q[2]: height}
+    return System(SPACE, PARTICLE).in_coordinates(ANGLE, place)
+
+
+def test_time_in_the_lagrangian_enters_the_equation_of_motion() -> None:
+    """Landau & Lifshitz §30: l theta'' = −(g − A omega² cos omega t) sin theta."""
+    expected = -(g - A * w**2 * sp.cos(w * t)) * sp.sin(theta) / l
+    found = constrained_accelerations(kapitza())[0][0]
+    assert decide_equal(found, expected).answer == "zero"
+    # The twin that drops ∂/∂t of the momentum moves otherwise.
+    L = kapitza().L
+    dropped = -(total_derivative(sp.diff(L, theta_v), ANGLE) - sp.diff(L, theta_v, t) - sp.diff(L, theta)).subs(
+        theta_a, 0
+    )
+    assert decide_equal(dropped / (m * l**2), expected).answer == "nonzero"
+
+
+def test_a_bead_seen_from_the_ground_moves_as_the_bead_seen_from_the_hoop() -> None:
+    decision = driven_bead().same_as(bead_on_a_hoop())
+    assert decision.answer == "zero"
+    slower = bead_on_a_hoop().L.subs(Omega, Omega / 2)
+    other = driven_bead().same_as(System(ANGLE, slower))
+    assert other.answer == "nonzero" and other.witness is not None
+
+
+def test_the_jacobi_integral_of_the_hoop_is_conserved_and_the_energy_is_not() -> None:
+    bead, seen = bead_on_a_hoop(), driven_bead()
+    assert bead.conserved(bead.energy).answer == "zero"
+    assert bead.power == 0
+    kinetic_and_potential = bead.energy + m * R**2 * Omega**2 * sp.sin(theta) ** 2
+    assert seen.conserved(kinetic_and_potential).answer == "nonzero"
+    # The law of energy holds for the driven one too.
+    moved = total_derivative(seen.energy, ANGLE).subs(theta_a, constrained_accelerations(seen)[0][0])
+    assert decide_equal(moved, seen.power).answer == "zero"
+
+
+def test_a_moving_constraint_gives_the_motion_of_its_solution_and_its_power() -> None:
+    """A particle on a turning straight wire, y = x tan(Omega t): along it r'' = Omega² r."""
+    c = coordinates("x y")
+    (x, y), (x_v, y_v) = c.q, c.v
+    wire = System(c, m * (x_v**2 + y_v**2) / 2, (y * sp.cos(Omega * t) - x * sp.sin(Omega * t),))
+    r = coordinates("r")
+    place = {x: r.q[0] * sp.cos(Omega * t), y: r.q[0] * sp.sin(Omega * t)}
+    solved = wire.in_coordinates(r, place)
+    assert solved.constraints == ()
+    (along,) = constrained_accelerations(solved)[0]
+    assert decide_equal(along, Omega**2 * r.q[0]).answer == "zero"
+    a, lam = constrained_accelerations(wire)
+    on_wire = place | {v: total_derivative(e, r) for v, e in zip(c.v, place.values(), strict=True)}
+    carried = [total_derivative(total_derivative(e, r), r).subs(r.a[0], along) for e in place.values()]
+    assert decide_equal(a.subs(on_wire), sp.Matrix(carried)).answer == "zero"
+    # dE/dt = −λ ∂g/∂t: the wire does work on the particle, m Omega² r r' + m r Omega² r' .
+    work = wire.power.subs(wire.multipliers[0], lam[0]).subs(on_wire)
+    assert decide_equal(work, 2 * m * Omega**2 * r.q[0] * r.v[0]).answer == "zero"
+
+
+def test_friction_and_forces_feed_the_energy_by_their_power() -> None:
+    drive = A * sp.cos(w * t)
+    L = m * l**2 * theta_v**2 / 2 + m * g * l * sp.cos(theta)
+    pendulum = System(ANGLE, L, dissipation=k * theta_v**2 / 2, forces=(drive,))
+    expected = (-m * g * l * sp.sin(theta) - k * theta_v + drive) / (m * l**2)
+    assert decide_equal(constrained_accelerations(pendulum)[0][0], expected).answer == "zero"
+    assert decide_equal(pendulum.power, drive * theta_v - k * theta_v**2).answer == "zero"
+    moved = total_derivative(pendulum.energy, ANGLE).subs(theta_a, expected)
+    assert decide_equal(moved, pendulum.power).answer == "zero"
+
+
+def sleigh() -> System:
+    """Chaplygin's sleigh: a blade at (x, y) along phi, the centre of mass the distance l ahead of it."""
+    c = coordinates("x y phi")
+    (_, _, phi), (x_v, y_v, phi_v) = c.q, c.v
+    J = sp.Symbol("J", positive=True)
+    centre = (x_v - l * phi_v * sp.sin(phi)) ** 2 + (y_v + l * phi_v * sp.cos(phi)) ** 2
+    return System(c, m * centre / 2 + J * phi_v**2 / 2, rolling=(y_v * sp.cos(phi) - x_v * sp.sin(phi),))
+
+
+def test_chaplygins_sleigh_has_its_equations() -> None:
+    """Neimark & Fufaev, ch. II: u' = l omega², (J + m l²) omega' = −m l omega u, u the speed along the blade."""
+    system = sleigh()
+    phi, (x_v, y_v, phi_v) = system.c.q[2], system.c.v
+    u = sp.Symbol("u", real=True)
+    rolling = {x_v: u * sp.cos(phi), y_v: u * sp.sin(phi)}
+    a, _ = constrained_accelerations(system)
+    speed = x_v * sp.cos(phi) + y_v * sp.sin(phi)
+    moved = total_derivative(speed, system.c).subs(dict(zip(system.c.a, a, strict=True))).subs(rolling)
+    assert decide_equal(moved, l * phi_v**2).answer == "zero"
+    J = sp.Symbol("J", positive=True)
+    assert decide_equal(a[2].subs(rolling), -m * l * phi_v * u / (J + m * l**2)).answer == "zero"
+    # Holonomic reactions (d/dt of the constraint's gradient taken as a gradient of L) would keep phi' instead.
+    assert decide_equal(a[2].subs(rolling), 0).answer == "nonzero"
+    assert system.power == 0
+
+
+def test_the_momentum_of_a_sleigh_is_not_conserved_though_x_is_absent() -> None:
+    """x does not enter L, but the blade's reaction has a component along it."""
+    system = sleigh()
+    assert system.cyclic == ()
+    with pytest.raises(NotASymmetryError, match="does not leave the motion invariant"):
+        system.noether((1, 0, 0))
+
+
+def test_a_gauge_term_makes_the_motion_of_the_centre_a_noether_integral() -> None:
+    """Galilean boosts: xi = t changes L by d(m x)/dt, and p t − m x stays."""
+    c = coordinates("x y")
+    boosted = System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - k * c.q[1])
+    found = boosted.noether((t, 0), gauge=m * c.q[0])
+    assert sp.expand(found.expression - (m * c.v[0] * t - m * c.q[0])) == 0
+    assert boosted.conserved(found.expression).answer == "zero"
+    with pytest.raises(NotASymmetryError, match="give gauge=F"):
+        boosted.noether((t, 0))
+
+
+def test_time_translation_is_the_field_v_with_gauge_L() -> None:
+    bead = bead_on_a_hoop()
+    assert decide_equal(bead.noether(ANGLE.v, gauge=bead.L).expression, bead.energy).answer == "zero"
+    driven = kapitza()
+    with pytest.raises(NotASymmetryError):
+        driven.noether(ANGLE.v, gauge=driven.L)
+
+
+def test_a_magnetic_translation_needs_its_gauge() -> None:
+    """A charge in a uniform field B, L = m v²/2 + B (x y' − y x')/2: x → x + e changes L by d(B y/2)/dt."""
+    c, B = coordinates("x y"), sp.Symbol("B", real=True)
+    (x, y), (x_v, y_v) = c.q, c.v
+    charge = System(c, m * (x_v**2 + y_v**2) / 2 + B * (x * y_v - y * x_v) / 2)
+    found = charge.noether((1, 0), gauge=B * y / 2)
+    assert sp.expand(found.expression - (m * x_v - B * y)) == 0
+    with pytest.raises(NotASymmetryError):
+        charge.noether((1, 0), gauge=-B * y / 2)
+
+
+def test_the_cyclic_velocity_comes_back_from_the_routhian() -> None:
+    """Routh there and back: phi' = −∂R/∂p at p = ∂L/∂phi'."""
+    c = coordinates("theta phi")
+    (th, _), (th_v, phi_v) = c.q, c.v
+    pendulum = System(c, m * l**2 * (th_v**2 + sp.sin(th) ** 2 * phi_v**2) / 2 + m * g * l * sp.cos(th))
+    assert pendulum.cyclic == (c.q[1],)
+    reduced = pendulum.routh("phi")
+    p = sp.Symbol("p_phi", real=True)
+    momentum = sp.diff(pendulum.L, phi_v)
+    assert decide_equal(-sp.diff(reduced.L, p).subs(p, momentum), phi_v).answer == "zero"
+    # L again, from R: L = R + p phi'.
+    assert decide_equal((reduced.L + p * phi_v).subs(p, momentum), pendulum.L).answer == "zero"
+    assert decide_zero(reduced.energy.subs(p, momentum) - pendulum.energy).answer == "zero"
+
+
+def test_what_acts_on_the_others_goes_along_with_the_routhian() -> None:
+    c = coordinates("r phi")
+    (r, phi), (r_v, phi_v) = c.q, c.v
+    L = m * (r_v**2 + r**2 * phi_v**2) / 2
+    p = sp.Symbol("p_phi", real=True)
+    dragged = System(c, L, dissipation=k * r_v**2 / 2, forces=(A * phi_v, 0)).routh("phi")
+    expected = (p**2 / (m * r**3) - k * r_v + A * p / (m * r**2)) / m
+    assert decide_equal(constrained_accelerations(dragged)[0][0], expected).answer == "zero"
+    with pytest.raises(NotASymmetryError, match="depends on phi"):
+        System(c, L, dissipation=k * phi_v**2 / 2).routh("phi")
+    with pytest.raises(NotASymmetryError, match="phi enters the forces"):
+        System(c, L, forces=(sp.sin(phi), 0)).routh("phi")
+
+
+def test_lagrangians_that_differ_by_a_factor_or_a_derivative_are_the_same_system() -> None:
+    bead = bead_on_a_hoop()
+    gauge = total_derivative(sp.sin(theta) * t**2, ANGLE)
+    assert System(ANGLE, bead.L + gauge).same_as(bead).answer == "zero"
+    assert System(ANGLE, 3 * bead.L).same_as(bead).answer == "zero"
+    assert System(ANGLE, bead.L + theta**2).same_as(bead).answer == "nonzero"
+
+
+def test_systems_in_other_coordinates_are_compared_in_common_ones() -> None:
+    c = coordinates("r phi")
+    with pytest.raises(InputError, match="in_coordinates"):
+        System(c, c.v[0] ** 2).same_as(bead_on_a_hoop())
+    with pytest.raises(InputError, match=r"x, y, z neither given nor among"):
+        System(SPACE, PARTICLE).in_coordinates(ANGLE, {})
+
+
+def test_constrained_systems_are_compared_as_far_as_it_can_be_decided() -> None:
+    c = coordinates("x y")
+    (x, y), (x_v, y_v) = c.q, c.v
+    L = m * (x_v**2 + y_v**2) / 2 - m * g * y
+    circle, squared = System(c, L, (x**2 + y**2 - l**2,)), System(c, L, ((x**2 + y**2 - l**2) / 2,))
+    assert circle.same_as(squared).answer == "zero"
+    assert circle.same_as(System(c, L, (x**2 + y**2 - l**2 + x,))).answer == "undecided"
+
+
+C = coordinates("x y")
+F = sp.Function("f")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"L": C.a[0]}, "L contains x_ddot"),
+        ({"L": F(t)}, r"plain symbols here; use those of coordinates"),
+        ({"L": "nonsense("}, "is no expression"),
+        ({"L": sp.nan}, "not finite"),
+        ({"constraints": (C.v[0],)}, "give it to rolling"),
+        ({"constraints": C.q[0]}, r"must be a tuple of expressions: write \(x,\)"),
+        ({"rolling": (C.q[0],)}, "give it to constraints"),
+        ({"rolling": (C.v[0] ** 2 - 1,)}, "not affine in the velocities"),
+        ({"forces": (1,)}, "1 forces for 2 coordinates"),
+        ({"forces": (C.a[0], 0)}, "contains x_ddot"),
+        ({"dissipation": C.q[0] ** 2}, "has no velocity"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_with_the_way_out(arguments: dict, message: str) -> None:
+    given_L = arguments.pop("L", C.v[0] ** 2 + C.v[1] ** 2)
+    with pytest.raises(InputError, match=message):
+        _ = System(C, given_L, **arguments).L
+
+
+def test_the_coordinates_come_first() -> None:
+    with pytest.raises(InputError, match="they come first"):
+        System(C.v[0] ** 2, C)
+    with pytest.raises(InputError, match="Coordinates: t repeated"):
+        coordinates("t")
+
+
+numbers = st.integers(-3, 3)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.lists(numbers, min_size=6, max_size=6), st.data())
+def test_the_law_of_energy_holds_for_any_driven_quadratic_system(terms: list[int], data: st.DataObject) -> None:
+    """dE/dt along the motion is `power`, for random mass, drive, friction and force, at random states."""
+    (x, y), (x_v, y_v) = C.q, C.v
+    a, b, d, e, f, h = terms
+    L = (2 + x**2) * x_v**2 / 2 + (3 + t**2) * y_v**2 / 2 + a * x_v * y_v / 4 + b * t * x * y_v - d * x * y * t
+    system = System(C, L, dissipation=(e**2 * x_v**2 + y_v**2) / 2, forces=(f * t, h * x_v))
+    state = {s: sp.Rational(data.draw(numbers), 2) for s in (*C.q, *C.v, t)}
+    moved = dict(zip(C.a, constrained_accelerations(system)[0].subs(state), strict=True))
+    left = total_derivative(system.energy, C).subs(moved).subs(state)
+    assert left == system.power.subs(state)
+    assert not np.isnan(float(left))
