@@ -12,8 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, WIDTH, AT = Link(mass=1, inertia=1), 1 / 50, 0.2
 AFTER = AT + 5 * WIDTH  # the shock is over
@@ -134,8 +133,8 @@ def decide_c02(m):
 
 
 # %%
-trials = [
-    Trial("C01", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c01, decide_c01),
-    Trial("C02", (10, -10), (0, 0), "exact pair (spheres), bar m = K = 1", measure_c02, decide_c02),
+tests = [
+    ClaimTest("C01", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c01, decide_c01),
+    ClaimTest("C02", (10, -10), (0, 0), "exact pair (spheres), bar m = K = 1", measure_c02, decide_c02),
 ]
-Heard(trials)
+tests

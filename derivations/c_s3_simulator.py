@@ -17,8 +17,7 @@ from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation, p
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, DT, S, D = Link(mass=1, inertia=1), 1e-3, 1e4, 250.0
 ROUNDING = 100 * np.finfo(float).eps  # what a few products of 3 × 3 matrices may lose
@@ -164,11 +163,11 @@ def decide_c05(m):
 
 
 # %%
-trials = [
-    Trial("C03", (10, 10), (0, 0), "one step of a rigid body", measure_c03, decide_c03),
-    Trial(
+tests = [
+    ClaimTest("C03", (10, 10), (0, 0), "one step of a rigid body", measure_c03, decide_c03),
+    ClaimTest(
         "C04", (10, 10), (0, 0), "spring-linked bodies, and one free body of unequal inertia", measure_c04, decide_c04
     ),
-    Trial("C05", (10, 10), (100, 100), "spring-linked bodies against the exact pair", measure_c05, decide_c05),
+    ClaimTest("C05", (10, 10), (100, 100), "spring-linked bodies against the exact pair", measure_c05, decide_c05),
 ]
-Heard(trials)
+tests

@@ -14,8 +14,7 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.models.spring_link.system import step_limit
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, LIGHT, DT = Link(mass=1, inertia=1), Link(mass=0.01, inertia=0.1), 1e-3
 N, OMEGA_S = 20, 10.0  # found under C08
@@ -278,10 +277,12 @@ def decide_c09(m):
 
 
 # %%
-trials = [
-    Trial("C06", (10, 10), (0, 0), "spring-linked bodies, S = 10^4 N/m, D = 250 kg/s", measure_c06, decide_c06),
-    Trial("C07", (10, 10), (0, 0), "spring-linked bodies with the printed rotation", measure_c07, decide_c07),
-    Trial("C08", (10, 10), (5, 5), "spring-linked bodies, the exact pair, the closed form", measure_c08, decide_c08),
-    Trial("C09", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c09, decide_c09),
+tests = [
+    ClaimTest("C06", (10, 10), (0, 0), "spring-linked bodies, S = 10^4 N/m, D = 250 kg/s", measure_c06, decide_c06),
+    ClaimTest("C07", (10, 10), (0, 0), "spring-linked bodies with the printed rotation", measure_c07, decide_c07),
+    ClaimTest(
+        "C08", (10, 10), (5, 5), "spring-linked bodies, the exact pair, the closed form", measure_c08, decide_c08
+    ),
+    ClaimTest("C09", (10, 10), (10, -10), "exact pair (spheres), bar m = K = 1", measure_c09, decide_c09),
 ]
-Heard(trials)
+tests

@@ -16,8 +16,7 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.spring_link.run import paper_system
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 MASSLESS, LIGHT, BAR = Link(), Link(mass=0.01, inertia=0.1), Link(mass=1, inertia=1)
 PAPER_R0, AMPLITUDES = 0.204, (0.051, 0.102, 0.204)
@@ -294,10 +293,10 @@ def decide_c17(m):
 # %%
 # No spins make C14 false, as a rotor at rest about its axis keeps that freedom: its foreign spins must come out alike, and
 # what the claim is not about is the pair without its bar, measure(spins, link=None).
-trials = [
-    Trial("C14", (10, -10), (0, 0), "exact pair (spheres), bar m = K = 1", measure_c14, decide_c14),
-    Trial("C15", (10, -10), (10, 10), "exact orbits; the paper's program for B", measure_c15, decide_c15),
-    Trial("C16", (10, -10), (10, 10), "exact orbit, massless bar", measure_c16, decide_c16),
-    Trial("C17", (10, -10), (10, 10), "exact orbits, massless bar", measure_c17, decide_c17),
+tests = [
+    ClaimTest("C14", (10, -10), (0, 0), "exact pair (spheres), bar m = K = 1", measure_c14, decide_c14),
+    ClaimTest("C15", (10, -10), (10, 10), "exact orbits; the paper's program for B", measure_c15, decide_c15),
+    ClaimTest("C16", (10, -10), (10, 10), "exact orbit, massless bar", measure_c16, decide_c16),
+    ClaimTest("C17", (10, -10), (10, 10), "exact orbits, massless bar", measure_c17, decide_c17),
 ]
-Heard(trials)
+tests

@@ -12,8 +12,7 @@ from math import pi
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 LIGHT, PAPER_R0 = Link(mass=0.01, inertia=0.1), 0.204
 
@@ -175,8 +174,8 @@ def decide_c19(m):
 
 
 # %%
-trials = [
-    Trial("C18", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c18, decide_c18),
-    Trial("C19", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c19, decide_c19),
+tests = [
+    ClaimTest("C18", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c18, decide_c18),
+    ClaimTest("C19", (10, -10), (10, 10), "exact pair (spheres), bar m = 0.01, K = 0.1", measure_c19, decide_c19),
 ]
-Heard(trials)
+tests

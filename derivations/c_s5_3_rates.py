@@ -17,8 +17,7 @@ from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, LIGHT, MIXED, MASSLESS = Link(1, 1, 1), Link(1, 0.01, 0.1), Link(1, 1, 0.1), Link()
 PAPER, SMALL, AT, WIDTH = 40.0, 0.4, 0.5, 1 / 20
@@ -292,10 +291,10 @@ def decide_c23(m):
 
 
 # %%
-trials = [
-    Trial("C20", (20, 20), (10, 10), "one rotor, exact (spheres) and with springs", measure_c20, decide_c20),
-    Trial("C21", (20, 20), (20, -20), "exact pair (spheres) and spring-linked bodies", measure_c21, decide_c21),
-    Trial("C22", (10, -10), (10, 10), "exact pair (spheres) and spring-linked bodies", measure_c22, decide_c22),
-    Trial("C23", (10, -10), (10, 10), "exact orbits; exact pair (minimal)", measure_c23, decide_c23),
+tests = [
+    ClaimTest("C20", (20, 20), (10, 10), "one rotor, exact (spheres) and with springs", measure_c20, decide_c20),
+    ClaimTest("C21", (20, 20), (20, -20), "exact pair (spheres) and spring-linked bodies", measure_c21, decide_c21),
+    ClaimTest("C22", (10, -10), (10, 10), "exact pair (spheres) and spring-linked bodies", measure_c22, decide_c22),
+    ClaimTest("C23", (10, -10), (10, 10), "exact orbits; exact pair (minimal)", measure_c23, decide_c23),
 ]
-Heard(trials)
+tests

@@ -15,8 +15,7 @@ import numpy as np
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.models.spring_link.run import paper_system, run_solver, run_steps
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, WIDTH, AT = Link(mass=1, inertia=1), 1 / 50, 0.2
 AFTER, FALLEN, PAPER_RUN = AT + 5 * WIDTH, 0.5, 8.0
@@ -316,10 +315,10 @@ def decide_c13(m):
 
 # %%
 EXACT = "exact pair (spheres), bar m = K = 1"
-trials = [
-    Trial("C10", (0, 0), (10, 10), f"spring-linked bodies; {EXACT}", measure_c10, decide_c10),
-    Trial("C11", (10, -10), (0, 0), EXACT, measure_c11, decide_c11),
-    Trial("C12", (10, -10), (10, 10), "exact pair (spheres), bar m = 1, K = 1 to 1000", measure_c12, decide_c12),
-    Trial("C13", (10, -10), (0, 0), EXACT, measure_c13, decide_c13),
+tests = [
+    ClaimTest("C10", (0, 0), (10, 10), f"spring-linked bodies; {EXACT}", measure_c10, decide_c10),
+    ClaimTest("C11", (10, -10), (0, 0), EXACT, measure_c11, decide_c11),
+    ClaimTest("C12", (10, -10), (10, 10), "exact pair (spheres), bar m = 1, K = 1 to 1000", measure_c12, decide_c12),
+    ClaimTest("C13", (10, -10), (0, 0), EXACT, measure_c13, decide_c13),
 ]
-Heard(trials)
+tests

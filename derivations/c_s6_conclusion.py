@@ -10,8 +10,7 @@ import numpy as np
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.pair.symbols import G_1, G_2, a, b, k
-from lagrotor.paper.notebook import Heard
-from lagrotor.paper.trials import Finding, Trial
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 from lagrotor.theory.natural_frequency import linear_pair
 
 BAR = Link(mass=1, inertia=1)
@@ -79,7 +78,7 @@ def decide_c24(m):
 
 
 # %%
-trials = [
-    Trial("C24", (10, -10), (10, 10), "linear pair; exact pair (spheres), bar m = K = 1", measure_c24, decide_c24),
+tests = [
+    ClaimTest("C24", (10, -10), (10, 10), "linear pair; exact pair (spheres), bar m = K = 1", measure_c24, decide_c24),
 ]
-Heard(trials)
+tests

@@ -6,17 +6,17 @@
 # predicted and found.
 #
 # **Assumptions.** $S = 10^4$ N/m, $D = 250$ kg/s ($n = 20$, $\omega_s = 10$ in 4.01), steps of 1 ms; the bar of mass 1
-# and inertia 1 unless said otherwise. The numbers are those of the claims' trials.
+# and inertia 1 unless said otherwise. The numbers are those of the tests of the claims.
 
 # %%
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.benchmark.limits.step_size import found_step_limit
 from lagrotor.models.spring_link.run import paper_system
 from lagrotor.models.spring_link.system import step_limit
+from lagrotor.paper.claim_tests import claim_tests
 from lagrotor.paper.tables import Table
-from lagrotor.paper.trials import hear, listed
 
-claims = {i: hear(listed()[i]).measured for i in ("C06", "C07", "C08", "C20", "C21", "C22")}
+claims = {i: claim_tests()[i].result.measured for i in ("C06", "C07", "C08", "C20", "C21", "C22")}
 BAR, LIGHT = Link(1, 1, 1), Link(1, 0.01, 0.1)
 
 # %% [markdown]

@@ -86,7 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
 
-    added = command("claims", claims_command, "put the paper's claims on trial", "lagrotor claims C08 C22 --json")
+    added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
 

@@ -64,23 +64,23 @@ def _known(identifier: str, ids: Collection[str]) -> str:
 
 
 def claims_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper import trials
+    from lagrotor.paper import claim_tests
     from lagrotor.paper.catalogue import claims
     from lagrotor.paper.record import changes, recorded
     from lagrotor.report.content import word
 
     wanted = frozenset(_known(identifier, claims()) for identifier in given.ids) or frozenset(claims())
     with progress(len(wanted)) as step:
-        results = trials.hear_all(step, wanted)
+        results = claim_tests.evaluate(step, wanted)
     if given.json:
-        print(trials.to_json(results))
+        print(claim_tests.to_json(results))
     else:
         for result in results:
-            identifier, finding = result.trial.id, result.finding
+            identifier, finding = result.test.id, result.finding
             print(wrapped(f"{identifier}  {claims()[identifier].text}", 5))
             print(wrapped(f"     {word(finding.outcome)}: {finding.explanation}", 5), end="\n\n")
     on_record = recorded()
-    return _compared(changes({r.trial.id: r.finding.outcome for r in results}, on_record, wanted), bool(on_record))
+    return _compared(changes({r.test.id: r.finding.outcome for r in results}, on_record, wanted), bool(on_record))
 
 
 def _compared(changes: list[str], on_record: bool) -> int:

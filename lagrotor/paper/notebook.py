@@ -1,17 +1,15 @@
 """What a notebook shows at the end of a derivation's cell, for what has no display of its own.
 
-Statements are judged and trials heard when they are shown, so that who runs a script for its names does not wait.
+Statements are judged when they are shown, so that importing a script stays fast.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from lagrotor.paper import scripts
-from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Statement, judge, verdict_table
 from lagrotor.paper.proof import Formula as Formula
 from lagrotor.paper.tables import Table
-from lagrotor.paper.trials import Trial, hear
 
 
 @dataclass(frozen=True)
@@ -33,21 +31,6 @@ class Judged:
 
     def _repr_html_(self) -> str:
         return verdict_table(map(judge, self.statements))._repr_html_()
-
-
-@dataclass(frozen=True)
-class Heard:
-    """What trials decide of the paper's claims; it takes their runs, some seconds."""
-
-    trials: Sequence[Trial] = field(repr=False)
-
-    def _repr_html_(self) -> str:
-        rows = []
-        for trial in self.trials:
-            finding = hear(trial).finding
-            outcome = tuple(filter(None, (finding.outcome, finding.condition)))
-            rows.append((f"{trial.id}: {claims()[trial.id].text}", outcome, finding.explanation))
-        return Table("Claims", ("claim", "outcome", "why"), tuple(rows))._repr_html_()
 
 
 def findings_table(findings: Iterable[tuple[str, str]]) -> Table:

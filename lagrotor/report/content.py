@@ -8,9 +8,9 @@ import sympy as sp
 
 from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equations
 from lagrotor.paper.catalogue import figures as papers_figures
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Relation, Verdict
 from lagrotor.paper.tables import Table
-from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.errata import corrected
 
@@ -54,7 +54,7 @@ CLAIM_MEANINGS = {
 class Report:
     """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
 
-    claims: the paper's claims after their trials; findings: (title, sentence) of what the derivations found besides;
+    claims: the paper's claims after their tests; findings: (title, sentence) of what the derivations found besides;
     tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings; speed, stability:
     tables of accuracy against cost, and of where methods fail; versions: (what, version) the run was made with;
     inputs: (what, SHA-256) of what it was made from.
@@ -109,7 +109,7 @@ class Report:
 
     def claims_about(self, identifier: str) -> tuple[str, ...]:
         """Ids of the claims, among those tried, that are about this equation."""
-        return tuple(r.trial.id for r in self.claims if identifier in claims()[r.trial.id].equations)
+        return tuple(r.test.id for r in self.claims if identifier in claims()[r.test.id].equations)
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
         """The figures, among those drawn, that show this equation, such as "figure 19"."""
@@ -213,7 +213,7 @@ _REACHES = {
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
     """The equations and figures that a claim is about, as far as they are in the report."""
-    entry, judged = claims()[result.trial.id], {verdict.id for verdict in report.verdicts}
+    entry, judged = claims()[result.test.id], {verdict.id for verdict in report.verdicts}
     drawn = {picture.key for picture in report.pictures}
     if ids := tuple(i for i in entry.equations if i in judged):
         yield Fact("Equations", ids=ids)
@@ -227,7 +227,7 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
     judged = {verdict.id for verdict in report.verdicts}
     if entry and (ids := tuple(i for i in entry.equations if i in judged)):
         yield Fact("Equations", ids=ids)
-    if ids := tuple(r.trial.id for r in report.claims if picture.key in claims()[r.trial.id].figures):
+    if ids := tuple(r.test.id for r in report.claims if picture.key in claims()[r.test.id].figures):
         yield Fact("Claims", ids=ids)
 
 

@@ -7,10 +7,10 @@ import sympy as sp
 
 from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import claims, equation
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
-from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
@@ -150,14 +150,14 @@ def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
 
 
 def _claim(result: Result, report: Report) -> str:
-    entry, finding = claims()[result.trial.id], result.finding
+    entry, finding = claims()[result.test.id], result.finding
     parts = [_place(anchor(entry.id)), f"### {entry.id} section {entry.section}: {word(finding.outcome)}"]
     parts += [f"> {_prose(entry.text)}", _prose(finding.explanation)]
     if finding.condition:
         parts.append(f"**If:** {_prose(finding.condition)}")
     parts += map(_fact, linked_facts(result, report))
     rows = [(_prose(name.replace("_", " ")), f"{value:.6g}") for name, value in result.measured.items()]
-    return "\n\n".join([*parts, _rows((f"Measured ({_prose(result.trial.model)})", "Value"), rows)])
+    return "\n\n".join([*parts, _rows((f"Measured ({_prose(result.test.model)})", "Value"), rows)])
 
 
 def _side_by_side(table: Table) -> list[str]:

@@ -3,8 +3,8 @@
 from html import escape
 
 from lagrotor.paper.catalogue import claims, equation
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
-from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
 from lagrotor.report.embed import embedded, size
@@ -63,14 +63,14 @@ def _beside(left: str, printed: str, right: str, derived: str) -> str:
 
 def claim_entry(result: Result, report: Report) -> str:
     """The claim in the paper's words, its outcome, what was measured."""
-    entry, finding = claims()[result.trial.id], result.finding
+    entry, finding = claims()[result.test.id], result.finding
     condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
     return (
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
         f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
         f"{fact_list(linked_facts(result, report))}"
-        f"{fold(f'Measured ({result.trial.model})', numbers('What', result.measured.items()))}</article>"
+        f"{fold(f'Measured ({result.test.model})', numbers('What', result.measured.items()))}</article>"
     )
 
 

@@ -6,14 +6,14 @@ import sys
 
 from lagrotor.benchmark.recorded_speed import renew_speed
 from lagrotor.files import write_text
-from lagrotor.paper import audit, trials
+from lagrotor.paper import audit, claim_tests
 from lagrotor.paper.record import RECORDED, OnRecord, as_text
 
 
 def renew() -> None:
     """Judge every equation, try every claim, and write the verdicts with what they use."""
     found = {v.id: OnRecord(v.verdict, v.statement.depends_on) for v in audit.audit()}
-    found |= {result.trial.id: OnRecord(result.finding.outcome) for result in trials.hear_all()}
+    found |= {result.test.id: OnRecord(result.finding.outcome) for result in claim_tests.evaluate()}
     write_text(RECORDED, as_text(found))
 
 

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.files import write_text
-from lagrotor.paper import audit, scripts, tables, trials
+from lagrotor.paper import audit, claim_tests, scripts, tables
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.notebook import findings
 from lagrotor.paper.record import OnRecord, changes, recorded
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.trials import Result
 from lagrotor.pictures import figures
 from lagrotor.pictures.figures import Picture
 from lagrotor.report import reuse
@@ -93,7 +93,7 @@ def reproduce(target: Path, progress: Progress) -> Outcome:
 
 def _steps(kept: Kept) -> int:
     """How many times `step` will be called."""
-    claims = sum(kept.last(f"claim {i}", reuse.foundation()) is None for i in trials.listed())
+    claims = sum(kept.last(f"claim {i}", reuse.foundation()) is None for i in claim_tests.claim_tests())
     drawn = sum(kept.last(f"figure {key}", _figure_from(stem)) is None for key, stem in figures.stems().items())
     return sum(len(scripts.names("derivations", prefix)) for prefix in f"s{_BESIDES}") + claims + drawn + 2
 
@@ -101,7 +101,7 @@ def _steps(kept: Kept) -> int:
 def _find(kept: Kept, on_record: dict[str, OnRecord], step: Callable[[str], None]) -> Report:
     """Everything that the report tells."""
     verdicts = audit.audit(progress=lambda stem: step(f"derivation {stem}"))
-    heard = _hear(kept, step)
+    results = _claims(kept, step)
     for prefix in _BESIDES:
         for stem in scripts.names("derivations", prefix):
             step(f"derivation {stem}")
@@ -109,8 +109,8 @@ def _find(kept: Kept, on_record: dict[str, OnRecord], step: Callable[[str], None
     return Report(
         verdicts=tuple(verdicts),
         pictures=tuple(_draw(kept, step)),
-        changes=tuple(changes(outcomes(verdicts, heard), on_record)),
-        claims=tuple(heard),
+        changes=tuple(changes(outcomes(verdicts, results), on_record)),
+        claims=tuple(results),
         findings=tuple(findings("s")),
         tables=tuple(tables.tables("m1")),
         past=tuple(tables.tables("p")),
@@ -122,19 +122,19 @@ def _find(kept: Kept, on_record: dict[str, OnRecord], step: Callable[[str], None
     )
 
 
-def _hear(kept: Kept, step: Callable[[str], None]) -> list[Result]:
+def _claims(kept: Kept, step: Callable[[str], None]) -> list[Result]:
     """Every claim, its measured numbers those of the last run where they can be taken; they are decided anew."""
-    heard = []
-    for identifier, trial in trials.listed().items():
+    results = []
+    for identifier, test in claim_tests.claim_tests().items():
         name = f"claim {identifier}"
         measured = kept.take(name, reuse.foundation())
         if measured is None:
             step(name)
-            heard.append(trials.hear(trial))
-            kept.keep(name, reuse.foundation(), dict(heard[-1].measured))
+            results.append(test.result)
+            kept.keep(name, reuse.foundation(), dict(results[-1].measured))
         else:
-            heard.append(Result(trial, measured, trial.decide(measured), 0.0))
-    return heard
+            results.append(Result(test, measured, test.decide(measured), 0.0))
+    return results
 
 
 def _figure_from(stem: str) -> str:
@@ -163,7 +163,7 @@ def _write(folder: Path, report: Report) -> None:
     write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts)]) + "\n")
     write_text(folder / "errata.tex", latex_document(report.verdicts))
     _write_json(folder / "verdicts.json", [_timeless(audit.record(verdict)) for verdict in report.verdicts])
-    _write_json(folder / "claims.json", [_timeless(trials.record(result)) for result in report.claims])
+    _write_json(folder / "claims.json", [_timeless(claim_tests.record(result)) for result in report.claims])
     _write_json(folder / "measured.json", {picture.stem: picture.measured for picture in report.pictures})
 
 
@@ -176,6 +176,6 @@ def _write_json(file: Path, found: Any) -> None:
     write_text(file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
 
 
-def outcomes(verdicts: Iterable[Verdict] = (), heard: Iterable[Result] = ()) -> dict[str, str]:
+def outcomes(verdicts: Iterable[Verdict] = (), results: Iterable[Result] = ()) -> dict[str, str]:
     """Id → verdict or outcome, in the form that is recorded."""
-    return {v.id: v.verdict for v in verdicts} | {r.trial.id: r.finding.outcome for r in heard}
+    return {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in results}

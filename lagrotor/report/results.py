@@ -101,7 +101,7 @@ def _verdict(report: Report, identifier: str) -> Verdict | None:
 
 
 def _measured(report: Report, identifier: str) -> Mapping[str, float]:
-    return next((r.measured for r in report.claims if r.trial.id == identifier), {})
+    return next((r.measured for r in report.claims if r.test.id == identifier), {})
 
 
 def _drawn(report: Report, key: str) -> Mapping[str, float]:
@@ -110,6 +110,6 @@ def _drawn(report: Report, key: str) -> Mapping[str, float]:
 
 def _there(report: Report, *ids: str) -> tuple[str, ...]:
     """Those that the report has."""
-    known = {v.id for v in report.verdicts} | {r.trial.id for r in report.claims}
+    known = {v.id for v in report.verdicts} | {r.test.id for r in report.claims}
     known |= {f"figure {picture.key}" for picture in report.pictures}
     return tuple(identifier for identifier in ids if identifier in known)

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterable
 import sympy as sp
 
 from lagrotor.paper.catalogue import claims, equation
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.tables import Cell, FigureLink, Table
-from lagrotor.paper.trials import Result
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
@@ -92,14 +92,14 @@ def _fact(fact: Fact) -> str:
 
 
 def _claim(result: Result, report: Report) -> str:
-    entry, finding = claims()[result.trial.id], result.finding
+    entry, finding = claims()[result.test.id], result.finding
     parts = [
         _heading(entry.id, f"{word(finding.outcome)} (section {entry.section})", entry.id),
         rf"\begin{{quote}}{prose(entry.text)}\end{{quote}}",
         prose(finding.explanation),
         rf"\textbf{{If:}} {prose(finding.condition)}" if finding.condition else "",
         *(_fact(fact) for fact in linked_facts(result, report)),
-        _numbers(f"Measured ({result.trial.model})", ((n.replace("_", " "), v) for n, v in result.measured.items())),
+        _numbers(f"Measured ({result.test.model})", ((n.replace("_", " "), v) for n, v in result.measured.items())),
     ]
     return "\n\n".join(filter(None, parts))
 

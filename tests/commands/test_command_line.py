@@ -18,7 +18,7 @@ from lagrotor.commands import paper_commands, terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.symbols import M, R
-from lagrotor.paper import audit, scripts, trials
+from lagrotor.paper import audit, claim_tests, scripts
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.pictures import figures
@@ -310,9 +310,9 @@ def test_letters_that_a_pipe_lacks_are_no_traceback(encoding: str) -> None:
 
 
 def test_a_claim_is_told_with_its_outcome(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    trial = trials.Trial("C08", (1, 1), (1, 2), "", lambda s: {}, lambda v: trials.Finding("refuted", ""))
-    found = trials.Result(trial, {}, trials.Finding("refuted", "word " * 40), 0.0)
-    monkeypatch.setattr(trials, "hear_all", lambda step, wanted: [found])
+    test = claim_tests.ClaimTest("C08", (1, 1), (1, 2), "", lambda s: {}, lambda v: claim_tests.Finding("refuted", ""))
+    found = claim_tests.Result(test, {}, claim_tests.Finding("refuted", "word " * 40), 0.0)
+    monkeypatch.setattr(claim_tests, "evaluate", lambda step, wanted: [found])
     assert main(["claims", "C08"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert " ".join(" ".join(lines).split()).startswith(f"C08 {claims()['C08'].text} refuted: word word")

@@ -1,21 +1,23 @@
-"""What a notebook shows of formulas, statements and trials; and that it is decided only then."""
+"""What a notebook shows of formulas, statements and tests of claims; and that it is decided only then."""
+
+from dataclasses import replace
 
 import pytest
 import sympy as sp
 
 from lagrotor.pair.symbols import PAIR, ell
 from lagrotor.paper import notebook as shown
+from lagrotor.paper.claim_tests import ClaimTest, Finding
 from lagrotor.paper.ledger import Statement, chain, judge
-from lagrotor.paper.trials import Finding, Trial
 
 x = sp.Symbol("x", real=True)
 HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))
 WRONG = Statement("5.02", chain(x, -x), wrong="The sign is <b>lost</b>.", correction=chain(x, x))
 
 
-def trial(explanation: str) -> Trial:
+def claim_test(explanation: str) -> ClaimTest:
     finding = Finding("confirmed-if", explanation, "1 < 2")
-    return Trial("C01", (1, 1), (1, -1), "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
+    return ClaimTest("C01", (1, 1), (1, -1), "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
 
 
 def test_rates_have_dots() -> None:
@@ -34,8 +36,8 @@ def test_statements_are_shown_with_their_verdicts() -> None:
     assert judge(WRONG)._repr_html_() == shown.Judged([WRONG])._repr_html_()
 
 
-def test_trials_are_shown_with_the_claim_and_what_was_decided() -> None:
-    html = shown.Heard([trial("<i>so</i>")])._repr_html_()
+def test_a_claim_is_shown_with_what_was_decided() -> None:
+    html = claim_test("<i>so</i>")._repr_html_()
     assert "C01: Rotors of equal spin precess" in html
     assert "confirmed-if<br>1 &lt; 2" in html
     assert "&lt;i&gt;so&lt;/i&gt;" in html
@@ -46,10 +48,16 @@ def test_nothing_is_decided_before_it_is_shown(monkeypatch: pytest.MonkeyPatch) 
         raise AssertionError
 
     monkeypatch.setattr(shown, "judge", decided)
-    monkeypatch.setattr(shown, "hear", decided)
-    for waiting in (shown.Judged([HOLDS]), shown.Heard([trial("so")])):
+    for waiting in (shown.Judged([HOLDS]), replace(claim_test("so"), decide=decided)):
         with pytest.raises(AssertionError):
             waiting._repr_html_()
+
+
+def test_a_claim_is_evaluated_once() -> None:
+    calls: list[object] = []
+    once = replace(claim_test("so"), measure=lambda case: {"runs": len(calls)} if calls.append(case) is None else {})
+    assert once.result is once.result
+    assert calls == [(1, 1)]
 
 
 def test_findings_are_a_table() -> None:

@@ -8,8 +8,8 @@ import sympy as sp
 
 from lagrotor.pair.symbols import J, M, R, m
 from lagrotor.paper.audit import statements
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Result
 from lagrotor.paper.ledger import Statement, chain, judge
-from lagrotor.paper.trials import Finding, Result, Trial
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
@@ -51,7 +51,7 @@ def report() -> Report:
     wrong = Statement("5.22", chain(M, R), correction=chain(M, M))
     claims = tuple(
         Result(
-            Trial(i, (1, 1), (1, 2), "", lambda s: {}, lambda v: Finding("confirmed", "")),
+            ClaimTest(i, (1, 1), (1, 2), "", lambda s: {}, lambda v: Finding("confirmed", "")),
             v,
             Finding("confirmed", ""),
             0,

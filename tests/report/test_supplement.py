@@ -12,7 +12,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.pair.symbols import M, r0
-from lagrotor.paper import trials
+from lagrotor.paper import claim_tests
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equations
 from lagrotor.paper.ledger import Statement, chain, judge
@@ -46,15 +46,15 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     judged.append(replace(judge(corrected), reaches_result=True))
     paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})
     past = replace(paper, key="t6", measured={}, png=png.with_name("missing_one.png"))
-    finding = trials.Finding("confirmed-if", HOSTILE, HOSTILE)
-    trial = trials.Trial("C08", (1.0, 1.0), (1.0, -1.0), "minimal", dict, lambda numbers: finding)
+    finding = claim_tests.Finding("confirmed-if", HOSTILE, HOSTILE)
+    test = claim_tests.ClaimTest("C08", (1.0, 1.0), (1.0, -1.0), "minimal", dict, lambda numbers: finding)
     row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Eq(r0, LONG / M)), FigureLink("t6"), FigureLink("t7"))
     side = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
     return Report(
         tuple(judged),
         (paper, past),
         (HOSTILE,),
-        claims=(trials.Result(trial, {"a_name": 1 / 3}, finding, 1.0),),
+        claims=(claim_tests.Result(test, {"a_name": 1 / 3}, finding, 1.0),),
         findings=((HOSTILE, HOSTILE),),
         tables=(side,),
         past=(side,),
