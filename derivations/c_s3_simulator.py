@@ -13,10 +13,11 @@ from unittest.mock import patch
 import numpy as np
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation, printed_inertia_transform, skew
+from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation, printed_inertia_transform
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.paper.claim_tests import ClaimTest, Finding
 
 BAR, DT, S, D = Link(mass=1, inertia=1), 1e-3, 1e4, 250.0
@@ -36,10 +37,10 @@ def off_orthogonal(matrix):
 
 def measure_c03(spins):
     Omega = np.array([[0.0, 0.0, spins[0]]])
-    first_order, rodrigues = np.eye(3) + DT * skew(Omega)[0], finite_rotation(Omega, DT)[0]
+    first_order, rodrigues = np.eye(3) + DT * cross_matrix(Omega)[0], finite_rotation(Omega, DT)[0]
     n, angle = Omega[0] / (np.linalg.norm(Omega) or 1.0), np.linalg.norm(Omega) * DT
     P = np.outer(Omega, Omega)  # (3.16) to the letter: not divided by |Omega|²
-    printed = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew(n[None])[0]
+    printed = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * cross_matrix(n[None])[0]
     return {
         "first_order_off_orthogonal": off_orthogonal(first_order),
         "rodrigues_off_orthogonal": off_orthogonal(rodrigues),

@@ -17,8 +17,8 @@ from lagrotor.algebra import decide_zero
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair
 from lagrotor.pair.symbols import AXES, G_1, G_2, G, K, a, b, ell, m
 from lagrotor.paper.notebook import findings_table
+from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.shock_response import impulse_matrices
 
 statements: list = []
 findings: list[tuple[str, str]] = []

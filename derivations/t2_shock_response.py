@@ -17,7 +17,8 @@ from lagrotor.algebra import decide_zero
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import G_1, G_2, P_1, P_2, P_X, G, Omega, t
 from lagrotor.paper.notebook import findings_table
-from lagrotor.theory.shock_response import impulse_matrices, shock_displacement, shock_energy, shock_response
+from lagrotor.theory.impulse_response import impulse_matrices, shock_displacement, shock_energy
+from lagrotor.theory.shock_response import shock_response
 
 statements: list = []
 findings: list[tuple[str, str]] = []

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.models.linear import struck
 from lagrotor.models.model import Array, Observed, constant_momenta
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.theory.natural_frequency import natural_rate
@@ -67,7 +66,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> A
     The answer's error may exceed `tol`; with `best` it is then the least that can be had, from a series through r0^21.
     Raises DomainError, with the reason, where no closed form holds the scene.
     """
-    if struck(scene, t_end):
+    if scene.shock_until(t_end):
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")
     axes, rates = np.array(scene.axes), np.array(scene.rates)
     if not rates.any():

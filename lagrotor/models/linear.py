@@ -6,7 +6,7 @@ A = [[0, 1], [0, −N]] on (q, q'), A² (A² + Omega²) = 0, so
 
     exp(A t) = 1 + A t + A² (1 − cos Omega t)/Omega² + A³ (Omega t − sin Omega t)/Omega³.
 
-A pulse adds the answer of `rotors.response`. What is left out is foreseen by `linear_error`.
+A pulse adds the response of `theory.shock_response`. `linear_error` estimates what is left out.
 """
 
 from dataclasses import dataclass, replace
@@ -23,13 +23,12 @@ from lagrotor.models.model import Array, Observed
 from lagrotor.numerics.codegen import Program, compile_program
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.pair.symbols import G_1, G_2, a, b
+from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.shock_response import impulse_matrices, shock_response
+from lagrotor.theory.shock_response import pulse_response
 from lagrotor.theory.toppling import toppling_growth
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
-REACH = 6.5  # widths from its peak at which a Gaussian pulse is below the last bit
-_WHOLE = 4.0  # widths that shock_response wants between the start and the pulse
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
 
@@ -92,13 +91,6 @@ def modes(scene: Scene) -> Modes:
     return Modes(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
 
 
-def struck(scene: Scene, t_end: float) -> Shock | None:
-    """The scene's shock if its pulse is felt between 0 and t_end (s)."""
-    shock = scene.shock
-    felt = shock is not None and -REACH * shock.width < shock.at < t_end + REACH * shock.width
-    return shock if felt else None
-
-
 def linear_states(scene: Scene, t: Array) -> Array:
     """(U, chi, alpha, rates) of the linear motion at times t (n,) in s: (n, 6).
 
@@ -106,9 +98,9 @@ def linear_states(scene: Scene, t: Array) -> Array:
     |U|, |chi| <= pi/3.
     """
     linear, start = modes(scene), MODEL.start(scene)
-    states, shock = linear.free(start[:3], start[3:], t), struck(scene, float(t[-1]))
+    states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
-        pulse, response = _pulsed(linear, _straightened(scene, linear, start, shock), np.append(t, 0.0))
+        pulse, response = _pulsed(scene, linear, _straightened(linear, start, shock), np.append(t, 0.0))
         # The pulse may have begun before t = 0: the start is what it is.
         states += pulse - linear.free(response[:3], response[3:], t)
     off = np.abs(states[:, :2]).max(axis=1)
@@ -121,26 +113,21 @@ def linear_states(scene: Scene, t: Array) -> Array:
     return states
 
 
-def _straightened(scene: Scene, linear: Modes, start: Array, shock: Shock) -> Scene:
-    """The scene at rest and upright, the force turned back by the azimuth the struck axis has when the pulse peaks."""
+def _straightened(linear: Modes, start: Array, shock: Shock) -> Shock:
+    """The shock as an upright pair feels it: turned back by the azimuth that its axis has when the pulse peaks."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
     fx, fy, fz = shock.force
     c, s = np.cos(angle), np.sin(angle)
-    force = (fx, c * fy + s * fz, c * fz - s * fy)
-    still = ((0.0, 0.0, 0.0),) * 2
-    return replace(scene, axes=((0.0, 0.0, 1.0),) * 2, rates=still, shock=replace(shock, force=force))
+    return replace(shock, force=(fx, c * fy + s * fz, c * fz - s * fy))
 
 
-def _pulsed(linear: Modes, scene: Scene, t: Array) -> tuple[Array, Array]:
-    """The answer to the pulse at all times but the last (n, 6), and at the last (6,)."""
+def _pulsed(scene: Scene, linear: Modes, shock: Shock, t: Array) -> tuple[Array, Array]:
+    """The response to the pulse at all times but the last (n, 6), and at the last (6,)."""
     from scipy.special import erfc
 
-    assert scene.shock is not None
-    shock = scene.shock
-    later = max(0.0, _WHOLE * shock.width - shock.at)
-    response = shock_response(replace(scene, shock=replace(shock, at=shock.at + later)))
-    q = np.linalg.solve(linear.upright, response.through(t + later).T).T
+    response = pulse_response(scene, shock)
+    q = np.linalg.solve(linear.upright, response.through(t).T).T
     received = erfc((shock.at - t) / shock.width)[:, None] / 2
     kick = np.linalg.solve(linear.mass, linear.upright.T @ response.impulse)
     states = np.hstack([q, received * kick - q @ linear.turning.T])
@@ -166,7 +153,7 @@ def linear_error(scene: Scene, t_end: float) -> float:
     may leave the turning exponentially: `_spread` is by how much.
     Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
     """
-    linear, shock = modes(scene), struck(scene, t_end)
+    linear, shock = modes(scene), scene.shock_until(t_end)
     points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))
     if points > _MOST:
         raise DomainError(f"linear: {points // _A_TURN} turns are too many to foresee the error; use model='minimal'")
@@ -208,8 +195,7 @@ def _defect(scene: Scene, linear: Modes, shock: Shock | None, t: Array, states: 
     if shock is not None:
         pulse = scene.rotor.length * np.exp(-(((t - shock.at) / shock.width) ** 2))
         parameters += [f * pulse for f in shock.force]
-        straight = _straightened(scene, linear, states[0], shock).shock
-        assert straight is not None
+        straight = _straightened(linear, states[0], shock)
         push = np.zeros(3)
         push[0], push[shock.body] = straight.force[:2]
         acceleration = acceleration + pulse[:, None] * np.linalg.solve(linear.mass, linear.upright.T @ push)

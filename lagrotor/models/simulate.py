@@ -128,16 +128,12 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
 
 
 def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
-    felt = scene
-    if scene.shock:
-        from lagrotor.models.linear import struck
-
-        # Time is counted from the pulse: one far off that is not felt would only cost digits.
-        felt = scene if struck(scene, float(times[-1])) else replace(scene, shock=None)
+    # Time is counted from the pulse: one that does not act within the run would only cost digits.
+    acting = replace(scene, shock=scene.shock_until(float(times[-1])))
     if engine == "fast":
-        seen, evaluations = _fast(model, felt, times, tol)
+        seen, evaluations = _fast(model, acting, times, tol)
         return _trajectory(scene, model.name, why, times, seen, evaluations)
-    solution = integrate(problem_of(model, felt, float(times[-1])), times, tol)
+    solution = integrate(problem_of(model, acting, float(times[-1])), times, tol)
     return _trajectory(scene, model.name, why, times, model.observe(scene, solution.states), solution.evaluations)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.integrate import PULSE_REACH
+from lagrotor.numerics.pulse import PULSE_REACH
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

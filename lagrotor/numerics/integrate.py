@@ -1,7 +1,6 @@
 """One door to scipy's initial value solvers, which never steps over a pulse."""
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +10,10 @@ from lagrotor.numerics.adams import adams
 from lagrotor.numerics.integrators import Projection as Projection
 from lagrotor.numerics.integrators import Rate as Rate
 from lagrotor.numerics.integrators import Run, StopError, Stretch, dop853, lsoda
+from lagrotor.numerics.pulse import segments
 
 Array = NDArray[np.float64]
 
-# A Gaussian pulse exp(−s²) is below the last bit of its peak beyond |s| = 6.5: exp(−6.5²) = 4e-19.
-PULSE_REACH = 6.5
 TIGHTEST = 1e-13
 # LSODA leaves up to 200 times the error it is asked for, and cannot be asked for much less than 1e-13. 10 s of the
 # displaced pair: an error of 1e-10 takes it 9 ms, Adams of order 12 11 ms, DOP853 in Python 60; one of 1e-13 only Adams
@@ -64,18 +62,13 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
     Raises IntegrationError when the solver cannot go on, or crawls.
     """
     asked = times - problem.at
-    begin, end, reach = -problem.at, float(asked[-1]), PULSE_REACH * problem.width
-    edges = [begin, end]
-    if problem.driven is not None:
-        edges += [s for s in (-reach, reach) if begin < s < end]
-    edges.sort()
+    begin, end = -problem.at, float(asked[-1])
     states = np.empty((len(times), len(problem.start)))
     states[asked == begin] = problem.start
     y, evaluations = problem.start, 0
-    for left, right in pairwise(edges):
+    for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
         if right > left:
             inside = (asked > left) & (asked <= right)
-            pulsed = problem.driven is not None and abs(left + right) / 2 < reach
             run = _run(problem, pulsed, y, left, right, asked[inside], tol, evaluations)
             states[inside], y = run.states, run.end
             evaluations += run.evaluations

@@ -7,6 +7,10 @@ from scipy.interpolate import CubicHermiteSpline
 from lagrotor.errors import InputError
 
 Array = NDArray[np.float64]
+# v @ _LEVI_CIVITA is the cross product matrix of v, row by row.
+_LEVI_CIVITA = np.array(
+    [[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], dtype=float
+)
 
 
 def turn_between(u: Array, v: Array) -> Array:
@@ -17,7 +21,7 @@ def turn_between(u: Array, v: Array) -> Array:
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis turns round between two samples; take more samples")
-    turned: Array = c * np.eye(3) + _cross_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
+    turned: Array = c * np.eye(3) + cross_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
     return turned
 
 
@@ -39,7 +43,7 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     carried, h = turn_between(r0, r1), np.diff(t)
     swept = (r0 * np.cross(r1, v1)).sum(-1) + (r1 * np.cross(r0, v0)).sum(-1)
     angle = h * (spins[:, None] + swept / (6 * (1 + (r0 * r1).sum(-1))))
-    steps = carried @ _turn_about(r0, angle)
+    steps = carried @ turn_about(r0, angle)
     Q = np.empty((*axes.shape, 3))
     Q[:, 0] = _from_upright(axes[:, 0])
     for i in range(len(h)):
@@ -70,15 +74,14 @@ def _from_upright(axes: Array) -> Array:
     return turn_between(over, axes) @ turn_between(e_z, over)
 
 
-def _turn_about(n: Array, angle: Array) -> Array:
-    """Rotations by `angle` (…,) about unit vectors n (…, 3), (…, 3, 3)."""
+def turn_about(n: Array, angle: Array) -> Array:
+    """Rotations by `angle` (…,) about unit vectors n (…, 3): 1 + sin [n]× + (1 − cos)(n nᵀ − 1), (…, 3, 3)."""
     angle = angle[..., None, None]
     across = n[..., :, None] * n[..., None, :] - np.eye(3)
-    turned: Array = np.eye(3) + np.sin(angle) * _cross_matrix(n) + 2 * np.sin(angle / 2) ** 2 * across
+    turned: Array = np.eye(3) + np.sin(angle) * cross_matrix(n) + 2 * np.sin(angle / 2) ** 2 * across
     return turned
 
 
-def _cross_matrix(v: Array) -> Array:
-    x, y, z = np.moveaxis(v, -1, 0)
-    o = np.zeros_like(x)
-    return np.stack([np.stack([o, -z, y], -1), np.stack([z, o, -x], -1), np.stack([-y, x, o], -1)], -2)
+def cross_matrix(v: Array) -> Array:
+    """[v]× with [v]× w = v × w: (…, 3) → (…, 3, 3)."""
+    return (v @ _LEVI_CIVITA).reshape(*v.shape, 3)

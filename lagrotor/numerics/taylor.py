@@ -10,7 +10,6 @@ second a program and order. The read-out at any time is as exact as the run.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
-from itertools import pairwise
 from math import exp
 from operator import mul
 from threading import get_ident
@@ -22,7 +21,8 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.integrate import PULSE_REACH, Solution
+from lagrotor.numerics.integrate import Solution
+from lagrotor.numerics.pulse import segments
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
@@ -53,13 +53,10 @@ def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, ti
 
     Cut at the pulse's edges as `integrate` is. Raises InputError without heyoka, IntegrationError where it stops.
     """
-    at, width = (pulse.at, pulse.width) if pulse else (0.0, 1.0)
+    at, width = (pulse.at, pulse.width) if pulse else (0.0, 0.0)
     asked = times - at if pulse else times
-    begin, end, reach = -at, float(asked[-1]), PULSE_REACH * width
-    edges = [begin, *(s for s in (-reach, reach) if pulse and begin < s < end), end]
     d, done, y, evaluations, found = len(start), 0, start, 0, []
-    for left, right in pairwise(edges):
-        driven = pulse is not None and abs(left + right) / 2 < reach
+    for left, right, driven in segments(-at, float(asked[-1]), width):
         program, values = generated(driven)
         solver = _solver(program, d, driven, taylor_order(tol), 1, get_ident())
         if pulse and driven:

@@ -8,6 +8,7 @@ from html import escape
 from math import fsum, hypot, isfinite, nan, pi, sqrt
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.pulse import PULSE_REACH
 
 Vector = tuple[float, float, float]
 SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
@@ -136,6 +137,16 @@ class Shock:
         scale = self.width * sqrt(pi)
         return (self.force[0] * scale, self.force[1] * scale, self.force[2] * scale)
 
+    @property
+    def begin(self) -> float:
+        """Time (s) before which the pulse is below the last bit of its peak."""
+        return self.at - PULSE_REACH * self.width
+
+    @property
+    def end(self) -> float:
+        """Time (s) after which the pulse is below the last bit of its peak."""
+        return self.at + PULSE_REACH * self.width
+
 
 _UP: tuple[Vector, Vector] = ((0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
 _REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -205,6 +216,10 @@ class Scene:
                 f"Scene: axes = {self.axes} both lie along the joint line, where the bar's constraint is singular; "
                 "tilt an axis"
             )
+
+    def shock_until(self, t_end: float) -> Shock | None:
+        """The shock, if its pulse acts at any time between 0 and t_end (s)."""
+        return self.shock if self.shock and self.shock.begin < t_end and self.shock.end > 0 else None
 
     @property
     def momenta(self) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from lagrotor.errors import DomainError, SingularError
 from lagrotor.models.linear import linear_error, linear_run, modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.shock_response import impulse_matrices
+from lagrotor.theory.impulse_response import impulse_matrices
 
 ROTOR, BAR = Rotor(1.3, 0.9, 0.7, 1.1), Link(0.8, 0.3, 0.05)
 UP = np.array([[0, 0, 1.0], [0, 0, 1.0]])

@@ -17,10 +17,10 @@ from lagrotor.models.spring_link.rigid_body import (
     printed_inertia_transform,
     printed_rotation,
     rotation_between,
-    skew,
 )
 from lagrotor.models.spring_link.run import paper_system, run_solver, run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, link_force, printed_link_force, step_limit
+from lagrotor.numerics.rotations import cross_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)
@@ -65,7 +65,7 @@ def asymmetric(t):
 
     def rate(_, y):
         Omega, R = y[:3], y[3:].reshape(3, 3)
-        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ skew(Omega[None])[0]).ravel()]
+        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ cross_matrix(Omega[None])[0]).ravel()]
 
     start = [*(TILTED.T @ [1, 2, 3]), *TILTED.ravel()]
     return solve_ivp(rate, (0, t), start, method="DOP853", rtol=1e-12, atol=1e-12).y[3:, -1].reshape(3, 3)

@@ -125,10 +125,8 @@ def test_public_names():
         found = getattr(lagrotor, name)
         assert found.__doc__, name
     assert lagrotor.paired_momentum(2).expressions[0].has(sp.Symbol("r_0", real=True))
-    response = lagrotor.shock_response(
-        Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=lagrotor.Shock((40, 0, 0), 2, 1 / 20))
-    )
-    assert response.frequency == pytest.approx(lagrotor.natural_rate(response.scene))
+    scene = Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=lagrotor.Shock((40, 0, 0), 2, 1 / 20))
+    assert lagrotor.shock_response(scene).frequency == pytest.approx(lagrotor.natural_rate(scene))
 
 
 def test_a_series_that_does_not_converge_is_refused() -> None:

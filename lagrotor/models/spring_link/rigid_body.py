@@ -9,15 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.rotations import cross_matrix, turn_about
 
 Array = NDArray[np.float64]
 
 CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
-
-# v @ _LEVI_CIVITA is the cross product matrix of v, row by row.
-_LEVI_CIVITA = np.array(
-    [[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], dtype=float
-)
 
 
 def finite_array(value: ArrayLike, shape: tuple[int, ...], where: str) -> Array:
@@ -34,11 +30,6 @@ def finite_array(value: ArrayLike, shape: tuple[int, ...], where: str) -> Array:
     return array
 
 
-def skew(v: Array) -> Array:
-    """Cross product matrices [v]× with [v]× w = v × w: (n, 3) → (n, 3, 3)."""
-    return (v @ _LEVI_CIVITA).reshape(-1, 3, 3)
-
-
 def finite_rotation(Omega: Array, dt: float) -> Array:
     """dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|: (n, 3) → (n, 3, 3). From 3.15.
 
@@ -48,10 +39,7 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
     n = Omega / (size + (size == 0))[:, None]
-    angle = (size * dt)[:, None, None]
-    across = n[:, :, None] * n[:, None, :] - np.eye(3)
-    turned: Array = np.eye(3) + np.sin(angle) * skew(n) + 2 * np.sin(angle / 2) ** 2 * across
-    return turned
+    return turn_about(n, size * dt)
 
 
 def printed_rotation(Omega: Array, dt: float) -> Array:
@@ -65,7 +53,7 @@ def printed_rotation(Omega: Array, dt: float) -> Array:
         P = Omega[:, :, None] * Omega[:, None, :] / (Omega**2).sum(1)[:, None, None]
         n = Omega / size[:, None]
         angle = (size * dt)[:, None, None]
-        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew(n)
+        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * cross_matrix(n)
     return np.where(size[:, None, None] == 0, np.eye(3), turned)
 
 

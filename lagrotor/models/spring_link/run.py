@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass
-from itertools import pairwise
 from math import exp, isfinite
 from typing import Any
 
@@ -12,9 +11,11 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models.simulate import check_times
-from lagrotor.models.spring_link.rigid_body import Array, RigidBody, rotation_between, skew
+from lagrotor.models.spring_link.rigid_body import Array, RigidBody, rotation_between
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
-from lagrotor.numerics.integrate import PULSE_REACH, check_tolerance
+from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.pulse import segments
+from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.scene import Scene, Shock
 
 TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 stands on the ground
@@ -145,7 +146,7 @@ def run_solver(
     """Move a copy of `system` from t = 0 by one of scipy's solvers, the same forces without the error of a fixed step.
 
     State X, U, R, L of every body, with R' = [Omega]× R. tol: relative and absolute local error / 20. The run is cut at
-    the shock's edges, ± PULSE_REACH widths, within which no step is longer than the width. LSODA changes to a stiff
+    the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
     method where damping asks for it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
 
     Raises InputError for bad times, tolerance or method, IntegrationError when the solver cannot go on.
@@ -162,29 +163,27 @@ def run_solver(
         moving.X[:n], moving.U[:n], moving.L[:n] = X.reshape(n, 3), U.reshape(n, 3), L.reshape(n, 3)
         moving.R[:n] = R.reshape(n, 3, 3)
 
-    def rate(s: float, y: Array, struck: Shock | None) -> Array:
+    def rate(s: float, y: Array, acting: Shock | None) -> Array:
         load(y)
         moving.Omega = moving.angular_velocity()
         moving.compute_forces()
-        _shake(moving, struck, s)
-        parts = moving.U, moving.F * moving.inverse_mass, moving.tau, skew(moving.Omega) @ moving.R
+        _shake(moving, acting, s)
+        parts = moving.U, moving.F * moving.inverse_mass, moving.tau, cross_matrix(moving.Omega) @ moving.R
         return np.concatenate([part[:n].ravel() for part in parts])
 
-    at, reach = (shock.at, PULSE_REACH * shock.width) if shock else (0.0, 0.0)
+    at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     asked = times - at
     begin, end = -at, float(asked[-1])
-    edges = [begin, *(s for s in (-reach, reach) if shock and begin < s < end), end]
     y = np.concatenate([part[:n].ravel() for part in (moving.X, moving.U, moving.L, moving.R)])
     states, evaluations = np.empty((len(times), len(y))), 0
     states[asked == begin] = y
-    for left, right in pairwise(edges):
+    for left, right, pulsed in segments(begin, end, width):
         if right <= left:
             continue
-        struck = shock if shock and abs(left + right) / 2 < reach else None
-        options: dict[str, Any] = {"max_step": shock.width} if struck and shock else {}
+        options: dict[str, Any] = {"max_step": width} if pulsed else {}
         inside = (asked > left) & (asked <= right)
         found = solve_ivp(
-            rate, (left, right), y, method=method, args=(struck,), t_eval=np.union1d(asked[inside], [right]),
+            rate, (left, right), y, method=method, args=(shock if pulsed else None,), t_eval=np.union1d(asked[inside], [right]),
             rtol=max(error, 2.3e-14), atol=error, **options,
         )  # fmt: skip
         if not found.success or not np.isfinite(found.y).all():

@@ -19,8 +19,8 @@ from lagrotor.models.spring_link.rigid_body import (
     finite_array,
     finite_rotation,
     inertia_transform,
-    skew,
 )
+from lagrotor.numerics.rotations import cross_matrix
 
 LinkForce = Callable[[Array, Array, float, float], Array]
 
@@ -119,7 +119,7 @@ class RigidBodySystem:
         pull = self.force(gap, rate, self.stiffness, self.damping)
         on_ends = np.concatenate((pull, -pull))
         self.F = self.external + self._gather @ on_ends
-        self.tau = self._gather @ (skew(arm) @ on_ends[:, :, None])[:, :, 0]
+        self.tau = self._gather @ (cross_matrix(arm) @ on_ends[:, :, None])[:, :, 0]
 
     def step(self, dt: float) -> None:
         """The paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R. No matrix is inverted.
@@ -141,7 +141,7 @@ class RigidBodySystem:
         3 × 3 blocks on the diagonal are the sums over both ends of 1/M − [r]× I⁻¹ [r]×.
         """
         n = len(self._of) // 2
-        crossed, share = skew(self._joints()[0]), np.hstack((np.eye(n), -np.eye(n)))
+        crossed, share = cross_matrix(self._joints()[0]), np.hstack((np.eye(n), -np.eye(n)))
         turning = self.transform(self.R, self.inverse_inertia)[self._of]
         same = self._of[:, None] == self._of[None, :]
         moving = self.inverse_mass[self._of, 0][:, None, None, None] * np.eye(3)
@@ -157,7 +157,7 @@ class RigidBodySystem:
     def _joints(self) -> tuple[Array, Array, Array]:
         """Arms of all ends from their centres (2 n_links, 3), gaps and gap rates (n_links, 3), in world components."""
         arm = (self.R[self._of] @ self._arm)[:, :, 0]
-        velocity = self.U[self._of] + (skew(self.Omega)[self._of] @ arm[:, :, None])[:, :, 0]
+        velocity = self.U[self._of] + (cross_matrix(self.Omega)[self._of] @ arm[:, :, None])[:, :, 0]
         n = len(arm) // 2
         return arm, self.gaps(self.X, self.R), velocity[:n] - velocity[n:]
 

@@ -1,0 +1,24 @@
+"""A Gaussian pulse exp(−(s/width)²) in an integration, s the time from its peak: where it ends, and how a run is cut there."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import NamedTuple
+
+# Beyond |s| = 6.5 widths a pulse is below the last bit of its peak: exp(−6.5²) = 4e-19.
+PULSE_REACH = 6.5
+
+
+class Segment(NamedTuple):
+    """A part of a run without a pulse's edge inside; `pulsed`: it lies within the pulse."""
+
+    left: float
+    right: float
+    pulsed: bool
+
+
+def segments(begin: float, end: float, width: float) -> Iterator[Segment]:
+    """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width; 0: there is none."""
+    reach = PULSE_REACH * width
+    cuts = [begin, *(s for s in (-reach, reach) if width and begin < s < end), end]
+    for left, right in pairwise(cuts):
+        yield Segment(left, right, abs(left + right) / 2 < reach)
