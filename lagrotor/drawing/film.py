@@ -66,10 +66,14 @@ def animate(
     """
     target = Path(path)
     check_film(target, float(moving.t[-1] - moving.t[0]), fps)
-    drawn = _announced(_frames(moving), len(moving.t), fps, step)
+    return write_film(target, _announced(_frames(moving), len(moving.t), fps, step), len(moving.t), fps)
+
+
+def write_film(target: Path, frames: Iterator[Pixels], count: int, fps: float) -> Path:
+    """Write `count` frames (height, width, 3) of SIZE as `.gif` or `.mp4`, whole or not at all; see `check_film`."""
     if target.suffix == ".gif":
-        return write_beside(target, lambda file: _write_gif(file, drawn, len(moving.t), fps))
-    return write_beside(target, lambda file: _write_mp4(file, drawn, fps))
+        return write_beside(target, lambda file: _write_gif(file, frames, count, fps))
+    return write_beside(target, lambda file: _write_mp4(file, frames, fps))
 
 
 def _announced(frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:

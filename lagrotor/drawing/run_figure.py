@@ -1,5 +1,6 @@
-"""A run over time: tips, their paths from above, energy; what `Trajectory.plot()` shows."""
+"""A run over time: of the pair its tips, their paths from above, energy; of any system its coordinates and energy."""
 
+from collections.abc import Mapping
 from io import BytesIO
 
 from matplotlib.axes import Axes
@@ -42,6 +43,20 @@ def run_figure(t: Array, tips: Array, energy: Array, title: str) -> RunFigure:
         handles, labels = panels["x"].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper left", ncols=2)
         figure.suptitle(title)
+    return figure
+
+
+def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array, drift: Array) -> RunFigure:
+    """Coordinates {label: (n,)} over t (n,) in s, the change of the energy, and the constraints' violation if there is any."""
+    below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
+    panels = [*coordinates.items(), *below.items()]
+    with paper_style():
+        figure = RunFigure(figsize=(7.0, max(3.0, 1.4 * len(panels))))
+        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        for panel, (label, values) in zip(axes, panels, strict=True):
+            panel.plot(t, values, color=ROTORS[label in below])
+            panel.set_ylabel(label)
+        axes[-1].set_xlabel("t [s]")
     return figure
 
 

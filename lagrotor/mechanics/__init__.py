@@ -17,7 +17,7 @@ from lagrotor.mechanics.lagrangian import (
 )
 from lagrotor.mechanics.linear_modes import LinearSystem, Mode
 from lagrotor.mechanics.symmetry import FirstIntegral, legendre
-from lagrotor.mechanics.system import System
+from lagrotor.mechanics.systems import System
 
 __all__ = [
     "Coordinates",

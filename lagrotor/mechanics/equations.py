@@ -92,6 +92,11 @@ class Equations:
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
 
+    @property
+    def bodies(self) -> tuple[Any, ...]:
+        """The rigid bodies of which the Lagrangian is made, where it is."""
+        return tuple(getattr(self.lagrangian, "bodies", ()))
+
     @cached_property
     def mass(self) -> sp.Matrix:
         """M = ∂²L/∂v∂v, shape (n, n)."""

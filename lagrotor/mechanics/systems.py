@@ -7,6 +7,7 @@ import sympy as sp
 
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running import integration, simulation
 
 
 @dataclass(frozen=True)
@@ -34,3 +35,5 @@ class System(Equations):
     linearise = linear_modes.linearise
     same_as = sameness.same_as
     in_coordinates = sameness.in_coordinates
+    consistent = integration.consistent
+    simulate = simulation.simulate

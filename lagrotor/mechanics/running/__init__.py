@@ -1,0 +1,1 @@
+"""Running any system: generated programs, integration, sections, Lyapunov exponents, pictures."""

@@ -1,0 +1,135 @@
+"""States of a system at any times: its program compiled, integrated, and brought back onto its constraints."""
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any, Literal
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike, NDArray
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.constraints import project_position, project_velocity
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import t as time
+from lagrotor.mechanics.running.programs import (
+    Generated,
+    depends_on_time,
+    motion_program,
+    parameter_values,
+    projection_program,
+)
+from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.rhs import rate_factory
+from lagrotor.numerics.taylor import integrate_taylor
+
+Array = NDArray[np.float64]
+Engine = Literal["core", "fast"]
+Values = Mapping[Any, Any]
+MOST = 10_000_000  # evaluations of one integration
+_CHUNK = 32  # samples between two projections with the fast engine
+
+
+def states(
+    system: Equations, values: Values, start: Array, begin: float, times: Array, tol: float, engine: Engine
+) -> Array:
+    """States (n, 2 N) at `times`, from `start` at `begin`."""
+    given = motion_program(system)
+    parameters = parameter_values(given, values)
+    clock = depends_on_time(system)
+    if clock:
+        start = np.append(start, begin)
+        tol = max(tol / (1 + np.abs(times).max()), 1e-13)  # an error is measured against the largest component, t too
+    project = projection(system, values) if system.multipliers else None
+    wanted = times - begin
+    if engine == "fast":
+        found = _taylor(given, parameters, start, wanted, tol, project)
+    else:
+        problem = Problem(rhs_factory(given)(*parameters), start, MOST, project=project)
+        found = integrate(problem, wanted, tol).states
+    return found[:, : 2 * len(system.c.q)]
+
+
+@lru_cache(maxsize=64)
+def rhs_factory(given: Generated) -> Any:
+    return rate_factory(given.program, len(given.states))
+
+
+def _taylor(given: Generated, parameters: Any, start: Array, wanted: Array, tol: float, project: Any) -> Array:
+    """By heyoka; under constraints in pieces, each begun on the constraints."""
+    pieces = [wanted] if project is None else np.array_split(wanted, max(1, len(wanted) // _CHUNK))
+    found, begin = [], 0.0
+    for piece in pieces:
+        if piece[-1] == begin:
+            states = np.repeat(start[None], len(piece), axis=0)
+        else:
+            states = integrate_taylor(lambda _: (given.program, parameters), start, None, piece - begin, tol).states
+        if project is not None:
+            states = project(states.T).T
+        found.append(states)
+        start, begin = states[-1], float(piece[-1])
+    return np.concatenate(found)
+
+
+def projection(system: Equations, values: Values) -> Any:
+    given = projection_program(system)
+    function, parameters = _compiled_projection(given), parameter_values(given, values)
+
+    def project(y: Array) -> Array:
+        with np.errstate(all="ignore"):
+            for _ in range(2):
+                y = np.array(np.broadcast_arrays(*function(*y, *parameters)), dtype=float)
+        return y
+
+    return project
+
+
+@lru_cache(maxsize=64)
+def _compiled_projection(given: Generated) -> Any:
+    return compile_program(given.program, "numpy")
+
+
+def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
+    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
+
+    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
+    """
+    n = len(system.c.q)
+    q, v = vector("q0", q0, n), vector("v0", v0, n)
+    h = len(system.constraints)
+    put = {key if isinstance(key, sp.Symbol) else sp.Symbol(key): value for key, value in values.items()} | {time: t}
+    parts = (system.mass, sp.Matrix(h, 1, system.constraints), system.rows, system.residual)
+    M, g, G, off = (sp.lambdify([system.c.q, system.c.v], part.subs(put), "numpy") for part in parts)
+
+    def rows(at: Any) -> Array:
+        return np.array(G(at, v), dtype=float).reshape(-1, n)
+
+    if h:
+        mass = np.array(M(q, v), float)
+        placed = project_position(lambda at: np.array(g(at, v), float).ravel(), lambda at: rows(at)[:h], q, mass)
+        q = np.asarray(placed, float)
+    wanted = np.array(off(q, np.zeros(n)), float).ravel()  # b, so that G v + b = 0
+    mass, slope = np.array(M(q, v), float), rows(q)
+    particular = -np.linalg.pinv(slope) @ wanted
+    return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
+
+
+def vector(name: str, given: ArrayLike, n: int) -> Array:
+    try:
+        found = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"simulate: {name} = {given!r} must be {n} numbers") from None
+    if found.shape != (n,) or not np.isfinite(found).all():
+        raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, one for each coordinate")
+    return found
+
+
+def increasing(given: ArrayLike) -> Array:
+    try:
+        found = np.atleast_1d(np.asarray(given, dtype=float))
+    except (TypeError, ValueError):
+        raise InputError(f"simulate: t = {given!r} must be an array of times in s") from None
+    if found.ndim != 1 or not len(found) or not np.isfinite(found).all() or (np.diff(found) <= 0).any():
+        raise InputError("simulate: t must be an increasing array of finite times, t[0] the time of q0 and v0")
+    return found

@@ -1,0 +1,53 @@
+"""Lyapunov exponents, from the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.running.integration import MOST, Array, projection, rhs_factory
+from lagrotor.mechanics.running.motion import Motion
+from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
+from lagrotor.numerics.integrate import Problem, integrate
+
+_PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
+_TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
+
+
+@dataclass(frozen=True)
+class Lyapunov:
+    """The largest Lyapunov exponent, 1/s: the mean growth rate of the distance of neighbours along the run.
+
+    error: the standard error of that mean, from ten parts of the run; history (m,): the mean so far at the times t (m,).
+    """
+
+    exponent: float
+    error: float
+    t: Array
+    history: Array
+
+
+def lyapunov(run: Motion) -> Lyapunov:
+    """The largest Lyapunov exponent over the time of the run.
+
+    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample.
+    """
+    if len(run.t) < 2:
+        raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
+    given, n = tangent_program(motion_program(run.system)), 2 * run.q.shape[1]
+    rhs, d = rhs_factory(given)(*parameter_values(given, run.values)), len(given.states) // 2
+    project = projection(run.system, run.values) if run.system.multipliers else None
+    grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
+    y = np.concatenate([run.q[0], run.v[0], [run.t[0]] * (d - n)])
+    tangent = np.append(np.random.default_rng(1).normal(size=n), [0.0] * (d - n))  # time is not displaced
+    growth = np.zeros(_PIECES)
+    for i, h in enumerate(np.diff(grid)):
+        tangent = tangent / np.linalg.norm(tangent)
+        problem = Problem(rhs, np.concatenate([y, tangent]), MOST)
+        end = integrate(problem, np.array([h]), max(run.tol, _TIGHTEST)).states[-1]
+        y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
+        growth[i] = np.log(np.linalg.norm(tangent))
+    duration = grid[1:] - grid[0]
+    parts = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
+    history = np.cumsum(growth) / duration
+    return Lyapunov(float(history[-1]), float(parts.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)

@@ -1,0 +1,167 @@
+"""The equations of motion as generated programs: state → its derivative, in stages that never multiply out.
+
+The state is (q, v), with t as a last component where time enters explicitly. The mass matrix is factored by L D Lᵀ, the
+constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError, SingularError
+from lagrotor.mechanics.constraints import dependent_rows
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import singular_mass, t
+from lagrotor.numerics.codegen import Program, Stage, reduce_common, solve_symmetric
+
+
+@dataclass(frozen=True, eq=False)
+class Generated:
+    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language takes.
+
+    states: the symbols q, v and, where time enters, t; parameters: the other symbols, sorted by name.
+    """
+
+    program: Program
+    states: tuple[sp.Symbol, ...]
+    parameters: tuple[sp.Symbol, ...]
+
+
+@lru_cache(maxsize=64)
+def motion_program(system: Equations) -> Generated:
+    """(q, v[, t]) → (v, a[, 1]).
+
+    Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
+    """
+    stages, a = _accelerations(system)
+    return generated(system, stages, [*system.c.v, *a], moving=True)
+
+
+def generated(
+    system: Equations, stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
+) -> Generated:
+    """A program of the system's state and parameters, its symbols renamed to plain identifiers; `moving`: t' = 1 is its
+    last output where time enters.
+    """
+    own = {name for name, _ in stages}
+    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
+    states = (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
+    if moving and len(states) > 2 * len(system.c.q):
+        outputs = [*outputs, sp.S.One]
+    parameters = tuple(sorted(used - {*states}, key=str))
+    taken = {str(s) for s in (*states, t)}
+    if doubles := [str(p) for p in parameters if str(p) in taken]:
+        raise InputError(
+            f"simulate: two different symbols are called {', '.join(doubles)} (they differ in their assumptions): use the "
+            "coordinates' own, c.q and c.v, and t of lagrotor.mechanics"
+        )
+    plain = {s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate(states)}
+    plain |= {s: sp.Symbol(f"p{i}_", real=True) for i, s in enumerate(parameters)}
+    plain |= {s: sp.Symbol(f"w{i}_", real=True) for i, (s, _) in enumerate(stages)}
+    numbers: dict[Any, Any] = {
+        c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)
+    }
+    rename = plain | numbers
+    program = Program(
+        tuple(plain[s] for s in (*states, *parameters)),
+        tuple((plain[name], e.xreplace(rename)) for name, e in stages),
+        tuple(e.xreplace(rename) for e in outputs),
+    )
+    return Generated(program, states, parameters)
+
+
+def depends_on_time(system: Equations) -> bool:
+    """Whether t is in the Lagrangian, a force, the friction or a constraint."""
+    expressions = (system.L, system.dissipation, *system.forces, *system.constraints, *system.rolling)
+    return any(t in e.free_symbols for e in expressions)
+
+
+def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
+    """Stages, and the accelerations made of them."""
+    G, push = system.rows, system.push - system.bias
+    try:
+        stages, solved = solve_symmetric(system.mass, push.row_join(G.T), "_m")
+    except SingularError:
+        raise SingularError(singular_mass("simulate", system.mass, system.c)) from None
+    return bound(stages, solved, G, system.gamma)
+
+
+def bound(stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix) -> tuple[list[Stage], list[sp.Expr]]:
+    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints."""
+    free, W = solved[:, :1], solved[:, 1:]
+    if not G.rows:
+        return stages, list(free)
+    right, lam = constraint_solve(G * W, -(G * free + gamma), "_s")
+    return [*stages, *right], list(free + W * lam)
+
+
+def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
+    """Stages that solve S x = right for the Schur complement S."""
+    try:
+        return solve_symmetric(S, right, prefix)
+    except SingularError:
+        raise SingularError(dependent_rows("simulate", "det S = 0")) from None
+
+
+@lru_cache(maxsize=64)
+def projection_program(system: Equations) -> Generated:
+    """One Newton step of the state onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b).
+
+    Rolling constraints bind velocities alone.
+    """
+    G, n = system.rows, len(system.c.q)
+    stages, W = solve_symmetric(system.mass, G.T, "_m")
+    place = sp.Matrix([*system.constraints, *[0] * len(system.rolling)])
+    h = len(system.constraints)
+    moves = sp.zeros(n, 2)
+    if h:
+        more, x = constraint_solve(G[:h, :] * W[:, :h], place[:h, :], "_h")
+        stages, moves[:, 0] = [*stages, *more], W[:, :h] * x
+    more, x = constraint_solve(G * W, system.residual, "_s")
+    moves[:, 1] = W * x
+    state = sp.Matrix([*system.c.q, *system.c.v]) - moves[:, 0].col_join(moves[:, 1])
+    return generated(system, [*stages, *more], list(state) + ([t] if depends_on_time(system) else []))
+
+
+def tangent_program(given: Generated) -> Generated:
+    """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ): each stage differentiated as it is."""
+    program, d = given.program, len(given.states)
+    body, outputs = reduce_common(program)
+    names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
+    slopes: dict[sp.Symbol, sp.Expr] = dict(zip(program.arguments[:d], names, strict=True))
+
+    def along(e: sp.Expr) -> sp.Expr:
+        return sp.Add(*(sp.diff(e, s) * slopes[s] for s in sorted(e.free_symbols, key=str) if s in slopes))
+
+    stages: list[Stage] = []
+    for name, e in body:
+        stages.append((name, e))
+        slope = along(e)
+        if slope != 0:
+            slopes[name] = sp.Symbol(f"d_{name}", real=True)
+            stages.append((slopes[name], slope))
+    arguments = (*program.arguments[:d], *names, *program.arguments[d:])
+    both = Program(arguments, tuple(stages), (*outputs, *(along(e) for e in outputs)))
+    return Generated(both, (*given.states, *names), given.parameters)
+
+
+def parameter_values(given: Generated, values: Mapping[Any, Any]) -> tuple[float, ...]:
+    """The parameters' values in the program's order; keys are symbols or their names.
+
+    Raises InputError when one is missing or is not a finite number.
+    """
+    by_name = {str(key): value for key, value in values.items()}
+    if missing := [str(p) for p in given.parameters if str(p) not in by_name]:
+        raise InputError(f"simulate: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
+    found = []
+    for p in given.parameters:
+        try:
+            found.append(float(by_name[str(p)]))
+        except (TypeError, ValueError):
+            raise InputError(f"simulate: {p} = {by_name[str(p)]!r} must be a number") from None
+        if not abs(found[-1]) < float("inf"):
+            raise InputError(f"simulate: {p} = {found[-1]} must be finite")
+    return tuple(found)

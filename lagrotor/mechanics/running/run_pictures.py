@@ -1,0 +1,37 @@
+"""Pictures of any run: its coordinates and energy over time, and a film of its bodies."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.drawing.film import frame_times
+from lagrotor.drawing.run_figure import RunFigure, coordinates_figure
+from lagrotor.drawing.skeleton import animate_lines
+from lagrotor.errors import InputError
+from lagrotor.mechanics.running.motion import Motion
+
+Point = Sequence[sp.Expr]
+
+
+def plot(run: Motion) -> RunFigure:
+    """A figure of the coordinates, the change of the energy and, under constraints, their violation over time."""
+    labels = {f"${sp.latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
+    return coordinates_figure(run.t, labels, run.energy, run.drift)
+
+
+def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = (), fps: float = 25.0) -> Path:
+    """Write the run as a film (.gif or .mp4) of its bodies, or of `lines`: each a sequence of points (x, y, z) in q and t.
+
+    Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
+    """
+    chosen = [*lines] or [line for body in run.system.bodies for line in body.lines]
+    if not chosen:
+        raise InputError(
+            "animate: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), "
+            "(x, y, z)], …] with positions in the coordinates, or build L from Frame(c).body(…)"
+        )
+    frames = run.at(frame_times(run.t[0], run.t[-1], fps))
+    drawn = [np.stack([np.stack([frames.evaluate(e) for e in point], -1) for point in line], 1) for line in chosen]
+    return animate_lines(path, frames.t, drawn, fps)

@@ -1,0 +1,257 @@
+"""Runs of any system: closed solutions, independent integrations, conserved quantities, refusals."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.special import ellipj, ellipk
+
+from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.mechanics import System, coordinates, t
+
+m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
+VALUES = {m: 1.3, l: 0.8, g: 9.81, k: 0.2, R: 0.5, Omega: 6.0, w: 20.0, A: 0.1}
+ANGLE, PLANE = coordinates("theta"), coordinates("x y")
+
+
+def pendulum(**more: object) -> System:
+    (theta,), (theta_v,) = ANGLE.q, ANGLE.v
+    return System(ANGLE, m * l**2 * theta_v**2 / 2 + m * g * l * sp.cos(theta), **more)
+
+
+def rod() -> System:
+    (x, y), v = PLANE.q, PLANE.v
+    return System(PLANE, m * (v[0] ** 2 + v[1] ** 2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
+
+
+def elliptic(times: np.ndarray, amplitude: float) -> np.ndarray:
+    """sin(theta/2) = k sn(K − w t), the pendulum let go at rest."""
+    modulus, rate = np.sin(amplitude / 2), np.sqrt(9.81 / 0.8)
+    sn, *_ = ellipj(ellipk(modulus**2) - rate * times, modulus**2)
+    return 2 * np.arcsin(modulus * sn)
+
+
+@pytest.fixture(params=["core", "fast"])
+def engine(request: pytest.FixtureRequest) -> str:
+    if request.param == "fast":
+        pytest.importorskip("heyoka")
+    return request.param
+
+
+@pytest.mark.parametrize("tol", [1e-6, 1e-9, 1e-12])
+def test_a_pendulum_follows_its_elliptic_function_to_the_tolerance(tol: float, engine: str) -> None:
+    times = np.linspace(0, 10, 101)
+    run = pendulum().simulate(VALUES, (2.5,), (0,), times, tol, engine)
+    assert np.abs(run.q[:, 0] - elliptic(times, 2.5)).max() < 10 * tol
+    assert np.ptp(run.energy) < 1e3 * tol
+    # Its twin with another length is elsewhere.
+    longer = pendulum().simulate(VALUES | {l: 0.81}, (2.5,), (0,), times, tol, engine)
+    assert np.abs(longer.q[:, 0] - elliptic(times, 2.5)).max() > 1e-2
+
+
+def test_a_rod_of_multipliers_swings_as_the_angle_does_and_keeps_its_length(engine: str) -> None:
+    times = np.linspace(0, 10, 101)
+    angle = pendulum().simulate(VALUES, (1.2,), (0.5,), times, 1e-11)
+    place = 0.8 * np.array([np.sin(1.2), -np.cos(1.2)])
+    speed = 0.8 * 0.5 * np.array([np.cos(1.2), np.sin(1.2)])
+    run = rod().simulate(VALUES, place, speed, times, 1e-11, engine)
+    expected = 0.8 * np.column_stack([np.sin(angle.q[:, 0]), -np.cos(angle.q[:, 0])])
+    assert np.abs(run.q - expected).max() < 1e-9
+    assert run.drift.max() < 1e-12
+    assert run.drift.shape == run.energy.shape == (101,)
+
+
+def test_a_start_off_the_constraints_is_refused_with_the_nearest_on_them() -> None:
+    with pytest.raises(ConstraintError, match=r"nearest state on them is q0 = \(0\.8, 0\), v0 = \(0, 1\)"):
+        rod().simulate(VALUES, (1.0, 0), (0.5, 1), [0, 1])
+    q, v = rod().consistent(VALUES, (1.0, 0), (0.5, 1))
+    assert rod().simulate(VALUES, q, v, [0, 1]).drift.max() < 1e-12
+
+
+def test_a_wire_that_turns_carries_its_bead_outward(engine: str) -> None:
+    """r'' = Omega² r: r = r_0 cosh(Omega t), started at a time that is not zero."""
+    (x, y), v = PLANE.q, PLANE.v
+    wire = System(PLANE, m * (v[0] ** 2 + v[1] ** 2) / 2, (y * sp.cos(Omega * t) - x * sp.sin(Omega * t),))
+    times = np.linspace(1.0, 1.3, 31)
+    values = {m: 1.0, Omega: 6.0}
+    along, across = np.array([np.cos(6.0), np.sin(6.0)]), np.array([-np.sin(6.0), np.cos(6.0)])
+    run = wire.simulate(values, 0.1 * along, 0.6 * across, times, 1e-10, engine)
+    assert np.hypot(*run.q.T) == pytest.approx(0.1 * np.cosh(6.0 * (times - 1)), abs=1e-8)
+    assert run.drift.max() < 1e-10
+    _, v0 = wire.consistent(values, 0.1 * along, (0, 0), 1.0)
+    assert np.abs(v0 - 0.6 * across).max() < 1e-12
+
+
+def test_explicit_time_friction_and_force_agree_with_scipy_from_the_textbook_equation(engine: str) -> None:
+    (theta,), (theta_v,) = ANGLE.q, ANGLE.v
+    shaken = pendulum(dissipation=k * theta_v**2 / 2, forces=(A * sp.cos(w * t) * sp.sin(theta),))
+    times = np.linspace(0.5, 8, 60)
+    run = shaken.simulate(VALUES, (1.0,), (0.3,), times, 1e-10, engine)
+
+    def rhs(s: float, y: np.ndarray) -> list[float]:
+        inertia = 1.3 * 0.8**2
+        torque = -1.3 * 9.81 * 0.8 * np.sin(y[0]) - 0.2 * y[1] + 0.1 * np.cos(20 * s) * np.sin(y[0])
+        return [y[1], torque / inertia]
+
+    oracle = solve_ivp(rhs, (0.5, 8), [1.0, 0.3], "DOP853", times, rtol=1e-12, atol=1e-13).y.T
+    assert np.abs(np.column_stack([run.q, run.v]) - oracle).max() < 1e-8
+
+
+def test_dense_output_is_as_exact_as_the_run(engine: str) -> None:
+    run = pendulum().simulate(VALUES, (2.5,), (0,), np.linspace(0, 6, 4), 1e-11, engine)
+    times = np.array([0.0, 0.3, 1.9999, 2.0, 4.7, 6.0])
+    assert np.abs(run.at(times).q[:, 0] - elliptic(times, 2.5)).max() < 1e-9
+    with pytest.raises(InputError, match="between 0 and 6 s"):
+        run.at([6.1])
+
+
+def test_expressions_are_evaluated_along_a_run() -> None:
+    run = pendulum().simulate(VALUES, (2.5,), (0,), np.linspace(0, 6, 31), 1e-11)
+    height = run.evaluate(l * (1 - sp.cos(ANGLE.q[0])))
+    assert height == pytest.approx(0.8 * (1 - np.cos(run.q[:, 0])))
+    assert run.evaluate(sp.S.One).shape == (31,)
+    with pytest.raises(InputError, match="unheard without a value"):
+        run.evaluate(sp.Symbol("unheard"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"values": {m: 1, l: 1}}, "g without a value"),
+        ({"values": VALUES | {g: "much"}}, "must be a number"),
+        ({"values": VALUES | {g: np.nan}}, "must be finite"),
+        ({"q0": (1, 2)}, "one for each coordinate"),
+        ({"v0": (np.inf,)}, "1 finite numbers"),
+        ({"t": [0, 1, 1]}, "increasing"),
+        ({"t": "soon"}, "array of times"),
+        ({"tol": 1e-20}, "tol"),
+        ({"engine": "warp"}, "must be 'core' or 'fast'"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_before_it_runs(arguments: dict, message: str) -> None:
+    ready = {"values": VALUES, "q0": (1,), "v0": (0,), "t": [0, 1]} | arguments
+    with pytest.raises(InputError, match=message):
+        pendulum().simulate(**ready)
+
+
+def test_a_symbol_of_the_same_name_but_other_assumptions_is_pointed_out() -> None:
+    stranger = System(ANGLE, ANGLE.v[0] ** 2 / 2 + ANGLE.q[0] * sp.cos(sp.Symbol("theta")))
+    with pytest.raises(InputError, match="two different symbols are called theta"):
+        stranger.simulate({"theta": 1}, (1,), (0,), [0, 1])
+
+
+def test_a_lagrangian_without_a_mass_is_refused() -> None:
+    with pytest.raises(SingularError, match=r"not regular in y_dot; use fewer"):
+        System(PLANE, PLANE.v[0] ** 2 / 2 - PLANE.q[1] ** 2).simulate({}, (0, 0), (0, 0), [0, 1])
+    twice = System(PLANE, rod().L, (rod().constraints[0], 2 * rod().constraints[0]))
+    with pytest.raises(SingularError, match="dependent"):
+        twice.simulate(VALUES, (0.8, 0), (0, 0), [0, 1])
+
+
+def test_names_that_are_words_of_a_language_are_no_trouble() -> None:
+    c = coordinates("y lambda")
+    odd = sp.symbols("s gamma in", positive=True)
+    L = odd[0] * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - odd[1] * c.q[0] ** 2 / 2 - odd[2] * c.q[1] ** 2 / 2
+    run = System(c, L).simulate({"s": 1, "gamma": 4, "in": 9}, (1, 1), (0, 0), np.linspace(0, 3, 31), 1e-10)
+    assert run.q == pytest.approx(np.column_stack([np.cos(2 * run.t), np.cos(3 * run.t)]), abs=1e-8)
+
+
+def test_crossings_are_found_where_the_solution_has_them(engine: str) -> None:
+    c = coordinates("x")
+    oscillator = System(c, c.v[0] ** 2 / 2 - 4 * c.q[0] ** 2 / 2)
+    run = oscillator.simulate({}, (1,), (0,), np.linspace(0, 10, 41), 1e-12, engine)
+    half = sp.Rational(1, 2)
+    up, down, both = (run.crossings(c.q[0] - half, d) for d in (1, -1, 0))
+    expected = np.arccos(0.5) / 2
+    turns = np.arange(0, 10, np.pi)
+    assert down.t == pytest.approx((turns + expected)[turns + expected < 10], abs=1e-11)
+    assert up.t == pytest.approx((turns + np.pi - expected)[turns + np.pi - expected < 10], abs=1e-11)
+    assert len(both.t) == len(up.t) + len(down.t)
+    assert np.abs(both.q - 0.5).max() < 1e-12
+    assert len(run.crossings(c.q[0] - 2).t) == 0
+    assert run.poincare(c.q[0] - 2, (c.q[0], c.v[0])).shape == (0, 2)
+    with pytest.raises(InputError, match="direction"):
+        run.crossings(c.q[0], 2)
+
+
+def test_two_crossings_between_two_samples_are_both_found() -> None:
+    c = coordinates("x")
+    run = System(c, c.v[0] ** 2 / 2 + c.q[0]).simulate({}, (-1,), (2,), [0, 1.0], 1e-12)  # x = −1 + 2 t + t²/2
+    thrown = System(c, c.v[0] ** 2 / 2 - 4 * c.q[0]).simulate({}, (-0.1,), (2,), [0, 1.0], 1e-12)
+    assert len(run.crossings(c.q[0]).t) == 1
+    assert thrown.crossings(c.q[0]).t == pytest.approx(np.roots([-2, 2, -0.1])[::-1], abs=1e-11)
+
+
+def henon_heiles() -> System:
+    (x, y), (x_v, y_v) = PLANE.q, PLANE.v
+    return System(PLANE, (x_v**2 + y_v**2) / 2 - (x**2 + y**2) / 2 - x**2 * y + y**3 / 3)
+
+
+def test_a_poincare_section_of_henon_and_heiles_lies_on_the_energy_surface() -> None:
+    run = henon_heiles().simulate({}, (0, 0.1), (0.45, 0.1), np.linspace(0, 100, 1001), 1e-10)
+    x, (y, y_v) = PLANE.q[0], (PLANE.q[1], PLANE.v[1])
+    points = run.poincare(x, (y, y_v))
+    assert len(points) > 10
+    kinetic = run.energy[0] - (points[:, 0] ** 2 / 2 - points[:, 0] ** 3 / 3) - points[:, 1] ** 2 / 2
+    assert (kinetic > 0).all()
+    there = run.crossings(x, 1)
+    assert there.v[:, 0] ** 2 / 2 == pytest.approx(kinetic, abs=1e-8)
+
+
+@pytest.mark.slow
+def test_the_lyapunov_exponent_tells_chaos_from_order_and_is_that_of_two_neighbours() -> None:
+    """A double pendulum; the oracle is the growth of the distance of two runs, renormalised by hand."""
+    (a, b), (a_v, b_v) = PLANE.q, PLANE.v
+    L = a_v**2 + b_v**2 / 2 + a_v * b_v * sp.cos(a - b) + 2 * sp.cos(a) + sp.cos(b)
+    double, times = System(PLANE, L), np.linspace(0, 200, 401)
+    chaotic = double.simulate({}, (2, 2.5), (0, 0), times, 1e-9).lyapunov()
+    calm = double.simulate({}, (0.1, 0.1), (0, 0), times, 1e-9).lyapunov()
+    assert chaotic.exponent > 5 * chaotic.error > 0
+    assert abs(calm.exponent) < 0.05
+    apart, y, other, growth = 1e-7, np.array([2, 2.5, 0, 0]), np.array([2, 2.5, 1e-7, 0]), 0.0
+    for _ in range(200):
+        ends = [double.simulate({}, s[:2], s[2:], [0, 1.0], 1e-11) for s in (y, other)]
+        y, end = (np.concatenate([r.q[-1], r.v[-1]]) for r in ends)
+        distance = np.linalg.norm(end - y)
+        growth, other = growth + np.log(distance / apart), y + (end - y) * apart / distance
+    assert growth / 200 == pytest.approx(chaotic.exponent, abs=4 * chaotic.error)
+
+
+def test_the_exponent_of_a_saddle_is_its_rate() -> None:
+    c = coordinates("x")
+    saddle = System(c, c.v[0] ** 2 / 2 + 4 * c.q[0] ** 2 / 2)
+    found = saddle.simulate({}, (0,), (0,), [0, 50.0], 1e-9).lyapunov()
+    assert found.exponent == pytest.approx(2, abs=0.1)
+    assert found.history.shape == found.t.shape == (200,)
+    with pytest.raises(InputError, match="one sample"):
+        saddle.simulate({}, (0,), (0,), [0.0]).lyapunov()
+
+
+def test_a_run_is_drawn_and_filmed(tmp_path: Path) -> None:
+    run = rod().simulate(VALUES, (0.8, 0), (0, 0), np.linspace(0, 0.4, 11), 1e-9)
+    figure = run.plot()
+    assert [axes.get_ylabel() for axes in figure.axes] == ["$x$", "$y$", "E − E(0)", "largest |g|"]
+    np.testing.assert_array_equal(figure.axes[0].lines[0].get_ydata(), run.q[:, 0])
+    from PIL import Image
+
+    film = run.animate(tmp_path / "rod.gif", [[(0, 0, 0), (PLANE.q[0], 0, PLANE.q[1])]])
+    with Image.open(film) as image:
+        assert image.n_frames > 5
+    with pytest.raises(InputError, match=r"give lines="):
+        run.animate(tmp_path / "none.gif")
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(0.5, 3))
+def test_a_charge_in_a_uniform_field_turns_at_the_cyclotron_rate(x_v: float, y_v: float, rate: float) -> None:
+    (x, y), v = PLANE.q, PLANE.v
+    B = sp.Symbol("B")
+    charge = System(PLANE, (v[0] ** 2 + v[1] ** 2) / 2 + B * (x * v[1] - y * v[0]) / 2)
+    times = np.linspace(0, 5, 11)
+    run = charge.simulate({B: rate}, (0, 0), (x_v, y_v), times, 1e-10)
+    turned = (x_v + 1j * y_v) * np.exp(-1j * rate * times)
+    assert run.v[:, 0] + 1j * run.v[:, 1] == pytest.approx(turned, abs=1e-7)
