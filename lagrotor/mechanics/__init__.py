@@ -1,5 +1,6 @@
 """Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries and small motions."""
 
+from lagrotor.mechanics.bodies.frames import Frame
 from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
 from lagrotor.mechanics.equations import constrained_accelerations, degrees_of_freedom
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -23,6 +24,7 @@ __all__ = [
     "Coordinates",
     "Equilibrium",
     "FirstIntegral",
+    "Frame",
     "LinearSystem",
     "Mode",
     "System",

@@ -10,6 +10,8 @@ from lagrotor.drawing.film import frame_times
 from lagrotor.drawing.run_figure import RunFigure, coordinates_figure
 from lagrotor.drawing.skeleton import animate_lines
 from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies.rigid_bodies import Body
+from lagrotor.mechanics.running.integration import Array
 from lagrotor.mechanics.running.motion import Motion
 
 Point = Sequence[sp.Expr]
@@ -26,12 +28,27 @@ def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = ()
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
     """
-    chosen = [*lines] or [line for body in run.system.bodies for line in body.lines]
-    if not chosen:
+    frames = run.at(frame_times(run.t[0], run.t[-1], fps))
+    if lines:
+        drawn = [np.stack([_vectors(frames, point) for point in line], 1) for line in lines]
+    else:
+        drawn = [carried for body in run.system.bodies for carried in _outline(frames, body)]
+    if not drawn:
         raise InputError(
             "animate: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), "
             "(x, y, z)], …] with positions in the coordinates, or build L from Frame(c).body(…)"
         )
-    frames = run.at(frame_times(run.t[0], run.t[-1], fps))
-    drawn = [np.stack([np.stack([frames.evaluate(e) for e in point], -1) for point in line], 1) for line in chosen]
     return animate_lines(path, frames.t, drawn, fps)
+
+
+def _outline(frames: Motion, body: Body) -> list[Array]:
+    """The body's lines carried along, each (m, p, 3)."""
+    origin = _vectors(frames, body.frame.place())
+    rows = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
+    lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]
+    return [origin[:, None] + line @ np.stack(rows, 1) for line in lines]
+
+
+def _vectors(frames: Motion, point: Point) -> Array:
+    """A point (x, y, z) of expressions along the run, (m, 3)."""
+    return np.stack([frames.evaluate(e) for e in point], -1)

@@ -1,0 +1,133 @@
+"""Rigid bodies, and the energies that remember of which bodies they are made.
+
+    T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
+
+A sum of such energies and of plain expressions is a Lagrangian that any sympy function takes as an expression; System
+keeps the bodies, whose tree gives faster code and the picture.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+
+Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
+_ARCS = 16  # chords of a drawn rim
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A rigid body: its frame, mass, inertia (3, 3) about its centre of mass, and that centre, in the frame's axes."""
+
+    frame: MovingFrame
+    mass: sp.Expr
+    inertia: sp.Matrix
+    centre: sp.Matrix
+
+    @cached_property
+    def velocity(self) -> sp.Matrix:
+        """v of the centre of mass, in the frame's axes, (3, 1)."""
+        return self.frame.velocity(self.centre)
+
+    @property
+    def kinetic(self) -> "Energy":
+        """½ m |v|² + ½ ω·I ω."""
+        return Energy(((self, None, sp.S.One),))
+
+    def potential(self, field: Vector) -> "Energy":
+        """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
+        return Energy(((self, tuple(sp.sympify(e) for e in field), sp.S.One),))
+
+    @cached_property
+    def outline(self) -> Outline:
+        """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration."""
+        lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
+        I = [self.inertia[i, i] for i in range(3)]
+        axis = next((k for k in (2, 1, 0) if I[k - 2] == I[k - 1] and I[k]), None)
+        if axis is not None:
+            radius, rim = sp.sqrt(I[axis] / self.mass), []
+            for k in range(_ARCS + 1):
+                point = list(self.centre)
+                point[axis - 2] += radius * sp.cos(2 * sp.pi * k / _ARCS)
+                point[axis - 1] += radius * sp.sin(2 * sp.pi * k / _ARCS)
+                rim.append(point)
+            lines.append([list(self.centre), *rim])
+        return lines or [[[0, 0, 0], [0, 0, 0]]]
+
+
+def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: Vector = (0, 0, 0)) -> Body:
+    """A rigid body fixed to the frame: mass, inertia (3,) or (3, 3) about its centre of mass, in the frame's axes.
+
+    Raises InputError for a shape that is neither, or an inertia that is not symmetric.
+    """
+    try:
+        I = sp.diag(*inertia) if sp.Matrix(inertia).shape in ((3, 1), (1, 3)) else sp.Matrix(inertia)
+        place = sp.Matrix(list(centre))
+    except (TypeError, ValueError):
+        raise InputError(f"body: inertia = {inertia!r}, centre = {centre!r}: give (I1, I2, I3) and (x, y, z)") from None
+    if I.shape != (3, 3) or not I.is_symmetric(simplify=False) or place.shape != (3, 1):
+        raise InputError(
+            f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
+        )
+    if used := (I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v}:
+        raise InputError(
+            f"body: {', '.join(map(str, used))} in a rigid body: its inertia and centre are fixed; move its frame"
+        )
+    return Body(frame, sp.sympify(mass), I, place)
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Σ factor × (kinetic energy, or potential in a field) of bodies, plus an expression; see `Body`."""
+
+    terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
+    rest: sp.Expr = sp.S.Zero
+
+    _op_priority = 100.0  # sympy hands + and − over
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies, each once."""
+        return tuple(dict.fromkeys(body for body, _, _ in self.terms))
+
+    @cached_property
+    def expression(self) -> sp.Expr:
+        """The energy in q, v and t."""
+        return sp.Add(self.rest, *(factor * _value(body, field) for body, field, factor in self.terms))
+
+    def _sympy_(self) -> sp.Expr:
+        return self.expression
+
+    def __add__(self, other: Any) -> "Energy":
+        if isinstance(other, Energy):
+            return Energy(self.terms + other.terms, self.rest + other.rest)
+        return Energy(self.terms, self.rest + sp.sympify(other))
+
+    def __mul__(self, factor: Any) -> "Energy":
+        number = sp.sympify(factor)
+        return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.rest)
+
+    def __neg__(self) -> "Energy":
+        return self * -1
+
+    def __sub__(self, other: Any) -> "Energy":
+        return self + (-other)
+
+    def __rsub__(self, other: Any) -> "Energy":
+        return -self + other
+
+    def __truediv__(self, factor: Any) -> "Energy":
+        return self * (1 / sp.sympify(factor))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+def _value(body: Body, field: tuple[sp.Expr, ...] | None) -> sp.Expr:
+    if field is not None:
+        return -body.mass * sp.Matrix(field).dot(body.frame.place(body.centre))
+    v, w = body.velocity, body.frame.angular_velocity
+    return body.mass * v.dot(v) / 2 + w.dot(body.inertia * w) / 2

@@ -1,0 +1,232 @@
+"""Frames and bodies against rotation matrices differentiated by hand, textbook Lagrangians and Newton–Euler equations."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from lagrotor.algebra import decide_equal
+from lagrotor.errors import InputError
+from lagrotor.mechanics import Frame, System, coordinates, t, total_derivative
+
+m, M, l, g, R, J, I1, I2, I3 = sp.symbols("m M l g R J I_1 I_2 I_3", positive=True)
+ANGLES = coordinates("phi theta psi")
+
+
+def same(left: sp.Expr | sp.Matrix, right: sp.Expr | sp.Matrix) -> bool:
+    return decide_equal(left, right).answer == "zero"
+
+
+def test_a_top_made_of_a_body_is_the_textbooks() -> None:
+    """Goldstein §5.7; the same whichever way the sum is written."""
+    (_, theta, _), (phi_v, theta_v, psi_v) = ANGLES.q, ANGLES.v
+    body = Frame(ANGLES).turned("zxz", ANGLES.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    turning = (I1 + m * l**2) * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2)
+    textbook = turning / 2 + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2 - m * g * l * sp.cos(theta)
+    V = m * g * l * sp.cos(theta)
+    for L in (
+        body.kinetic - V,
+        -V + body.kinetic,
+        body.kinetic - body.potential((0, 0, -g)),
+        2 * (body.kinetic - V) / 2,
+    ):
+        top = System(ANGLES, L)
+        assert same(top.L, textbook)
+        assert top.bodies == (body,)
+    # The inertia is about the centre of mass, not about the tip.
+    at_the_tip = Frame(ANGLES).turned("zxz", ANGLES.q).body(m, (I1, I1, I3))
+    assert not same(at_the_tip.kinetic - V, textbook)
+
+
+def test_energies_are_expressions_where_sympy_wants_one() -> None:
+    body = Frame(ANGLES).turned("z", ANGLES.q[0]).body(m, (0, 0, J))
+    assert sp.diff(body.kinetic, ANGLES.v[0]) == J * ANGLES.v[0]
+    assert sp.sympify(body.kinetic + body.kinetic) == J * ANGLES.v[0] ** 2
+    assert sp.expand(sp.sympify(1 - body.kinetic)) == 1 - J * ANGLES.v[0] ** 2 / 2
+
+
+def test_a_double_pendulum_of_points_is_landaus() -> None:
+    """Landau & Lifshitz §5, problem 1."""
+    c = coordinates("a b")
+    (a, b), (a_v, b_v) = c.q, c.v
+    upper = Frame(c).turned("y", -a).body(m, centre=(0, 0, -l))
+    lower = Frame(c).turned("y", -a).moved(0, 0, -l).turned("y", a - b).body(M, centre=(0, 0, -R))
+    gravity = (0, 0, -g)
+    made = System(c, upper.kinetic + lower.kinetic - upper.potential(gravity) - lower.potential(gravity))
+    kinetic = (m + M) * l**2 * a_v**2 / 2 + M * R**2 * b_v**2 / 2 + M * l * R * a_v * b_v * sp.cos(a - b)
+    textbook = kinetic + (m + M) * g * l * sp.cos(a) + M * g * R * sp.cos(b)
+    assert same(made.L, textbook)
+
+
+ORDERS = ["xyz", "zxz", "yxy", "zyx"]
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.sampled_from(ORDERS), st.lists(st.floats(-1.5, 1.5), min_size=12, max_size=12))
+def test_velocities_are_those_of_the_moved_points(order: str, numbers: list[float]) -> None:
+    """Against scipy's rotations, differentiated by differences: angular velocity, velocity of a point, kinetic energy."""
+    q, v, arm, point = (np.array(numbers[i : i + 3]) for i in (0, 3, 6, 9))
+    frame = Frame(ANGLES).moved(*arm.tolist()).turned(order, ANGLES.q).moved(0, 0, ANGLES.q[1])
+    at = dict(zip((*ANGLES.q, *ANGLES.v), (*q, *v), strict=True))
+
+    def placed(time: float) -> tuple[Rotation, np.ndarray]:
+        now = q + v * time
+        turned = Rotation.from_euler(order.upper(), now)
+        return turned, arm + turned.apply(point + [0, 0, now[1]])
+
+    h = 1e-5
+    (before, start), (after, end) = placed(-h), placed(h)
+    here = placed(0)[0]
+    spin = (before.inv() * after).as_rotvec() / (2 * h)
+    assert np.array(frame.angular_velocity.subs(at), float).ravel() == pytest.approx(spin, abs=1e-6)
+    assert np.array(frame.place(point.tolist()).subs(at), float).ravel() == pytest.approx(placed(0)[1], abs=1e-12)
+    own = np.array(frame.velocity(point.tolist()).subs(at), float).ravel()
+    assert here.apply(own) == pytest.approx((end - start) / (2 * h), abs=1e-6)
+    inertia = np.array([[2, 0.1, 0], [0.1, 3, 0.2], [0, 0.2, 4]])
+    body = frame.body(1.5, inertia.tolist(), point.tolist())
+    kinetic = 0.75 * own @ own + spin @ inertia @ spin / 2
+    assert float(sp.sympify(body.kinetic).subs(at)) == pytest.approx(kinetic, abs=1e-5)
+
+
+def test_a_rotation_of_ones_own_is_a_turn() -> None:
+    phi = ANGLES.q[0]
+    by_matrix = Frame(ANGLES).turned([[sp.cos(phi), -sp.sin(phi), 0], [sp.sin(phi), sp.cos(phi), 0], [0, 0, 1]])
+    by_letter = Frame(ANGLES).turned("z", phi)
+    assert same(by_matrix.angular_velocity, by_letter.angular_velocity)
+    with pytest.raises(InputError, match="R Rᵀ = 1"):
+        Frame(ANGLES).turned([[1, 1, 0], [0, 1, 0], [0, 0, 1]])
+
+
+def test_a_driven_frame_has_the_velocity_of_its_drive() -> None:
+    driven = Frame(ANGLES).moved(0, 0, sp.sin(3 * t)).turned("z", 2 * t)
+    assert list(driven.angular_velocity) == [0, 0, 2]
+    assert list(driven.velocity((1, 0, 0))) == [0, 2, 3 * sp.cos(3 * t)]
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: Frame("phi"), "must be Coordinates"),
+        (lambda: Frame(ANGLES).turned("zq", (1, 2)), "one angle for each letter"),
+        (lambda: Frame(ANGLES).turned("zx", (1,)), "one angle for each letter"),
+        (lambda: Frame(ANGLES).turned(7), "neither letters"),
+        (lambda: Frame(ANGLES).body(m, (I1, I2)), "must be"),
+        (lambda: Frame(ANGLES).body(m, [[1, 2, 0], [0, 1, 0], [0, 0, 1]]), "symmetric"),
+        (lambda: Frame(ANGLES).body(m, (1, 1, 1), (ANGLES.q[0], 0, 0)), "move its frame"),
+        (lambda: Frame(ANGLES).velocity(seen=Frame(ANGLES).turned("z", 1)), "from which this one was turned"),
+    ],
+)
+def test_sketches_that_make_no_sense_are_refused(build, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        build()
+
+
+def sleigh() -> System:
+    c = coordinates("x y phi")
+    x, y, phi = c.q
+    blade = Frame(c).moved(x, y).turned("z", phi)
+    runner = blade.body(m, (0, 0, J), centre=(l, 0, 0))
+    return System(c, runner.kinetic, rolling=(blade.velocity()[1],))
+
+
+def test_chaplygins_sleigh_of_a_body_follows_its_closed_solution() -> None:
+    """Neimark & Fufaev ch. II: with b² = m l²/(J + m l²): omega = omega_0 sech(s), u = a tanh(s) … on the ellipse
+    u² + (J/m + l²) omega² = const, and omega' = −(m l/(J + m l²)) omega u."""
+    values, times = {m: 2.0, l: 0.3, J: 0.5}, np.linspace(0, 12, 121)
+    run = sleigh().simulate(values, (0, 0, 0), (0, 0, 1.5), times, 1e-11)
+    inertia = 0.5 + 2.0 * 0.09
+    top_speed = 1.5 * np.sqrt(inertia / 2.0)  # all of the energy in the end
+    rate = 2.0 * 0.3 * top_speed / inertia
+    u = run.v[:, 0] * np.cos(run.q[:, 2]) + run.v[:, 1] * np.sin(run.q[:, 2])
+    assert u == pytest.approx(top_speed * np.tanh(rate * times), abs=1e-9)
+    assert run.v[:, 2] == pytest.approx(1.5 / np.cosh(rate * times), abs=1e-9)
+    assert run.drift.max() < 1e-11
+    assert np.ptp(run.energy) < 1e-9
+
+
+def disc() -> tuple[System, Frame]:
+    """A thin disc on a horizontal plane: centre, heading, lean, roll."""
+    c = coordinates("x y z phi theta psi")
+    x, y, z, phi, theta, psi = c.q
+    lean = Frame(c).moved(x, y, z).turned("zx", (phi, theta))
+    wheel = lean.turned("y", psi)
+    body = wheel.body(m, (m * R**2 / 4, m * R**2 / 2, m * R**2 / 4))
+    at_rest = wheel.velocity((0, 0, -R), seen=lean)
+    height = z - R * sp.cos(theta)
+    return System(c, body.kinetic - body.potential((0, 0, -g)), (height,), rolling=tuple(at_rest[:2, 0])), wheel
+
+
+def newton_euler(times: np.ndarray, Q: np.ndarray, spin: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """The same disc from momentum and angular momentum about the centre, with the force at the contact eliminated:
+    centres (n, 3). Mass 2, radius 0.5, g = 9.81."""
+    mass, radius, up = 2.0, 0.5, np.array([0, 0, 1.0])
+    inertia = mass * radius**2 * np.diag([0.25, 0.5, 0.25])
+
+    def cross(a: np.ndarray) -> np.ndarray:
+        return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
+
+    def rhs(_: float, state: np.ndarray) -> np.ndarray:
+        Q, w = state[:9].reshape(3, 3), state[9:12]
+        n = Q[:, 1]
+        across = up - (up @ n) * n
+        length, n_v = np.linalg.norm(across), np.cross(w, n)
+        across_v = -(up @ n_v) * n - (up @ n) * n_v
+        down = -radius * across / length
+        down_v = -radius * (across_v / length - across * (across @ across_v) / length**3)
+        seen = Q @ inertia @ Q.T
+        force = mass * (-np.cross(w, down_v) + 9.81 * up)  # without the part of the unknown angular acceleration
+        matrix = seen - mass * cross(down) @ cross(down)
+        w_v = np.linalg.solve(matrix, np.cross(down, force) - np.cross(w, seen @ w))
+        return np.concatenate([(cross(w) @ Q).ravel(), w_v, -np.cross(w, down)])
+
+    start = np.concatenate([Q.ravel(), spin, place])
+    return solve_ivp(rhs, (0, times[-1]), start, "DOP853", times, rtol=1e-12, atol=1e-13).y[12:].T
+
+
+@pytest.mark.parametrize("engine", ["core", "fast"])
+def test_a_rolling_disc_follows_newton_and_euler(engine: str) -> None:
+    if engine == "fast":
+        pytest.importorskip("heyoka")
+    system, wheel = disc()
+    values, times = {m: 2.0, R: 0.5, g: 9.81}, np.linspace(0, 3, 61)
+    q0, v0 = (0, 0, 0.5 * np.cos(0.3), 0.2, 0.3, 0.1), (0, 0, 0, 0.8, 0.4, 5.0)
+    q0, v0 = system.consistent(values, q0, v0)
+    run = system.simulate(values, q0, v0, times, 1e-11, engine)
+    at = dict(zip((*system.c.q, *system.c.v), (*q0, *v0), strict=True)) | values
+    Q = np.array([wheel.place(e) - wheel.place() for e in np.eye(3, dtype=int).tolist()])
+    Q = np.array(sp.Matrix(Q.reshape(3, 3).T).subs(at), float)
+    spin = Q @ np.array(wheel.angular_velocity.subs(at), float).ravel()
+    oracle = newton_euler(times, Q, spin, np.array(q0[:3]))
+    assert np.abs(run.q[:, :3] - oracle).max() < 1e-9
+    assert run.drift.max() < 1e-10 and np.ptp(run.energy) < 1e-8
+    # The twin that may slide sideways goes elsewhere.
+    sliding = System(system.c, system.lagrangian, system.constraints, system.rolling[:1])
+    assert np.abs(sliding.simulate(values, q0, v0, times, 1e-9).q[-1, :3] - oracle[-1]).max() > 1e-2
+
+
+def test_a_film_of_bodies_shows_them(tmp_path: Path) -> None:
+    from PIL import Image
+
+    body = Frame(ANGLES).turned("zxz", ANGLES.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    assert [len(line) for line in body.outline] == [2, 18]
+    top = System(ANGLES, body.kinetic - body.potential((0, 0, -g)))
+    run = top.simulate({m: 1, g: 9.81, l: 1, I1: 1, I3: 0.5}, (0, 0.5, 0), (0, 0, 20), np.linspace(0, 0.4, 5))
+    with Image.open(run.animate(tmp_path / "top.gif")) as film:
+        assert film.n_frames > 5
+
+
+def test_the_momentum_about_the_vertical_is_a_noether_integral_of_any_body() -> None:
+    body = Frame(ANGLES).turned("zxz", ANGLES.q).body(m, (I1, I2, I3), (0, 0, l))
+    top = System(ANGLES, body.kinetic - body.potential((0, 0, -g)))
+    assert top.cyclic == (ANGLES.q[0],)
+    found = top.noether((1, 0, 0)).expression
+    turned = Frame(ANGLES).turned("zxz", ANGLES.q)
+    spin = body.inertia * turned.angular_velocity + m * sp.Matrix([0, 0, l]).cross(body.velocity)
+    vertical = (turned.place(list(spin)))[2]
+    assert same(found, vertical)
+    assert not same(total_derivative(found, ANGLES), 0)
