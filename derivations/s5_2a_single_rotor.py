@@ -19,7 +19,7 @@ from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
 from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import rotation
-from lagrotor.paper.premises import parameter_premise
+from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS
 from lagrotor.paper.proof import Formula, prove
 
 theta, phi, psi = ROTOR.q
@@ -69,8 +69,7 @@ prove(kinetic, L.subs(J, J_OF), "the kinetic energy, with J for the inertia abou
 # about the centre, the energy of translation is missing.
 
 # %%
-about_joint = parameter_premise("I₁ is read as the transverse inertia about the ground joint, I₁ = J", {I1: J})
-verdict("5.01", L, premises=[about_joint])
+verdict("5.01", L, premises=[ABOUT_JOINT])
 
 # %% [markdown]
 # ## First integrals
@@ -87,15 +86,14 @@ prove(
 )
 
 # %%
-verdict("5.03", {"M_z": p_phi, "M_3": p_psi}, premises=[about_joint], uses=["5.01"])
+verdict("5.03", {"M_z": p_phi, "M_3": p_psi}, premises=[ABOUT_JOINT], uses=["5.01"])
 
 # %% [markdown]
 # With all inertias equal to $I$ the first is simpler. The paper's rotor is not of this kind: its inertias are equal about
 # the centre, not about the joint.
 
 # %%
-equal_inertias = parameter_premise("the inertias about the ground joint are equal, J = I₃", {J: I3})
-verdict("5.04", {"M_z": p_phi, "M_3": p_psi}, premises=[equal_inertias], uses=["5.03"])
+verdict("5.04", {"M_z": p_phi, "M_3": p_psi}, premises=[EQUAL_INERTIAS], uses=["5.03"])
 
 # %% [markdown]
 # ## Rate of precession
@@ -107,7 +105,7 @@ rate = sp.solve([p_phi - M_z, p_psi - M_3], [phi_v, psi_v], dict=True)[0][phi_v]
 Formula(sp.factor(rate), r"\dot\phi")
 
 # %%
-verdict("5.02", rate, premises=[about_joint], uses=["5.01", "5.03"])
+verdict("5.02", rate, premises=[ABOUT_JOINT], uses=["5.01", "5.03"])
 
 # %% [markdown]
 # The axial momentum is $M_3 = I_3\omega$. For equal inertias the rate then depends on one constant, $a = M_z/I$:
@@ -117,7 +115,7 @@ rate_of_spin = rate.subs(M_3, I3 * omega)
 prove(rate_of_spin, (M_z - I3 * omega * c) / (J * s**2), "the rate of precession by the axial velocity")
 
 # %%
-verdict("5.05", rate_of_spin, premises=[equal_inertias], uses=["5.02", "5.04"])
+verdict("5.05", rate_of_spin, premises=[EQUAL_INERTIAS], uses=["5.02", "5.04"])
 
 # %% [markdown]
 # ## The constant $a$
@@ -130,4 +128,4 @@ change = total_derivative(p_phi / I3, ROTOR).subs(motion)
 prove(change, 0, "the rate of a along the motion")
 
 # %%
-verdict("5.06", {"a": p_phi / I3, r"\dot a": change}, premises=[equal_inertias], uses=["5.04"])
+verdict("5.06", {"a": p_phi / I3, r"\dot a": change}, premises=[EQUAL_INERTIAS], uses=["5.04"])

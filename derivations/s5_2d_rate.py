@@ -1,100 +1,127 @@
 # %% [markdown]
 # # The rate of precession of the pair (5.15, 5.16)
 #
-# **Objective.** $\dot\phi$ from A and B, the values that the paper gives A and B, and what the formula then predicts.
+# **Objective.** $\dot\phi$ from $A$ and $B$, the values that the paper gives $A$ and $B$, and what the formula then predicts.
 #
-# **Assumptions.** The ansatz; equal inertias $J = I_3 = I$ as printed.
+# **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used.
 #
-# **Notation.** $\omega = (\omega_1 - \omega_2)/2 = \dot\psi + \dot\phi\,(\cos\theta_1 + \cos\theta_2)/2$ is the mean
-# axial velocity; $\bar\theta$ the mean inclination and $\delta$ half the difference.
+# **Notation.** $A = p_{\phi_1} - p_{\phi_2}$, $B = p_{\psi_1} - p_{\psi_2}$; $S = \cos\theta_1 + \cos\theta_2$;
+# $\theta_m$ the mean inclination, printed $\bar\theta$, and $\delta$ half the difference; $\omega_i$ the axial velocities.
 
 # %%
 import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.algebra import decide_zero
-from lagrotor.pair.lagrangians import ansatz_integrals
-from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I1, I3, A, B, G, I, J, a, b, omega
-from lagrotor.paper.ledger import Relation, chain
-from lagrotor.paper.legacy import stated
-from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.mechanics import momenta
+from lagrotor.pair.lagrangians import ansatz_integrals, pair_with_bar
+from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
+from lagrotor.paper import audit
+from lagrotor.paper.ansatz import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, Premise
+from lagrotor.paper.proof import prove
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.single_rotor import pair_precession_rate
 
 theta_1, theta_2 = ANSATZ.q[:2]
 phi_v, psi_v = ANSATZ.v[2:]
-total = sp.cos(theta_1) + sp.cos(theta_2)
-uniform = {J: I, I1: I, I3: I}
+S = sp.cos(theta_1) + sp.cos(theta_2)
 
 # %% [markdown]
 # ## The rate from the two integrals
+#
+# Under the ansatz and without a bar, $A$ and $B$ are two linear equations for $\dot\phi$ and $\dot\psi$. Solved for any
+# inertias:
 
 # %%
-rate = pair_precession_rate().expressions[0]
-printed_rate = (2 * A - B * total) / (I * (4 - total**2))
-Formula(sp.Eq(phi_v, rate))
+integral_A, integral_B = ansatz_integrals()
+rate = sp.solve([integral_A - A, integral_B - B], [phi_v, psi_v], dict=True)[0][phi_v]
+tilting = J * (sp.sin(theta_1) ** 2 + sp.sin(theta_2) ** 2) + I3 * (sp.cos(theta_1) ** 2 + sp.cos(theta_2) ** 2)
+prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two integrals")
+
+# %% [markdown]
+# With $J = I_3$ the bracket is $I(4 - S^2)$, the paper's. The printed line is held with $A$ and $B$ as they are on the pair,
+# under no premise; it must then give back $\dot\phi$.
+
+# %%
+on_pair = {s.id: s for s in audit.statements("s5_2c_first_integrals")}
+massless = natural_rate(Scene(spins=(10, -10)))
+heavy = natural_rate(Scene(spins=(10, -10), link=Link(mass=1, inertia=1)))
+verdict(
+    "5.15",
+    phi_v,
+    premises=[MASSLESS_BAR, EQUAL_INERTIAS, opposite_azimuths(), opposite_spin_angles()],
+    uses=[on_pair["5.12"], on_pair["5.13"], "5.14"],
+    evidence=[
+        "The rest state θ₁ = θ₂ = 0 is a singular point of the formula, where its numerator vanishes too.",
+        "With the values of A and B (5.16) it returns the φ₀′ that was put into A, whatever φ₀′ is: it is an identity, not a "
+        "prediction of the rate.",
+        f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
+        "with the bar of section 4.1.",
+    ],
+)
 
 # %% [markdown]
 # ## The values of the integrals
 #
-# Put $\dot\psi = \omega - \dot\phi\,(\cos\theta_1 + \cos\theta_2)/2$ into A and B, and expand in $\delta$.
+# In terms of the conserved axial velocities $\omega_i = \dot\psi_i + \dot\phi_i\cos\theta_i$ the integrals are
+
+# %%
+p = momenta(pair_with_bar().L, PAIR)
+_, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v
+axial = {psi_1_v: omega_1 - phi_1_v * sp.cos(theta_1), psi_2_v: omega_2 - phi_2_v * sp.cos(theta_2)}
+value_A, value_B = ((p[i] - p[i + 3]).subs(axial) for i in (1, 2))
+prove(value_B, I3 * (omega_1 - omega_2), "B in the axial velocities")
+
+# %%
+prove(
+    MASSLESS_BAR.on(value_A),
+    J * (phi_1_v * sp.sin(theta_1) ** 2 - phi_2_v * sp.sin(theta_2) ** 2)
+    + I3 * (omega_1 * sp.cos(theta_1) - omega_2 * sp.cos(theta_2)),
+    "A in the axial velocities, the bar massless",
+)
+
+# %% [markdown]
+# The paper puts one mean inclination for both. That is right to first order in their difference:
 
 # %%
 mean, half = sp.symbols("theta_m delta", real=True)
-apart = {theta_1: mean + half, theta_2: mean - half}
-integral_A, integral_B = (e.subs(uniform).subs(psi_v, omega - phi_v * total / 2) for e in ansatz_integrals())
-value_A, value_B = integral_A.subs(apart), integral_B.subs(apart)
-printed_A = 2 * I * (phi_v * sp.sin(mean) ** 2 + omega * sp.cos(mean))
-printed_B = 2 * omega
-Formula(sp.Matrix([value_A, value_B]).subs(half, 0).expand())
+one_inclination = Premise(
+    "the inclinations differ little, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
+)
+verdict(
+    "5.16",
+    {"B": value_B, "A": value_A},
+    premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
+    correction={"B": I3 * (omega_1 - omega_2)},
+    wrong="B lacks the factor I: it is 2Iω, an angular momentum as A is.",
+    uses=["5.12", "5.13"],
+    evidence=["For opposite spins B = 2I₃ω; the two agree as numbers for the paper's rotor, I₃ = 1 kg m²."],
+)
 
 # %% [markdown]
 # ## What the formula then says
 #
-# With equal inclinations and these values the formula gives back the $\dot\phi_0$ that was put into A: an identity for
-# every $\dot\phi_0$. It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out: the
-# linear pair has one oscillation, at $\Omega_0$.
+# With equal inclinations, $B = 2I\omega$ and the printed $A$, the formula gives back the $\dot\phi_0$ that was put into $A$,
+# for every $\dot\phi_0$:
 
 # %%
 level = {theta_1: mean, theta_2: mean}
-fed_back = printed_rate.subs(level).subs({A: printed_A, B: 2 * I * omega})
-tautology = decide_zero(fed_back - phi_v).answer
-assert tautology == "zero"
+printed_A = 2 * I3 * (phi_v * sp.sin(mean) ** 2 + omega * sp.cos(mean))
+fed_back = rate.subs(J, I3).subs(level).subs({A: printed_A, B: 2 * I3 * omega})
+prove(fed_back, phi_v, "the formula with the values of the integrals put in")
 
-squared = sp.factor(natural_frequency().expressions[0].subs({G_1: G, G_2: -G}) ** 2)
-assert decide_zero(squared - G**2 / (a**2 - b**2)).answer == "zero"
-massless = natural_rate(Scene(spins=(10, -10)))
-heavy = natural_rate(Scene(spins=(10, -10), link=Link(mass=1, inertia=1)))
+# %% [markdown]
+# It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out; the linear pair with opposite
+# spins has one oscillation, at
 
-statements = [
-    stated(
-        "5.15",
-        chain(rate, printed_rate),
-        given=uniform,
-        condition="equal inertias about the joint; the paper's rotor has J = 5/4 and I_3 = 1",
-        depends_on=("5.14",),
-        evidence=(
-            "Singular at theta_1 = theta_2 = 0, the rest state, where the numerator vanishes too.",
-            "With A and B given their values (5.16) it returns phi_0', whatever phi_0' is (decided): it is an identity, "
-            "not a prediction of the rate.",
-            f"The rate is fixed by the dynamics: Omega_0² = {squared} for opposite spins, {massless:.4g} rad/s for "
-            f"spins ±10 and no bar mass, {heavy:.4g} with the bar of mass 1 and inertia 1.",
-        ),
-    ),
-    stated(
-        "5.16",
-        (Relation(printed_B, value_B), Relation(printed_A, value_A, half, 1)),
-        wrong="B lacks the factor I.",
-        quantities=(
-            r"B",
-            r"A",
-        ),
-        correction=(Relation(2 * I * omega, value_B), Relation(printed_A, value_A, half, 1)),
-        depends_on=("5.12", "5.13"),
-        evidence=(
-            "B lacks the inertia: it is 2 I omega (the two agree in the paper's units, I = 1). "
-            "A is right to first order in the difference of the inclinations.",
-        ),
-    ),
-]
-Judged(statements)
+# %%
+natural = natural_frequency().expressions[0].subs({G_1: G, G_2: -G})
+prove(natural**2, G**2 / (a**2 - b**2), "the square of the natural frequency, opposite spins")
+
+# %%
+Remark(
+    "What the formula of the rate (5.15) says",
+    "With the paper's own values of A and B it is φ′ = φ₀′, an identity. The rate of the paired precession is the natural "
+    f"frequency G/√(a² − b²), {massless:.4g} rad/s for spins ±10 and a massless bar.",
+)

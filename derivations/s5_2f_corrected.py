@@ -1,205 +1,211 @@
 # %% [markdown]
 # # The corrected trajectories (5.20 to 5.22)
 #
-# **Objective.** The paired precession that the exact pair has: its inclinations, trajectories and frequency as series
-# in the amplitude, against the paper's amplitude-based correction.
+# **Objective.** The paired precession that the exact pair has: its inclinations, trajectories and frequency as series in the
+# amplitude, against the paper's amplitude-based correction.
 #
-# **Assumptions.** Opposite spins, a massless bar ($\sigma = 1$), $\ell = R = 1$ where the paper puts numbers in; the
-# series itself is for any bar.
+# **Assumptions.** Opposite spins, the symmetric periodic orbit, any bar. That the paper's bar is massless and as long as the
+# rotors is named where it is used.
 #
-# **Notation.** $r_0$ the sine of the inclination when the axes are parallel, $\Phi = \Omega t$ the phase.
+# **Notation.** $r_0 = \sin\theta_0$ the sine of the inclination when the axes are parallel; $\Phi = \Omega t$ the phase;
+# $\sigma = (a+b)/(a-b)$ the bar's shape, 1 for a massless one; $k = \ell/R$; $x_i$, $y_i$ components of the axes.
 
 # %%
 import numpy as np
 import sympy as sp
 
 from lagrotor import Scene, simulate
-from lagrotor.algebra import decide_zero
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import ANSATZ, A, B, I, Phi, k, r0, sigma, theta_0
-from lagrotor.paper.ledger import Relation, chain
-from lagrotor.paper.legacy import stated
-from lagrotor.paper.notebook import Judged
+from lagrotor.pair.symbols import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
+from lagrotor.paper.ansatz import AMPLITUDE
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.notebook import Formula
+from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
+from lagrotor.paper.proof import prove
 from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.closed_forms import (
-    corrected_inclinations,
-    corrected_trajectories,
-    paired_frequency,
-)
+from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor.theory.single_rotor import pair_precession_rate
 
-one = {sigma: 1, k: 1}
-half = sp.Rational(1, 2)
-cosine = sp.cos(Phi)
+cosine, sine = sp.cos(Phi), sp.sin(Phi)
+bar_ratio = {k: ell / R}
 
 # %% [markdown]
 # ## The series
 #
-# Lindstedt–Poincaré on the exact equations with their multipliers, the symmetry of the orbit used, one order beyond
-# what the paper claims.
+# Lindstedt–Poincaré on the exact equations with their multipliers (derived in t3), the symmetry of the orbit used. Through
+# the second order:
 
 # %%
-x1, y1, _, x2, y2, _ = (e.subs(one) for e in corrected_trajectories(3).expressions)
-sines = tuple(sp.collect(sp.expand(e.subs(k, 1)), r0) for e in corrected_inclinations(3).expressions)
-frequency = paired_frequency(3).expressions[0]
-massless = paired_series(9, sp.Integer(1), sp.Integer(1))
-massless_frequency = massless.expression(massless.frequency)
-massless_frequency
+x_1, y_1, _, x_2, y_2, _ = (e.subs(bar_ratio) for e in corrected_trajectories(3).expressions)
+second = (r0 * cosine + r0**2 * sigma * R / ell * sine**2, r0 * cosine - r0**2 * sigma * R / ell * sine**2)
+prove((x_1, x_2), second, "the components along the joint line", small=r0, order=2)
+
+# %%
+across = (r0 * sine - r0**2 * R / (2 * ell) * sine * cosine, -r0 * sine - r0**2 * R / (2 * ell) * sine * cosine)
+width = sp.sqrt(sigma)
+prove((y_1 / width, y_2 / width), across, "the components across it, over √σ", small=r0, order=2)
 
 # %% [markdown]
-# ## The paper's correction
+# ## The inclinations
 #
-# It removes the swing of the bar but keeps it at the wrong length: to second order it sets the bar where the constant
-# inclination has it at its longest.
+# $\sin^2\theta_i = x_i^2 + y_i^2$. To leading order the axes go round ellipses; the second order of $\sin\theta_i$ is the
+# third of its square.
 
 # %%
-printed_sines = (r0 - r0**2 * cosine, r0 + r0**2 * cosine)
-length_squared = (1 + cosine * (printed_sines[1] - printed_sines[0])) ** 2
-length_squared += sp.sin(Phi) ** 2 * (printed_sines[0] + printed_sines[1]) ** 2
-assert decide_zero(length_squared - (1 + 4 * r0**2 + 4 * r0**4 * cosine**4)).answer == "zero"
-paper_r0 = sp.Rational(204, 1000)
-lengths = [float(sp.sqrt(length_squared.subs({r0: paper_r0, Phi: angle}))) for angle in (0, sp.pi / 2)]
+amplitude = {r0: sp.sin(theta_0)}
+squares = tuple(sp.expand(x**2 + y**2).subs(amplitude) for x, y in ((x_1, y_1), (x_2, y_2)))
+s = sp.sin(theta_0)
+corrected = tuple(
+    s**2 * (cosine**2 + sigma * sine**2) + sign * s**3 * sigma * R / ell * sine**2 * cosine for sign in (1, -1)
+)
+prove(squares, corrected, "the squares of the inclinations' sines", small=theta_0, order=3)
 
-corrected_sines = (r0 + half * r0**2 * sp.sin(Phi) ** 2 * cosine, r0 - half * r0**2 * sp.sin(Phi) ** 2 * cosine)
-sp.Matrix([printed_sines, corrected_sines])
+# %% [markdown]
+# The paper's correction removes the swing of the bar's length but keeps the bar at the wrong one: it sets it where constant
+# inclinations have it at its longest. With the printed sines, $\ell = R = 1$ and opposite azimuths, the squared length is
+
+# %%
+shorter, longer = r0 - r0**2 * cosine, r0 + r0**2 * cosine
+length_squared = (1 + cosine * (longer - shorter)) ** 2 + sine**2 * (longer + shorter) ** 2
+prove(
+    length_squared, 1 + 4 * r0**2 + 4 * r0**4 * cosine**4, "the squared length of the bar with the printed correction"
+)
+
+# %%
+lengths = [float(sp.sqrt(length_squared.subs({r0: AMPLITUDE, Phi: angle}))) for angle in (0, sp.pi / 2)]
+verdict(
+    "5.20",
+    dict(zip((r"\sin^2\theta_1", r"\sin^2\theta_2"), squares, strict=True)),
+    premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
+    correction=dict(zip((r"\sin^2\theta_1", r"\sin^2\theta_2"), corrected, strict=True)),
+    wrong="The correction keeps the bar's length nearly constant, but longer than the bar by 2r₀².",
+    uses=["5.19"],
+    evidence=[
+        f"With the printed correction the bar's length goes from {min(lengths):.4f} to {max(lengths):.4f} of what it is, at "
+        f"r₀ = {AMPLITUDE}.",
+        "No correction of the inclinations alone can keep the bar (5.11): the azimuths must move too (5.22).",
+    ],
+)
+
+# %% [markdown]
+# ## The rate after the correction: at constant $A$ and $B$
+#
+# The paper varies the formula of the rate (5.15) with $A$ and $B$ held. The correction makes $\sin\theta_1$ smaller and
+# $\sin\theta_2$ larger by the same $\varepsilon = \sin^2\theta_0\cos\phi$, so to first order the two changes of the rate
+# have opposite signs:
+
+# %%
+theta_1, theta_2 = ANSATZ.q[:2]
+rate = pair_precession_rate().expressions[0]
+level = {theta_1: theta_0, theta_2: theta_0}
+by_sine_1, by_sine_2 = (rate.diff(angle).subs(level) / sp.cos(theta_0) for angle in (theta_1, theta_2))
+prove(by_sine_1, by_sine_2, "the derivatives of the rate by sin θ₁ and by sin θ₂")
+
+# %%
+epsilon = s**2 * cosine
+varied = rate.subs(level) - by_sine_1 * epsilon + by_sine_2 * epsilon
+unvaried = (A - B * sp.cos(theta_0)) / (2 * J * s**2)
+prove(varied, unvaried, "the rate to first order in the correction, at constant A and B")
+
+# %% [markdown]
+# The paper multiplies the two derivatives where their difference is wanted; that its last line follows all the same is a
+# second error, which cancels the first.
+#
+# ## The rate after the correction: the orbit's
+#
+# What is varied there is an identity (5.15). The frequency of the orbit does change with the amplitude:
+
+# %%
+frequency = paired_frequency(3).expressions[0].subs(bar_ratio)
+ratio = ell / R
+curvature = sigma * (ratio**2 * sigma - 3 * ratio**2 + 3) / (4 * ratio**2)
+prove(frequency, 1 - curvature * r0**2, "the frequency of the paired precession, over Ω₀", small=r0, order=3)
+
+# %% [markdown]
+# For a massless bar with $\ell = R$, through the eighth order:
+
+# %%
+massless = paired_series(9, sp.Integer(1), sp.Integer(1))
+massless_frequency = massless.expression(massless.frequency)
+Formula(massless_frequency, r"\Omega/\Omega_0")
+
+# %% [markdown]
+# The orders are also measured, against the periodic orbit of the exact model found by shooting (massless bar, $\ell = R$).
+
+# %%
+amplitudes, phases = (0.005, 0.01, 0.02), np.linspace(0, 2 * np.pi, 73)
+printed = (cosine * shorter, sine * shorter)
+own = {sigma: 1, ell: 1, R: 1}
+curves = {
+    "as printed": printed,
+    "corrected": (second[0].subs(own), across[0].subs(own)),
+    "series of order 3": (x_1.subs(own), y_1.subs(own)),
+}
+functions = {name: sp.lambdify([r0, Phi], pair) for name, pair in curves.items()}
+errors: dict[str, list[list[float]]] = {name: [] for name in curves}
+changes = []
+for size in amplitudes:
+    orbit = exact_orbit(Scene(spins=(10, -10)), size)
+    axis = simulate(orbit.scene, phases / orbit.frequency, "minimal", 1e-13).axes[0]
+    changes.append(1 - orbit.frequency / natural_rate(orbit.scene))
+    for name, function in functions.items():
+        errors[name].append([float(np.abs(c - axis[:, i]).max()) for i, c in enumerate(function(size, phases))])
+slopes = {
+    name: [measured_order(amplitudes, column) for column in zip(*rows, strict=True)] for name, rows in errors.items()
+}
+rate_slope = measured_order(amplitudes, changes)
+slopes
+
+# %%
+at_paper = float(massless_frequency.subs(r0, AMPLITUDE))
+verdict(
+    "5.21",
+    {r"\dot\phi": varied, r"\Omega/\Omega_0": frequency},
+    premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
+    correction={r"\dot\phi": unvaried, r"\Omega/\Omega_0": 1 - curvature * r0**2},
+    wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
+    uses=["5.15", "5.20"],
+    evidence=[
+        "The printed product of derivatives should be their difference, which is zero: the last line follows by two errors "
+        "that cancel. What it varies is an identity, not the rate.",
+        f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
+        f"{rate_slope:.3f}; at r₀ = {AMPLITUDE} Ω/Ω₀ is {at_paper:.5f}.",
+    ],
+)
 
 # %% [markdown]
 # ## The trajectories
 #
-# In x the paper has the right second harmonic and lacks the constant $r_0^2$, by which the two centres stand apart; in
-# y it has twice the second harmonic.
+# The left joint is at $-\ell/2$, the right one at $+\ell/2$. In $x$ the paper has the right second harmonic and lacks a
+# constant of second order, by which the two centres stand apart:
 
 # %%
-printed_x = (cosine * (r0 - r0**2 * cosine) - half, sp.cos(-Phi) * (r0 + r0**2 * sp.cos(-Phi)) + half)
-corrected_x = (-half + r0 * cosine + r0**2 * sp.sin(Phi) ** 2, half + r0 * cosine - r0**2 * sp.sin(Phi) ** 2)
-corrected_y = (r0 * sp.sin(Phi) - r0**2 * sp.sin(2 * Phi) / 4, -r0 * sp.sin(Phi) - r0**2 * sp.sin(2 * Phi) / 4)
-printed_y = (sp.sin(Phi) * printed_sines[0], -sp.sin(Phi) * printed_sines[1])
-offset = sp.expand(corrected_x[0] - printed_x[0] - r0**2)
-assert decide_zero(offset).answer == "zero"
-centres = [sp.integrate(x + half, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi) for x in (printed_x[0], corrected_x[0])]
-in_y = [Relation(p, q, r0, 2) for p, q in zip(corrected_y, (y1, y2), strict=True)]
-sp.Matrix([printed_x, corrected_x])
-
-# %% [markdown]
-# The orders are measured too, against the periodic orbit of the exact model found by shooting.
-
-# %%
-amplitudes = (0.005, 0.01, 0.02)
-phases = np.linspace(0, 2 * np.pi, 73)
-curves = {
-    "paper x": printed_x[0],
-    "paper y": printed_y[0],
-    "corrected x": corrected_x[0],
-    "corrected y": corrected_y[0],
-    "series of order 3, x": x1 - half,
-    "series of order 3, y": y1,
-}
-functions = {name: sp.lambdify([r0, Phi], e) for name, e in curves.items()}
-errors: dict[str, list[float]] = {name: [] for name in curves}
-rates = []
-for amplitude in amplitudes:
-    orbit = exact_orbit(Scene(spins=(10, -10)), amplitude)
-    run = simulate(orbit.scene, phases / orbit.frequency, "minimal", 1e-13)
-    rates.append(orbit.frequency / natural_rate(orbit.scene))
-    for name, function in functions.items():
-        exact = run.tips[0, :, 0 if "x" in name.split()[-1] else 1]
-        errors[name].append(float(np.abs(function(amplitude, phases) - exact).max()))
-slopes = {name: measured_order(amplitudes, values) for name, values in errors.items()}
-rate_slope = measured_order(amplitudes, [1 - rate for rate in rates])
-coefficient = (rates[0] - 1) / amplitudes[0] ** 2
-at_paper = float(massless_frequency.subs(r0, paper_r0))
-slopes
-
-# %% [markdown]
-# ## The rate after the correction
-#
-# Write $S = \cos\theta_1 + \cos\theta_2$. The paper multiplies $\partial S/\partial\sin\theta_1$ by
-# $\partial S/\partial\sin\theta_2$; the variation is their difference, which vanishes at equal inclinations. So the
-# printed middle line is wrong and its conclusion follows from the right one: the two errors cancel. But the formula
-# that is varied is an identity (5.15, 5.16), and the orbit's frequency does change with the amplitude.
-
-# %%
-S = sp.Symbol("S", real=True)
-rate_of_S = (2 * A - B * S) / (I * (4 - S**2))
-level = 2 * sp.cos(theta_0)
-slope = -sp.tan(theta_0)  # d cos theta / d sin theta
-printed_first = rate_of_S.subs(S, level) + sp.diff(rate_of_S, S).subs(S, level) * (slope * slope) * (
-    sp.sin(theta_0) ** 2 * cosine
+tips = -ell / 2 + R * x_1, ell / 2 + R * x_2
+prove(
+    tuple(sp.integrate(e, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi) for e in (R * second[0], printed[0])),
+    (r0**2 * sigma * R**2 / (2 * ell), -(r0**2) / 2),
+    "the mean of x₁ from its joint, derived and printed",
 )
-variation = sp.diff(rate_of_S, S).subs(S, level) * (-slope + slope) * sp.sin(theta_0) ** 2 * cosine
-derived = rate_of_S.subs(S, level) + variation
-theta_1 = ANSATZ.q[0]
-assert (
-    decide_zero(sp.diff(sp.cos(theta_1), theta_1) / sp.diff(sp.sin(theta_1), theta_1) + sp.tan(theta_1)).answer
-    == "zero"
-)
-printed_last = (2 * A - B * (sp.cos(theta_0) + sp.cos(theta_0))) / (I * (4 - (sp.cos(theta_0) + sp.cos(theta_0)) ** 2))
 
-statements = [
-    stated(
-        "5.20",
-        tuple(Relation(p, q, r0, 2) for p, q in zip(printed_sines, sines, strict=True)),
-        wrong="The correction keeps the bar at the wrong length, longer than it is by 2 r_0².",
-        quantities=(
-            r"\sin\theta_1",
-            r"\sin\theta_2",
-        ),
-        correction=tuple(Relation(p, q, r0, 2) for p, q in zip(corrected_sines, sines, strict=True)),
-        depends_on=("5.19",),
-        evidence=(
-            f"With the printed correction the bar's length is sqrt(1 + 4 r_0² + 4 r_0⁴ cos⁴ Phi) (decided): nearly constant, "
-            f"but too long, {lengths[0]:.4f} to {lengths[1]:.4f} of its length at r_0 = 0.204.",
-            "No correction of the inclinations alone can keep the bar: at phi_1 = −phi_2 = pi/2 it asks for "
-            "sin theta_1 = −sin theta_2. The azimuths must move too (5.22).",
-        ),
-    ),
-    stated(
-        "5.21",
-        (
-            *chain(derived, printed_first, printed_last),
-            Relation(sp.Integer(1), massless_frequency, r0, 2),
-        ),
-        wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
-        quantities=(
-            r"\dot\phi(A, B, \theta_0)",
-            r"\Omega/\Omega_0",
-        ),
-        correction=(
-            *chain(derived, printed_last),
-            Relation(1 - r0**2 / 4, massless_frequency, r0, 2),
-        ),
-        depends_on=("5.15", "5.20"),
-        evidence=(
-            "The printed product of derivatives should be their difference; the difference is zero, so the last line "
-            "follows all the same: two errors cancel. What it varies is an identity, not the rate.",
-            f"The rate does change: Omega/Omega_0 = {frequency}; measured on exact orbits 1 {coefficient:+.4f} r_0², "
-            f"slope {rate_slope:.3f}; at r_0 = 0.204 the ratio is {at_paper:.5f}.",
-        ),
-    ),
-    stated(
-        "5.22",
-        tuple(Relation(p, q, r0, 2) for p, q in zip(printed_x, (x1 - half, x2 + half), strict=True)),
-        wrong="A constant of second order in the amplitude is missing.",
-        quantities=(
-            r"x_1",
-            r"x_2",
-            r"y_1",
-            r"y_2",
-        ),
-        correction=(
-            *(Relation(p, q, r0, 2) for p, q in zip(corrected_x, (x1 - half, x2 + half), strict=True)),
-            *in_y,
-        ),
-        depends_on=("5.20", "5.21"),
-        evidence=(
-            "In x the printed second harmonic is right and a constant ± r_0² is missing (decided): the centre of rotor 1 is "
-            f"displaced by {centres[1]}, printed {centres[0]}. In y (sin theta sin phi) the printed second harmonic is twice "
-            "what it should be.",
-            "Orders of the error measured against the exact orbit: "
-            + "; ".join(f"{name} {slope:.2f}" for name, slope in slopes.items())
-            + ".",
-        ),
-    ),
-]
-Judged(statements)
+# %%
+in_words = "; ".join(f"{name}: {x:.2f} in x, {y:.2f} in y" for name, (x, y) in slopes.items())
+verdict(
+    "5.22",
+    {"x_1": tips[0], "x_2": tips[1], r"y_1/\sqrt\sigma": R * y_1 / width, r"y_2/\sqrt\sigma": R * y_2 / width},
+    premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
+    correction={
+        "x_1": -ell / 2 + R * second[0],
+        "x_2": ell / 2 + R * second[1],
+        r"y_1/\sqrt\sigma": R * across[0],
+        r"y_2/\sqrt\sigma": R * across[1],
+    },
+    wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
+    uses=["5.20", "5.21"],
+    evidence=[
+        "In x the printed second harmonic is right. In y = sin θ sin φ, which the paper does not print, its correction of the "
+        "inclinations would make the second harmonic twice what it is.",
+        f"Orders of the error measured against the exact orbit: {in_words}.",
+    ],
+)

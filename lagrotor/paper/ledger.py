@@ -7,7 +7,7 @@ identity or by the order of the first term that differs; nothing else can.
 
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
@@ -31,6 +31,7 @@ class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
     within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
+    scene: values that the text gives for this line; they are put in last, after the premises.
     """
 
     printed: Side
@@ -39,6 +40,7 @@ class Relation:
     claimed: int = 0
     within: sp.Rational | None = None
     quantity: str = ""
+    scene: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def under(self, premises: Iterable[Premise]) -> "Relation":
         """The relation with premises put into both sides; an approximation makes it one between leading terms."""
@@ -152,9 +154,10 @@ def _relations(
         )
     derived = quantities[line.quantity]
     if line.scene:
-        derived = in_parameters(derived).subs(line.scene)
+        derived = in_parameters(derived)
     for member in line.members:
-        yield Relation(member.subs(meanings), derived, line.small, line.order, line.within, line.quantity)
+        printed = member.subs(meanings)
+        yield Relation(printed, derived, line.small, line.order, line.within, line.quantity, line.scene)
 
 
 def _corrected(
@@ -261,21 +264,32 @@ def _smallness(small: sp.Symbol) -> Premise:
 
 
 def _fewest_premises(statement: Statement) -> tuple[_Finding, tuple[Premise, ...]]:
-    """The finding under the fewest premises that suffice; without any where none do."""
-    bare: _Finding | None = None
+    """The finding under the fewest premises that suffice.
+
+    Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted tells
+    most about what is wrong.
+    """
+    failed: tuple[Premise, ...] = ()
     for premises in subsets(statement.premises):
-        finding = _find(relation.under(premises) for relation in statement.relations)
-        bare = bare or finding
-        if finding.answer in _AGREES:
-            return finding, premises
-    assert bare
-    return bare, ()
+        found: list[_Finding] = []
+        for relation in statement.relations:
+            found.append(_single(relation.under(premises)))
+            if found[-1].answer == "refuted":
+                break
+        if all(finding.answer in _AGREES for finding in found):
+            return _weakest(found), premises
+        if found[-1].answer == "refuted":
+            failed = premises
+    return _find(relation.under(failed) for relation in statement.relations), ()
 
 
 def _find(relations: Iterable[Relation]) -> _Finding:
     """The weakest of the findings of all relations."""
+    return _weakest([_single(relation) for relation in relations])
+
+
+def _weakest(found: list[_Finding]) -> _Finding:
     rank = ("holds", "holds-to-order", "undecided", "refuted")
-    found = [_single(relation) for relation in relations]
     worst = max(found, key=lambda f: (rank.index(f.answer), -(f.order or 0)), default=_Finding("holds"))
     domain = tuple(dict.fromkeys(factor for f in found for factor in f.domain))
     reasons = tuple(dict.fromkeys(reason for f in found for reason in f.reasons))
@@ -283,20 +297,31 @@ def _find(relations: Iterable[Relation]) -> _Finding:
 
 
 def _single(relation: Relation) -> _Finding:
+    if relation.scene:
+        there = {side: getattr(relation, side).subs(relation.scene) for side in ("printed", "derived")}
+        return _single(replace(relation, scene={}, **there))
     if relation.within is not None:
-        ratio = sp.cancel(relation.printed / relation.derived)
-        near = ratio.is_number and bool(abs(ratio - 1) <= relation.within)
+        ratio = _constant(relation.printed / relation.derived)
+        near = ratio is not None and bool(abs(ratio - 1) <= relation.within)
         return _Finding("holds" if near else "refuted")
     exact: Decision = decide_equal(relation.printed, relation.derived)
     domain = tuple(f for f in exact.domain if not (f.is_positive or f.is_number))
     if exact.answer == "zero":
         return _Finding("holds", domain=domain)
-    if relation.small is None:
+    if relation.small is None or relation.small not in relation.printed.free_symbols | relation.derived.free_symbols:
         if exact.answer == "undecided":
             seen = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
             return _Finding("undecided", reasons=(f"{exact.reason} ({seen})",))
         return _Finding("refuted", domain=domain)
     return _to_order(relation, relation.small, domain)
+
+
+def _constant(ratio: sp.Expr) -> sp.Expr | None:
+    """The number that a quotient of rates is, which may hold roots; None where it depends on a letter."""
+    square = sp.cancel(ratio**2)
+    if not square.is_number:
+        return None
+    return sp.sqrt(square) * sp.sign(ratio.subs(dict.fromkeys(ratio.free_symbols, sp.Rational(3, 7))))
 
 
 def _to_order(relation: Relation, small: sp.Symbol, domain: tuple[sp.Expr, ...]) -> _Finding:

@@ -36,6 +36,11 @@ def dot(u: sp.Matrix, v: sp.Matrix) -> sp.Expr:
     return u.dot(v)
 
 
+def norm(u: sp.Matrix) -> sp.Expr:
+    """The length of u."""
+    return sp.sqrt(u.dot(u))
+
+
 def column(*entries: sp.Expr) -> sp.Matrix:
     """A vector of the given components."""
     return sp.Matrix(entries)
@@ -43,7 +48,7 @@ def column(*entries: sp.Expr) -> sp.Matrix:
 
 # What a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, column)},
+    **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, column)},
     **{
         name: getattr(sp, name)
         for name in ("sin", "cos", "tan", "exp", "sqrt", "eye", "diag", "zeros", "diff", "integrate")

@@ -8,10 +8,11 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
-from lagrotor.pair.symbols import I1, I3, J, K, M, R, ell, m
+from lagrotor.pair.symbols import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
 
-# The paper's own rotor and bar (sections 4.1 and 5.2.1), SI units. Its lighter bar has m = 0.01, K = 0.1.
+# The paper's own rotor and bar (section 4.1), SI units, and the lighter bar of section 5.2.1.
 PAPERS_OWN: Mapping[sp.Symbol, sp.Expr] = {I1: 1, I3: 1, M: 1, R: 1, ell: 1, m: 1, K: 1}
+LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational(1, 10)}
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,9 @@ class Premise:
 
     def on(self, side: Any) -> Any:
         """A side with the premise put in."""
-        return side.subs(list(self.put.items()), simultaneous=True) if self.put else side
+        if all(isinstance(old, sp.Symbol) for old in self.put):
+            return side.xreplace({old: sp.sympify(new) for old, new in self.put.items()})
+        return side.subs(list(self.put.items()), simultaneous=True)
 
 
 def parameter_premise(
@@ -50,6 +53,12 @@ def parameter_premise(
     return Premise(says, put, broken=", ".join(off))
 
 
+def massless_bar() -> Premise:
+    """The bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
+    own = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
+    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=own)
+
+
 def in_parameters(expression: Any) -> Any:
     """The expression in the rotor's and the bar's own parameters: a, b, k, J by what they are."""
     return expression.subs(INERTIAS, simultaneous=True).subs(J, J_OF)
@@ -59,3 +68,20 @@ def subsets(premises: tuple[Premise, ...]) -> Iterator[tuple[Premise, ...]]:
     """Every choice of premises, fewest first: the first under which an equation holds is what it needs."""
     for size in range(len(premises) + 1):
         yield from combinations(premises, size)
+
+
+# Premises that several derivations share. Where more than one is offered, they are put in in this order.
+ABOUT_JOINT = parameter_premise("I₁ is read as the transverse inertia about the ground joint, I₁ = J", {I1: J})
+MASSLESS_BAR = massless_bar()
+EQUAL_INERTIAS = parameter_premise("the inertias about the ground joint are equal, J = I₃", {J: I3})
+BAR_AS_LONG_AS_ROTORS = parameter_premise("the bar is as long as the rotors, ℓ = R", {ell: R})
+UNIT_LENGTH = parameter_premise("lengths are measured in units of the rotor's, R = 1", {R: 1})
+EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
+OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
+# What sections 5.2 and 6 call a mode (6.01 and claim C24): 1 where a motion of this kind counts as one, 0 where not.
+TURNING_COUNTS, RESTING_COUNTS = sp.symbols("turning_counts resting_counts", real=True)
+TWO_MODES = Premise(
+    "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
+    "displacement of the precession centre, which rests, does not",
+    {TURNING_COUNTS: 1, RESTING_COUNTS: 0},
+)
