@@ -22,6 +22,13 @@ def peak(rate: Array, amplitude: Array) -> float:
     return float(rate[n] + (before - after) / (before - 2 * top + after) / 2 * (rate[1] - rate[0]))
 
 
+def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
+    """Mean of x (n,) or (n, k), given at times t (n,), from `start` to `end`: of whole turns, it is their centre."""
+    times = np.linspace(start, end, 400, endpoint=False)
+    columns = x.reshape(len(t), -1).T
+    return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
+
+
 def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
     """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
     apart = tips[0, :, 1] - tips[1, :, 1]

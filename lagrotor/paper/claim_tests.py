@@ -7,7 +7,7 @@ contradicts the claim, and must then come out otherwise.
 import json
 import time
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any, Literal
 
@@ -19,40 +19,85 @@ Outcome = Literal["confirmed", "confirmed-if", "refuted"]
 
 
 @dataclass(frozen=True)
-class Finding:
-    """What the numbers say: the outcome, the condition under which a claim is confirmed, one plain sentence."""
+class Part:
+    """One part of a claim's sentence, in words, and whether the numbers bear it out.
 
-    outcome: Outcome
+    only_if: where it does not hold as it stands, the condition under which it does; empty where there is none.
+    """
+
+    says: str
+    holds: bool
+    only_if: str = ""
+
+    @property
+    def outcome(self) -> str:
+        """In words."""
+        if self.holds:
+            return "holds"
+        return f"holds only if: {self.only_if}" if self.only_if else "does not hold"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the numbers say of each part of the sentence, and an explanation with the numbers.
+
+    A claim is confirmed where every part holds, confirmed-if where some hold only under a condition, and refuted where one
+    does not hold under any.
+    """
+
+    parts: tuple[Part, ...]
     explanation: str
-    condition: str | None = None
+
+    @property
+    def outcome(self) -> Outcome:
+        """What follows from the parts."""
+        if any(not part.holds and not part.only_if for part in self.parts):
+            return "refuted"
+        return "confirmed" if all(part.holds for part in self.parts) else "confirmed-if"
+
+    @property
+    def condition(self) -> str | None:
+        """The conditions of the parts, each once; None unless the outcome is confirmed-if."""
+        needed = dict.fromkeys(part.only_if for part in self.parts if not part.holds)
+        return "; ".join(needed) if self.outcome == "confirmed-if" else None
+
+    @property
+    def failing(self) -> tuple[str, ...]:
+        """The parts that hold under no condition."""
+        return tuple(part.says for part in self.parts if not part.holds and not part.only_if)
 
 
 @dataclass(frozen=True)
 class ClaimTest:
     """The test of one claim: `measure(case)` runs a case and returns name → number; `decide` makes a finding of them.
 
-    case: what the claim is about, whatever `measure` takes; foreign: a case that contradicts it. model: what is run.
+    case: what the claim is about, whatever `measure` takes. foreign: part of the sentence → a case in which that part comes
+    out otherwise. model: what is run.
     """
 
     id: str
     case: Any
-    foreign: Any
+    foreign: Mapping[str, Any]
     model: str
     measure: Callable[[Any], Mapping[str, float]]
     decide: Callable[[Mapping[str, float]], Finding]
 
+    def evaluated(self, case: Any) -> "Result":
+        """Any case, measured and decided."""
+        began = time.perf_counter()
+        measured = {name: float(value) for name, value in self.measure(case).items()}
+        return Result(self, measured, self.decide(measured), time.perf_counter() - began)
+
     @cached_property
     def result(self) -> "Result":
-        """The claim evaluated, once: it takes the runs, up to seconds."""
-        began = time.perf_counter()
-        measured = {name: float(value) for name, value in self.measure(self.case).items()}
-        return Result(self, measured, self.decide(measured), time.perf_counter() - began)
+        """The claim's own case, evaluated once: it takes the runs, up to seconds."""
+        return self.evaluated(self.case)
 
     def _repr_html_(self) -> str:
         finding = self.result.finding
-        outcome = tuple(filter(None, (finding.outcome, finding.condition)))
-        row = (f"{self.id}: {claims()[self.id].text}", outcome, finding.explanation)
-        return Table("Claim", ("claim", "outcome", "why"), (row,))._repr_html_()
+        rows = tuple((part.says, part.outcome) for part in finding.parts)
+        title = f"{self.id}: {claims()[self.id].text}"
+        return Table(title, ("part of the claim", finding.outcome), rows, finding.explanation)._repr_html_()
 
 
 @dataclass(frozen=True)
@@ -93,6 +138,7 @@ def record(result: Result) -> dict[str, Any]:
         "text": entry.text,
         "verdict": result.finding.outcome,
         "condition": result.finding.condition,
+        "parts": [asdict(part) for part in result.finding.parts],
         "model": result.test.model,
         "measured": dict(result.measured),
         "explanation": result.finding.explanation,

@@ -30,6 +30,14 @@ def readable(text: str) -> str:
     return re.sub(r"(?<![^\s(=:;/])-(?=[\dͰ-Ͽ])|(?<= )-(?= )", "−", text)
 
 
+def scientific(value: float, digits: int = 0) -> str:
+    """A number in powers of ten: 3e-14 as 3×10⁻¹⁴, with `digits` after the point; 0 as 0."""
+    if value == 0:
+        return "0"
+    mantissa, _, power = f"{value:.{digits}e}".partition("e")
+    return f"{mantissa.replace('-', '−')}×10{'⁻' * (int(power) < 0)}{str(abs(int(power))).translate(_HIGH)}"
+
+
 def from_latex(source: str) -> str:
     r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any spins)} is Ω₀² (any spins)."""
     text = re.sub(

@@ -4,10 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, paper_system, run_steps
+from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.numerics.spectrum import peak, spectrum
-from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
-from lagrotor.pair.scene import Scene, Shock
+from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.scene import Link, Scene, Shock, Vector
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
 
@@ -17,12 +19,35 @@ Array = NDArray[np.float64]
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 
 
+def shocked_scene(spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY, width: float = 1 / 50) -> Scene:
+    """A pair at rest, rotor 1 pushed by `force` (N) ten widths (s) after t = 0: the paper's two seconds of rest left out."""
+    return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
+
+
+def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
+    """The exact pair from the end of its shock until `seconds` after the peak, read 40 times a second."""
+    shock = shock_of(scene)
+    first, last = shock.at + PULSE_REACH * shock.width, shock.at + seconds
+    return simulate(scene, np.linspace(first, last, round(40 * seconds) + 1), "spheres", tol)
+
+
+def angle_between(axes: Array) -> Array:
+    """Angle (n,) in rad between two axes (2, n, 3), from their difference: exact where they are nearly parallel."""
+    return 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
+
+
+def turned_about_joint_line(axes: Array) -> Array:
+    """Mean angle (n,) in rad by which two axes (2, n, 3) have turned about the line through the ground joints."""
+    turned: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
+    return turned
+
+
 def paper_run(scene: Scene, t: Array) -> SpringRun:
     """The scene by the paper's program with its springs, dampers and step, read at t (n,) in s, multiples of the step."""
     return run_steps(paper_system(scene, STIFFNESS, DAMPING), scene.shock, t, STEP)
 
 
-def _shock(scene: Scene) -> Shock:
+def shock_of(scene: Scene) -> Shock:
     """The scene's shock; raises InputError where it has none."""
     if scene.shock is None:
         raise InputError(
@@ -33,7 +58,7 @@ def _shock(scene: Scene) -> Shock:
 
 def pulse(scene: Scene, t: Array) -> Array:
     """Size of the shock's force at t (n,), in N. Raises InputError without a shock."""
-    shock = _shock(scene)
+    shock = shock_of(scene)
     return np.linalg.norm(shock.force) * np.exp(-(((t - shock.at) / shock.width) ** 2))
 
 
@@ -76,7 +101,7 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
     together. Also t (n,) in s, force (n,) in N, and the spectra after the shock over `rate` (rad/s).
     """
     scene, t = exact.scene, exact.t
-    start, after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - _shock(scene).at
+    start, after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
     x = exact.tips[0, :, 0] - start
     springs = paper_run(scene, t).tips[0, :, 0] - start
     size = np.ptp(x[after]) / 2

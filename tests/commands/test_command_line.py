@@ -310,8 +310,9 @@ def test_letters_that_a_pipe_lacks_are_no_traceback(encoding: str) -> None:
 
 
 def test_a_claim_is_told_with_its_outcome(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    test = claim_tests.ClaimTest("C08", (1, 1), (1, 2), "", lambda s: {}, lambda v: claim_tests.Finding("refuted", ""))
-    found = claim_tests.Result(test, {}, claim_tests.Finding("refuted", "word " * 40), 0.0)
+    finding = claim_tests.Finding((claim_tests.Part("a part", False),), "word " * 40)
+    test = claim_tests.ClaimTest("C08", (1, 1), {}, "", lambda case: {}, lambda measured: finding)
+    found = claim_tests.Result(test, {}, finding, 0.0)
     monkeypatch.setattr(claim_tests, "evaluate", lambda step, wanted: [found])
     assert main(["claims", "C08"]) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -7,7 +7,7 @@ import sympy as sp
 
 from lagrotor.pair.symbols import PAIR, ell
 from lagrotor.paper import notebook as shown
-from lagrotor.paper.claim_tests import ClaimTest, Finding
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.ledger import Statement, chain, judge
 
 x = sp.Symbol("x", real=True)
@@ -16,8 +16,8 @@ WRONG = Statement("5.02", chain(x, -x), wrong="The sign is <b>lost</b>.", correc
 
 
 def claim_test(explanation: str) -> ClaimTest:
-    finding = Finding("confirmed-if", explanation, "1 < 2")
-    return ClaimTest("C01", (1, 1), (1, -1), "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
+    finding = Finding((Part("both <i>precess</i>", True), Part("alike", False, "1 < 2")), explanation)
+    return ClaimTest("C01", (1, 1), {}, "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
 
 
 def test_rates_have_dots() -> None:
@@ -36,11 +36,14 @@ def test_statements_are_shown_with_their_verdicts() -> None:
     assert judge(WRONG)._repr_html_() == shown.Judged([WRONG])._repr_html_()
 
 
-def test_a_claim_is_shown_with_what_was_decided() -> None:
+def test_a_claim_is_shown_with_its_parts_and_the_reason() -> None:
     html = claim_test("<i>so</i>")._repr_html_()
-    assert "C01: Rotors of equal spin precess" in html
-    assert "confirmed-if<br>1 &lt; 2" in html
-    assert "&lt;i&gt;so&lt;/i&gt;" in html
+    assert (
+        html.index("C01: Rotors of equal spin precess")
+        < html.index("confirmed-if")
+        < html.index("holds only if: 1 &lt; 2")
+    )
+    assert "both &lt;i&gt;precess&lt;/i&gt;" in html and "&lt;i&gt;so&lt;/i&gt;" in html
 
 
 def test_nothing_is_decided_before_it_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:

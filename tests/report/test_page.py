@@ -16,7 +16,7 @@ from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 from lagrotor.paper import catalogue, claim_tests, scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equation, equations
-from lagrotor.paper.claim_tests import Finding, Result
+from lagrotor.paper.claim_tests import Finding, Part, Result
 from lagrotor.paper.ledger import Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
@@ -106,10 +106,9 @@ def longer(report: Report) -> Report:
     ]
     row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Abs(r0)), FigureLink("t6"), FigureLink("t7"))
     table = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
-    test = claim_tests.ClaimTest(
-        "C16", (10, -10), (10, 10), HOSTILE, lambda spins: {}, lambda measured: Finding("refuted", "")
-    )
-    result = Result(test, {"what_is_read": 1.5}, Finding("confirmed-if", HOSTILE, HOSTILE), 0.25)
+    finding = Finding((Part(HOSTILE, False, HOSTILE),), HOSTILE)
+    test = claim_tests.ClaimTest("C16", (10, -10), {}, HOSTILE, lambda spins: {}, lambda measured: finding)
+    result = Result(test, {"what_is_read": 1.5}, finding, 0.25)
     return replace(
         report,
         pictures=(*report.pictures, *pictures),

@@ -51,9 +51,9 @@ def report() -> Report:
     wrong = Statement("5.22", chain(M, R), correction=chain(M, M))
     claims = tuple(
         Result(
-            ClaimTest(i, (1, 1), (1, 2), "", lambda s: {}, lambda v: Finding("confirmed", "")),
+            ClaimTest(i, (1, 1), {}, "", lambda s: {}, lambda v: Finding((), "")),
             v,
-            Finding("confirmed", ""),
+            Finding((), ""),
             0,
         )
         for i, v in MEASURED.items()

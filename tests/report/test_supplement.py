@@ -46,8 +46,8 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     judged.append(replace(judge(corrected), reaches_result=True))
     paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})
     past = replace(paper, key="t6", measured={}, png=png.with_name("missing_one.png"))
-    finding = claim_tests.Finding("confirmed-if", HOSTILE, HOSTILE)
-    test = claim_tests.ClaimTest("C08", (1.0, 1.0), (1.0, -1.0), "minimal", dict, lambda numbers: finding)
+    finding = claim_tests.Finding((claim_tests.Part(HOSTILE, False, HOSTILE),), HOSTILE)
+    test = claim_tests.ClaimTest("C08", (1.0, 1.0), {}, "minimal", dict, lambda numbers: finding)
     row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Eq(r0, LONG / M)), FigureLink("t6"), FigureLink("t7"))
     side = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
     return Report(

@@ -16,57 +16,71 @@ from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.numerics.integrate import check_tolerance
 from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.rotations import cross_matrix
-from lagrotor.pair.scene import Scene, Shock
+from lagrotor.pair.scene import Link, Scene, Shock
 
 TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 stands on the ground
 LOST = 1e100  # a state as large as this has blown up; its energies are still finite
 
 
-def paper_system(
-    scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
-) -> RigidBodySystem:
-    """The paper's program for `scene` (listings of 4.1 and 5.2.1): bodies 1 and 2 the rotors, 3 the bar; four links.
+def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBody]:
+    """The bodies of `scene` (listings of 4.1 and 5.2.1): the rotors and, where the scene has one, the bar as the third.
 
-    Rotors: centre half way up the axis, vertices at ∓R/2 along it, inertia diag(I1, I1, I3), vertex 1 grounded. Bar:
-    centre midway between the tips, vertices at ∓ell/2 along it, inertia K·1 as in the paper: its axial inertia is K
-    too, which nothing feels, as no force acts off its line. A scene without a bar gives two rotors and two links.
+    Rotors: centre half way up the axis, vertices at ∓R/2 along it, inertia diag(I1, I1, I3). Bar: centre midway between the
+    tips, vertices at ∓ell/2 along it, inertia K·1 as in the paper: its axial inertia is K too, which has no effect, as no
+    force acts off its line.
 
     bar_height (m) puts the bar's centre at that z instead. The paper's z starts at the rotors' centres (grounds at
     −0.5, tips at 0.5), ours at the ground joints: its right 0.5 is our 1.0, its mistaken 1 (section 4.1) our 1.5.
-    `laws`: the `force`, `rotation` and `transform` of RigidBodySystem.
 
     Raises InputError for a bar without mass or without inertia, which no third body can be.
     """
     rotor, link = scene.rotor, scene.link
-    if link is not None and not (link.mass > 0 and link.inertia > 0):
-        raise InputError(
-            f"paper_system: a bar of mass {link.mass:g} kg and inertia {link.inertia:g} kg m² cannot be a third body, "
-            "moved by force over mass; give it both, as Link(mass=0.01, inertia=0.1), or use lagrotor.simulate"
-        )
     half = (link.length if link else rotor.length) / 2
     inertia, ends = np.diag([rotor.I1, rotor.I1, rotor.I3]), rotor.length / 2 * np.array([[0, 0, -1.0], [0, 0, 1.0]])
-    axes, rates = np.array(scene.axes), np.array(scene.rates)
     bodies = []
-    for r, v, spin, x in zip(axes, rates, scene.spins, (-half, half), strict=True):
+    for r, v, spin, x in zip(np.array(scene.axes), np.array(scene.rates), scene.spins, (-half, half), strict=True):
         centre, R = np.array([x, 0, 0]) + rotor.length / 2 * r, rotation_between(np.array([0, 0, 1.0]), r)
         bodies.append(RigidBody(centre, ends, inertia, R, rotor.mass, np.cross(r, v) + spin * r, rotor.length / 2 * v))
-    if link is not None:
-        centre = rotor.length * axes.mean(0)
-        centre[2] = centre[2] if bar_height is None else bar_height
-        e = np.array([1.0, 0, 0]) + rotor.length / link.length * (axes[1] - axes[0])
-        e /= np.linalg.norm(e)
-        Omega = np.cross(e, rotor.length / link.length * (rates[1] - rates[0]))
-        ends, R = half * np.array([[-1.0, 0, 0], [1.0, 0, 0]]), rotation_between(np.array([1.0, 0, 0]), e)
-        bodies.append(
-            RigidBody(centre, ends, link.inertia * np.eye(3), R, link.mass, Omega, rotor.length * rates.mean(0))
+    return bodies if link is None else [*bodies, _bar(scene, link, bar_height)]
+
+
+def _bar(scene: Scene, link: Link, height: float | None) -> RigidBody:
+    if not (link.mass > 0 and link.inertia > 0):
+        raise InputError(
+            f"paper_bodies: a bar of mass {link.mass:g} kg and inertia {link.inertia:g} kg m² cannot be a third body, "
+            "moved by force over mass; give it both, as Link(mass=0.01, inertia=0.1), or use lagrotor.simulate"
         )
-    system = RigidBodySystem(bodies, stiffness, damping, **laws)
+    R, axes, rates = scene.rotor.length, np.array(scene.axes), np.array(scene.rates)
+    centre = R * axes.mean(0)
+    centre[2] = centre[2] if height is None else height
+    e = np.array([1.0, 0, 0]) + R / link.length * (axes[1] - axes[0])
+    e /= np.linalg.norm(e)
+    Omega = np.cross(e, R / link.length * (rates[1] - rates[0]))
+    ends = link.length / 2 * np.array([[-1.0, 0, 0], [1.0, 0, 0]])
+    turned = rotation_between(np.array([1.0, 0, 0]), e)
+    return RigidBody(centre, ends, link.inertia * np.eye(3), turned, link.mass, Omega, R * rates.mean(0))
+
+
+def paper_system(
+    scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
+) -> RigidBodySystem:
+    """The paper's program for `scene`: its `paper_bodies`, vertex 1 of each rotor grounded, the bar linked to both tips.
+
+    stiffness S in N/m, damping D in kg/s. A scene without a bar gives two rotors and two links. `laws`: the `force`,
+    `rotation` and `transform` of RigidBodySystem.
+    """
+    system = RigidBodySystem(paper_bodies(scene, bar_height), stiffness, damping, **laws)
     system.ground(2, 1)
     system.ground(1, 1)
-    if link is not None:
+    join_bar(system)
+    return system
+
+
+def join_bar(system: RigidBodySystem) -> None:
+    """Link the tips of the rotors to the ends of the bar, where there is one."""
+    if len(system.vertices) == 3:
         system.link(1, 3, TIP, 1)
         system.link(2, 3, TIP, 2)
-    return system
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +89,7 @@ class SpringRun:
 
     axes, rates, tips (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertex 2 (m);
     centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
+    momentum (n, 3) in kg m/s and angular_momentum (n, 3) in kg m²/s about the origin, of all bodies together;
     energies in J: translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n);
     evaluations: how often the forces were computed.
     """
@@ -86,6 +101,8 @@ class SpringRun:
     centres: Array
     rotations: Array
     stretches: Array
+    momentum: Array
+    angular_momentum: Array
     translation: Array
     rotation: Array
     spring: Array
@@ -224,6 +241,7 @@ def _read(system: RigidBodySystem, t: Array, X: Array, U: Array, R: Array, L: Ar
         rates.append(np.cross(Omega[:, i], axes[i]))
         tips.append(X[:, i] + R[:, i] @ top)
     stretches = np.linalg.norm(system.gaps(X, R), axis=-1).T
+    momenta = U[:, :-1] / system.inverse_mass[:-1]
     return SpringRun(
         t=t,
         axes=np.array(axes),
@@ -232,6 +250,8 @@ def _read(system: RigidBodySystem, t: Array, X: Array, U: Array, R: Array, L: Ar
         centres=X[:, :-1].swapaxes(0, 1),
         rotations=R[:, :-1].swapaxes(0, 1),
         stretches=stretches,
+        momentum=momenta.sum(1),
+        angular_momentum=(np.cross(X[:, :-1], momenta) + L[:, :-1]).sum(1),
         translation=((U[:, :-1] ** 2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
         rotation=(Omega * L).sum(-1)[:, :-1].T / 2,
         spring=system.stiffness * stretches**2 / 2,

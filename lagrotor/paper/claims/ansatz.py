@@ -1,0 +1,147 @@
+"""Claim of section 5.2: the ansatz and its integrals (C15)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lagrotor.models.spring_link.run import paper_system
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.scene import Link
+from lagrotor.pair.trajectory import Trajectory, ansatz_A
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.claims.precession_runs import (
+    AMPLITUDES,
+    EQUAL,
+    MASSLESS,
+    OPPOSITE,
+    PAPER_BAR,
+    PAPER_R0,
+    Spins,
+    once_round,
+    precession,
+)
+from lagrotor.paper.readable import scientific
+
+WITHIN = 0.05  # "agrees", "constant": to one part in twenty, what two curves drawn over each other still hide
+VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order
+ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms
+
+AZIMUTHS, SPIN_ANGLES = "φ₁′ = −φ₂′", "ψ₁′ = −ψ₂′"
+A_CONSTANT, B_CONSTANT = "A is a constant of the motion", "B is a constant of the motion"
+
+
+@dataclass(frozen=True)
+class Ansatz:
+    """Spins (rad/s), and the bar that the theory is given; the bar of 5.2.1 is run beside it."""
+
+    spins: Spins = OPPOSITE
+    bar: Link = MASSLESS
+
+
+def deviations(run: Trajectory) -> tuple[float, float, float]:
+    """max |φ₁′ + φ₂′| over the mean |φ′|; max |ψ₁′ + ψ₂′| over the spin; swing of A over the part that the motion makes."""
+    (x, y, z), (vx, vy, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
+    phi = (x * vy - y * vx) / (x**2 + y**2)
+    psi = run.momenta / run.scene.rotor.I3 - phi * z
+    A, at_rest = ansatz_A(run), sum(abs(G) for G in run.scene.momenta)
+    return (
+        float(abs(phi[0] + phi[1]).max() / abs(phi).mean()),
+        float(abs(psi[0] + psi[1]).max() / max(map(abs, run.scene.spins))),
+        float(np.ptp(A) / abs(A.mean() - at_rest)),
+    )
+
+
+def _drift_of_b(spins: Spins, seconds: float = 0.5) -> float:
+    """Largest change of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume it, on the orbit."""
+    scene, _ = precession(spins, PAPER_R0, HEAVY)
+    system = paper_system(scene, STIFFNESS, DAMPING)
+    B = []
+    for _ in range(round(seconds / STEP)):
+        B.append(system.L[0] @ system.R[0][:, 2] - system.L[1] @ system.R[1][:, 2])
+        system.compute_forces()
+        system.step(STEP)
+    return float(np.ptp(B) / sum(map(abs, scene.momenta)))
+
+
+def measure_c15(case: Ansatz) -> dict[str, float]:
+    """Deviations from the ansatz and swing of A on precessions of three amplitudes, their powers in r₀; drift of B.
+
+    Where the deviation of the azimuths vanishes with r₀, the amplitude at which it is WITHIN is found by two secant steps.
+    """
+    found: dict[str, float] = {}
+    what = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
+    for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
+        seen = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
+        for k, quantity in enumerate(what):
+            found[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = seen[-1, k]
+            found[f"order_of_{quantity}_relative_{name}"] = measured_order(AMPLITUDES, np.maximum(seen[:, k], 1e-15))
+        if found[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
+            r0, off = AMPLITUDES[0], seen[0]
+            for _ in range(2):
+                r0 *= WITHIN / off[0]
+                off = np.array(deviations(once_round(case.spins, r0, bar)))
+            found[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] = r0
+            found |= {f"{quantity}_relative_there_{name}": off[k] for k, quantity in enumerate(what)}
+    return found | {"drift_of_B_relative": _drift_of_b(case.spins)}
+
+
+def _small(m: Mapping[str, float], quantity: str) -> Part:
+    """One half of the ansatz: it holds at the paper's amplitude, or below the one at which the azimuths are WITHIN."""
+    key = f"{quantity}_rates_sum_relative"
+    seen = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
+    vanishes = all(m[f"order_of_{key}_{name}"] > VANISHES for name in ("massless", "light_bar"))
+    below = min((m[k] for k in m if k.startswith("r0_at_which")), default=0.0)
+    needs = (
+        f"r₀ below {below:.3f}, for the ansatz within {WITHIN:.0%} (at the paper's {PAPER_R0} φ₁′ + φ₂′ is up to "
+        f"{m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′)"
+    )
+    says = AZIMUTHS if quantity == "azimuth" else SPIN_ANGLES
+    return Part(says, max(seen) < WITHIN, needs if vanishes and below else "")
+
+
+def decide_c15(m: Mapping[str, float]) -> Finding:
+    """Both sums and the swing of A at the paper's amplitude, with their powers in r₀, for both bars; the drift of B."""
+    massless, light = (m[f"swing_of_A_relative_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar"))
+    needs = (
+        f"for A a massless bar: within {massless:.1%} at r₀ = {PAPER_R0}, where with the paper's light bar it swings by "
+        f"{light:.0%} of its varying part at any amplitude"
+    )
+    parts = (
+        _small(m, "azimuth"),
+        _small(m, "spin"),
+        Part(A_CONSTANT, max(massless, light) < WITHIN, needs if massless < WITHIN else ""),
+        Part(B_CONSTANT, m["drift_of_B_relative"] < ROUNDING),
+    )
+    how = (
+        f"At r₀ = {PAPER_R0} φ₁′ + φ₂′ reaches {m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′ "
+        f"({m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_light_bar']:.0%} with the light bar) and ψ₁′ + ψ₂′ "
+        f"{m[f'spin_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of the spin; they go as r₀ to the power "
+        f"{m['order_of_azimuth_rates_sum_relative_massless']:.2f} and {m['order_of_spin_rates_sum_relative_massless']:.2f}. "
+        f"A swings by {massless:.1%} of the part that the motion makes, as r₀ to the power "
+        f"{m['order_of_swing_of_A_relative_massless']:.2f}; with the light bar by {light:.0%}, as r₀ to the power "
+        f"{m['order_of_swing_of_A_relative_light_bar']:.2f}: at any amplitude. B drifts by "
+        f"{scientific(m['drift_of_B_relative'])} of itself."
+    )
+    if "r0_at_which_the_azimuth_sum_is_5_percent_light_bar" not in m:
+        return Finding(parts, how)
+    r0, light_r0 = (m[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] for name in ("massless", "light_bar"))
+    return Finding(
+        parts,
+        f"{how} At r₀ = {r0:.3f} ({light_r0:.3f} with the light bar) φ₁′ + φ₂′ is {WITHIN:.0%} of φ′, ψ₁′ + ψ₂′ "
+        f"{m['spin_rates_sum_relative_there_massless']:.1%} of the spin, and A swings by "
+        f"{m['swing_of_A_relative_there_massless']:.2%} of its varying part "
+        f"({m['swing_of_A_relative_there_light_bar']:.0%} with the light bar).",
+    )
+
+
+# With the light bar in place of the theory's, A has no small amplitude at which it is constant.
+C15 = ClaimTest(
+    "C15",
+    Ansatz(),
+    {AZIMUTHS: Ansatz(EQUAL), SPIN_ANGLES: Ansatz(EQUAL), A_CONSTANT: Ansatz(bar=PAPER_BAR)},
+    "exact orbits; the paper's program for B",
+    measure_c15,
+    decide_c15,
+)

@@ -1,0 +1,188 @@
+"""Claims of section 5.3: the rates that the paper matched by eye, for one rotor, equal and opposite spins (C20 to C22)."""
+
+from collections.abc import Mapping
+from math import pi
+
+import numpy as np
+
+from lagrotor.models.simulate import simulate
+from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.numerics.harmonics import best_harmonics
+from lagrotor.pair.examples import HEAVY, LIGHT, STEP
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.shocked_runs import shock_of, shocked_scene
+from lagrotor.theory.natural_frequency import natural_rate
+
+Spins = tuple[float, float]
+# The paper's "..." leave the bar of 5.3 open. Those of its listings are the first two; the third has the mass of the one
+# and the inertia of the other.
+BARS = {"m_1_K_1": HEAVY, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
+PAPER, SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
+PAPER_RUN = 8.0  # s that the paper's runs last after the shock
+SINGLE, HALF_UNIT = 16.0, 0.5  # rad/s, printed without decimals
+COUPLED, HALF_TENTH = 11.4, 0.05  # rad/s, printed with one decimal
+CONSTANT, OF_CONSTANT = 0.7125, 0.05 / 16  # 11.4/16; half a unit of 11.4, over 16
+OPPOSITE_RATE = 10 * 4 / 5 * CONSTANT  # rad/s, 5.7, printed 0.57
+FEW = 3  # cycles: "the first few" are three at least
+OF_SPRINGS = (10, 20, 40, 80)  # n of S = 2·10⁵/n N/m, D = 5·10³/n kg/s (ω_s = 10 rad/s), stable at 1 ms, see C08
+
+AT_16 = "a single rotor of spin 20 precesses at 16 = 4/5 · 20"
+AT_11_4, OF_COUPLING = "the pair of equal spins 20 oscillates at 11.4", "11.4/16 is a constant of the coupling"
+FOLLOWS = "opposite spins follow the same constant for the first few cycles"
+
+
+def _scene(spins: Spins, bar: Link | None, force: float) -> Scene:
+    return shocked_scene(spins, (force, 0, 0), bar, WIDTH)
+
+
+def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = PAPER_RUN) -> tuple[float, float]:
+    """Rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and how far x_1 goes."""
+    scene = _scene(spins, bar, force)
+    after = shock_of(scene).at + 0.33
+    run = simulate(scene, np.linspace(after, after + seconds, 400), "spheres", 1e-9)
+    x = run.axes[0, :, 0]
+    return best_harmonics(run.t, x, natural_rate(scene)).rate, float(abs(x).max())
+
+
+def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
+    """The same rate over 3 s of the paper's program."""
+    scene = _scene(spins, bar, PAPER)
+    t = np.round(shock_of(scene).at + np.arange(17, 151) * 0.02, 3)
+    run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, t, STEP)
+    return best_harmonics(t, run.axes[0, :, 0], natural_rate(scene)).rate
+
+
+def measure_c20(spins: Spins) -> dict[str, float]:
+    """The rate of one rotor after the paper's shock, exactly and with springs, and after a small one."""
+    rate, farthest = rate_of_run(spins, None, PAPER)
+    return {
+        "rate_exact_rad_per_s": rate,
+        "rate_springs_rad_per_s": _rate_of_springs(spins, None),
+        "rate_after_small_shock_rad_per_s": rate_of_run(spins, None, SMALL)[0],
+        "amplitude": farthest,
+        "rate_by_G_over_J_cos_rad_per_s": natural_rate(Scene(spins, link=None)) / (1 - farthest**2) ** 0.5,
+        "cycles_off_16_at_the_end_of_8_s": abs(rate - SINGLE) * PAPER_RUN / (2 * pi),
+    }
+
+
+def decide_c20(m: Mapping[str, float]) -> Finding:
+    """The three rates against 16."""
+    exact, springs, small = (m[f"rate_{way}_rad_per_s"] for way in ("exact", "springs", "after_small_shock"))
+    return Finding(
+        (Part(AT_16, all(abs(rate - SINGLE) < HALF_UNIT for rate in (exact, springs, small))),),
+        f"{exact:.3f} rad/s exactly, {springs:.3f} with springs, {small:.4f} after a small shock; the excess comes from the "
+        f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
+        f"end of 8 s sin 16(t − 2) is {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle behind.",
+    )
+
+
+def measure_c21(spins: Spins) -> dict[str, float]:
+    """The rate of the pair by four choices of the springs, exactly, and after a small shock; the constant in five ways."""
+    rate, _ = rate_of_run(spins, HEAVY, PAPER)
+    single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
+    natural = {name: rate_of_run(spins, bar, SMALL)[0] for name, bar in BARS.items()}
+    by_n = {n: _rate_of_springs(spins, HEAVY, n) for n in OF_SPRINGS}
+    J, G = Scene(spins).rotor.J, abs(spins[0])
+    return {
+        **{f"rate_springs_n_{n}_rad_per_s": seen for n, seen in by_n.items()},
+        "rate_springs_rad_per_s": by_n[20],
+        "largest_n_that_gives_11.4": max(
+            (n for n, seen in by_n.items() if abs(seen - COUPLED) < HALF_TENTH), default=0
+        ),
+        "rate_exact_rad_per_s": rate,
+        "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
+        "rate_of_one_rotor_rad_per_s": single,
+        "constant": natural["m_1_K_1"] / single,
+        "constant_at_half_the_spins": rate_of_run(half, HEAVY, SMALL)[0] / natural_rate(Scene(half, link=None)),
+        "constant_light_bar": natural["m_0.01_K_0.1"] / single,
+        "constant_bar_K_0.1": natural["m_1_K_0.1"] / single,
+        "J_over_J_plus_half_m": J / (J + HEAVY.mass / 2),
+        "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED + HALF_TENTH) - J),
+        "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED - HALF_TENTH) - J),
+    }
+
+
+def _constant(m: Mapping[str, float]) -> Part:
+    """The constant at these spins, at half of them, and with other bars."""
+    constants = m["constant"], m["constant_at_half_the_spins"]
+    same = all(abs(constant - CONSTANT) < OF_CONSTANT for constant in constants)
+    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < OF_CONSTANT for bar in ("light_bar", "bar_K_0.1"))
+    needs = "equal spins and a bar of mass 1 kg, of any inertia: 11.4/16 is a constant of that bar"
+    return Part(OF_COUPLING, same and every_bar, needs if same else "")
+
+
+def decide_c21(m: Mapping[str, float]) -> Finding:
+    """Rates with springs, exactly and after a small shock, against 11.4; the constant, which is that of one rotor's 16."""
+    springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ("springs", "after_small_shock", "exact"))
+    at_11_4 = [abs(rate - COUPLED) < HALF_TENTH for rate in (springs, small, exact)]
+    needs = (
+        f"a small amplitude, or the paper's springs: with rigid joints it is {exact:.3f} rad/s under the paper's "
+        f"{PAPER:.0f} N"
+    )
+    by_n = [m[f"rate_springs_n_{n}_rad_per_s"] for n in OF_SPRINGS]
+    return Finding(
+        (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
+        f"{springs:.3f} rad/s with springs, {small:.3f} exactly after a small shock, but {exact:.3f} exactly after the "
+        f"paper's {PAPER:.0f} N, {exact - COUPLED:+.3f} off 11.4: the finite amplitude adds {exact - small:.3f}, and the "
+        f"softness of the springs takes {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f}; the "
+        f"constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them, "
+        f"J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It is set by the mass of the bar, whatever its inertia "
+        f"({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²), and is {m['constant_light_bar']:.4f} for the light bar. 11.4 "
+        f"needs a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With "
+        f"springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} rad/s: "
+        f"of these, 11.4 together with 100.45 J and 16 needs n of {m['largest_n_that_gives_11.4']:.0f} at most.",
+    )
+
+
+def measure_c22(spins: Spins) -> dict[str, float]:
+    """For each bar, over three cycles of 5.7: the rate, and for how many cycles a wave of 5.7 keeps within a quarter."""
+    found = {}
+    for name, bar in BARS.items():
+        for shock, force in (("40_N", PAPER), ("small_shock", SMALL)):
+            rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
+            found[f"rate_after_{shock}_{name}"] = rate
+            off = max(abs(rate - OPPOSITE_RATE), 1e-12)
+            found[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
+    J, G = Scene(spins).rotor.J, spins[0]
+    return found | {
+        "rate_springs_m_1_K_1": _rate_of_springs(spins, HEAVY),
+        "inertia_that_mass_1_needs_kg_m2": ((G / OPPOSITE_RATE) ** 2 / (J + 0.5) - J) / 2,
+        "rate_of_equal_spins_m_1": abs(G) / (J + 0.5),
+    }
+
+
+def decide_c22(m: Mapping[str, float]) -> Finding:
+    """For how many cycles the matched wave stays within a quarter of a cycle, beyond which its peaks fall in valleys.
+
+    One of the listed bars must do it, after both shocks; the third bar, which is in no listing, is measured beside them.
+    """
+    small, large, cycles, more = (
+        [m[f"{key}_{name}"] for name in BARS]
+        for key in (
+            "rate_after_small_shock",
+            "rate_after_40_N",
+            "cycles_within_a_quarter_after_40_N",
+            "cycles_within_a_quarter_after_small_shock",
+        )
+    )
+    first, second, _ = follows = [min(pair) >= FEW for pair in zip(cycles, more, strict=True)]
+    bar = "the bar m = K = 1" if first else "the bar m = 0.01 kg, K = 0.1 kg m²" if second else ""
+    return Finding(
+        (Part(FOLLOWS, all(follows), bar),),
+        f"Rates after a small shock {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
+        f"0.1; after 40 N {large[0]:.3f} ({m['rate_springs_m_1_K_1']:.3f} with springs), {large[1]:.3f}, {large[2]:.3f}. "
+        f"A wave of {OPPOSITE_RATE:.1f} rad/s keeps within a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, "
+        f"{cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, {more[1]:.1f}, {more[2]:.1f}), where the first few are "
+        f"{FEW} at least; the third bar, with the mass of the first and the inertia of the second, is in no listing. With m "
+        f"= 1 kg it would take K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; "
+        f"equal spins 10 have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+    )
+
+
+EXACT = "exact pair (spheres) and spring-linked bodies"
+C20 = ClaimTest(
+    "C20", (20, 20), {AT_16: (10, 10)}, "one rotor, exact (spheres) and with springs", measure_c20, decide_c20
+)
+C21 = ClaimTest("C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, EXACT, measure_c21, decide_c21)
+C22 = ClaimTest("C22", (10, -10), {FOLLOWS: (10, 10)}, EXACT, measure_c22, decide_c22)

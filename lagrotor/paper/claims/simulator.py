@@ -1,0 +1,181 @@
+"""Claims of section 3: the finite rotation, the step without inversions, springs in place of joints (C03 to C05)."""
+
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from unittest.mock import patch
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.models.simulate import simulate
+from lagrotor.models.spring_link.rigid_body import (
+    RigidBody,
+    finite_rotation,
+    inertia_transform,
+    printed_inertia_transform,
+)
+from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.system import RigidBodySystem
+from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.scene import Scene
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.readable import scientific
+from lagrotor.paper.shocked_runs import shocked_scene
+
+Array = NDArray[np.float64]
+SPINS = (10.0, 10.0)
+ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
+ENFORCED = 0.1  # a joint is kept where its gap, and the error of the axes, are below a tenth of the motion
+INVERTERS = ("inv", "solve", "pinv", "lstsq", "tensorinv", "tensorsolve")  # numpy's ways to invert a matrix
+
+NOT_ORTHOGONAL, ORTHOGONAL = "1 + Δt Ω× is not orthogonal for a finite step", "the Rodrigues rotation is orthogonal"
+NO_INVERSION, SOLVED = "a step inverts no matrix", "its Ω is that of the momentum"
+LINKED, GROUNDED = "a spring-damper enforces a link", "a ground is a link to a body that never moves"
+
+
+def _off_orthogonal(matrix: Array) -> float:
+    return float(abs(matrix @ matrix.T - np.eye(3)).max())
+
+
+def _stretch(step: Array) -> float:
+    """Relative change of a length after 10,000 steps."""
+    return float(np.linalg.norm(np.linalg.matrix_power(step, 10_000)[:, 0])) - 1
+
+
+def measure_c03(dt: float) -> dict[str, float]:
+    """Both rotations over one step dt (s) of a rotor that spins, and what 10,000 of them do to a length."""
+    Omega = np.array([[0.0, 0.0, SPINS[0]]])
+    first_order, rodrigues = np.eye(3) + dt * cross_matrix(Omega)[0], finite_rotation(Omega, dt)[0]
+    n, angle = Omega[0] / SPINS[0], SPINS[0] * dt
+    P = np.outer(Omega, Omega)  # (3.16) to the letter: not divided by |Ω|²
+    printed = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * cross_matrix(n[None])[0]
+    return {
+        "first_order_off_orthogonal": _off_orthogonal(first_order),
+        "rodrigues_off_orthogonal": _off_orthogonal(rodrigues),
+        "first_order_stretch_in_10_s": _stretch(first_order),
+        "rodrigues_stretch_in_10_s": abs(_stretch(rodrigues)),
+        "rodrigues_with_P_as_printed_off_orthogonal": _off_orthogonal(printed),
+    }
+
+
+def decide_c03(m: Mapping[str, float]) -> Finding:
+    """How far each rotation of one step is from orthogonal, against rounding."""
+    return Finding(
+        (
+            Part(NOT_ORTHOGONAL, m["first_order_off_orthogonal"] > ROUNDING),
+            Part(ORTHOGONAL, m["rodrigues_off_orthogonal"] < ROUNDING),
+        ),
+        f"One step is off orthogonal by {scientific(m['first_order_off_orthogonal'])} to first order and by "
+        f"{scientific(m['rodrigues_off_orthogonal'])} by Rodrigues; in 10,000 steps the first stretches a body by "
+        f"{m['first_order_stretch_in_10_s']:.0%}, the second by {scientific(m['rodrigues_stretch_in_10_s'])}. With P = Ω Ωᵀ "
+        "to the letter of (3.16), not divided by |Ω|², it would be off by "
+        f"{scientific(m['rodrigues_with_P_as_printed_off_orthogonal'])}.",
+    )
+
+
+def inverted_each_time(R: Array, inverse_inertia: Array) -> Array:
+    """(R I₀ Rᵀ)⁻¹ with I₀⁻¹ not stored: the inertia is turned and inverted at each step."""
+    inertia: Array = np.linalg.pinv(inverse_inertia).astype(float)
+    inverse: Array = np.linalg.pinv(inertia_transform(R, inertia)).astype(float)
+    return inverse
+
+
+def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
+    """Inversions in a hundred steps of the paper's bodies and of a free one of unequal inertia; Ω of the free one."""
+    inertia = np.diag([1.0, 2.0, 2.5])
+    start = np.array([0.3, 0.5, 1.0]) * SPINS[0]
+    body = RigidBody(np.zeros(3), [[0, 0, 1]], inertia, np.eye(3), 1.0, start, np.zeros(3))  # type: ignore[arg-type]
+    free = RigidBodySystem([body], 1.0, 0.0, transform=transform)
+    paper = paper_system(Scene(SPINS, link=HEAVY), STIFFNESS, DAMPING, transform=transform)
+    with ExitStack() as stack:
+        counters = [stack.enter_context(patch.object(np.linalg, k, wraps=getattr(np.linalg, k))) for k in INVERTERS]
+        for system in (free, paper):
+            for _ in range(100):
+                system.compute_forces()
+                system.step(STEP)
+        inversions = sum(counter.call_count for counter in counters)
+    R, L = free.R[0], free.L[0]
+    solved = np.linalg.solve(R @ inertia @ R.T, L)
+    printed = printed_inertia_transform(free.R, free.inverse_inertia)[0] @ L
+    return {
+        "inversions_in_200_steps": inversions,
+        "inertia_changed_by_kg_m2": abs(R @ inertia @ R.T - inertia).max(),
+        "off_the_solved_omega_relative": np.linalg.norm(free.angular_velocity()[0] - solved) / np.linalg.norm(solved),
+        "off_with_the_printed_transform_relative": np.linalg.norm(printed - solved) / np.linalg.norm(solved),
+    }
+
+
+def decide_c04(m: Mapping[str, float]) -> Finding:
+    """The count of inversions, and the step's Ω against the solution of R I₀ Rᵀ Ω = L."""
+    return Finding(
+        (
+            Part(NO_INVERSION, m["inversions_in_200_steps"] == 0),
+            Part(SOLVED, m["off_the_solved_omega_relative"] < ROUNDING),
+        ),
+        f"{m['inversions_in_200_steps']:.0f} inversions in 200 steps, while the inertia changed by "
+        f"{m['inertia_changed_by_kg_m2']:.2f} kg m²; Ω agrees with the solved one to "
+        f"{scientific(m['off_the_solved_omega_relative'])}. The transform must be R I₀⁻¹ Rᵀ: the printed Rᵀ I₀⁻¹ R gives a "
+        f"body of unequal inertia an Ω off by {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",
+    )
+
+
+def measure_c05(stiffness: float) -> dict[str, float]:
+    """The shocked equal pair joined by springs of a quarter, half and the whole stiffness (N/m), against the exact pair."""
+    scene = shocked_scene(SPINS, (50, 0, 0))
+    t = np.round(np.arange(0, 1.2005, 2e-3), 3)
+    exact = simulate(scene, t, "spheres", 1e-9)
+    stiffnesses = stiffness * np.array([0.25, 0.5, 1.0])
+    errors, gaps, ground = [], [], 0.0
+    for S in stiffnesses:
+        system = paper_system(scene, float(S), float(S) * DAMPING / STIFFNESS)
+        run = run_steps(system, scene.shock, t, STEP)
+        errors.append(abs(run.axes - exact.axes).max())
+        gaps.append(run.stretches.max())
+        for _ in range(50):
+            system.compute_forces()
+            system.push(1, 2, (50, 0, 0))
+            system.step(STEP)
+        ground = max(ground, abs(system.X[-1]).max(), abs(system.R[-1] - np.eye(3)).max())
+    moved = abs(exact.axes[..., :2]).max()
+    return {
+        "stiffness_N_per_m": stiffness,
+        "largest_gap_m": gaps[-1],
+        "gap_over_motion_of_tips": gaps[-1] / (scene.rotor.length * moved),
+        "error_over_motion": errors[-1] / moved,
+        "power_of_stiffness_in_error": measured_order(stiffnesses, errors),
+        "power_of_stiffness_in_gap": measured_order(stiffnesses, gaps),
+        "ground_moved_m": ground,
+    }
+
+
+def decide_c05(m: Mapping[str, float]) -> Finding:
+    """The gaps of the links and the error of the axes, both over the motion; what the ground moved."""
+    kept = max(m["gap_over_motion_of_tips"], m["error_over_motion"]) < ENFORCED
+    needs = "the springs are stiff, faster than the motion: the link is exact only as S grows without bound"
+    return Finding(
+        (
+            Part(LINKED, kept and m["largest_gap_m"] == 0, needs if kept else ""),
+            Part(GROUNDED, m["ground_moved_m"] == 0),
+        ),
+        f"At S = {m['stiffness_N_per_m']:.0f} N/m the gaps reach {1e3 * m['largest_gap_m']:.1f} mm, "
+        f"{m['gap_over_motion_of_tips']:.1%} of the motion of the tips, and the axes are off by {m['error_over_motion']:.1%} "
+        f"of theirs. The gap goes as S to the power {m['power_of_stiffness_in_gap']:.2f}, the error to the power "
+        f"{m['power_of_stiffness_in_error']:.2f}. The ground moved by {m['ground_moved_m']:g} m.",
+    )
+
+
+# C03: at 10⁻⁹ s the step is finite no more, for double precision. C05: springs of 100 N/m are slower than the motion.
+C03 = ClaimTest("C03", STEP, {NOT_ORTHOGONAL: 1e-9}, "one step of a rigid body", measure_c03, decide_c03)
+C04 = ClaimTest(
+    "C04",
+    inertia_transform,
+    {NO_INVERSION: inverted_each_time, SOLVED: printed_inertia_transform},
+    "spring-linked bodies, and one free body of unequal inertia",
+    measure_c04,
+    decide_c04,
+)
+C05 = ClaimTest(
+    "C05", STIFFNESS, {LINKED: 100.0}, "spring-linked bodies against the exact pair", measure_c05, decide_c05
+)
