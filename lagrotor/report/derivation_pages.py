@@ -1,0 +1,82 @@
+"""A derivation as part of the page: its prose, the steps that it proves, the verdicts where they are reached."""
+
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.paper import scripts
+from lagrotor.paper.ledger import Statement
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.proof import Formula, Step
+from lagrotor.paper.tables import Table
+from lagrotor.report.content import anchor
+from lagrotor.report.page_pieces import badge, link, prose, rows, typeset
+
+
+def derivation_html(stem: str, answers: Mapping[str, str]) -> str:
+    """One derivation, cell by cell; `answers` holds the verdicts by equation."""
+    cells = scripts.executed("derivations", stem).cells
+    parts = [written(c.text) if c.kind == "prose" else "".join(_shown(v, answers) for v in c.shown) for c in cells]
+    return "".join(parts)
+
+
+def title(stem: str) -> str:
+    """The first heading of a derivation."""
+    text = next((cell.text for cell in scripts.executed("derivations", stem).cells if cell.kind == "prose"), stem)
+    return text.splitlines()[0].lstrip("# ")
+
+
+def written(text: str) -> str:
+    """Markdown with formulas between dollars as HTML; as it stands where markdown-it is not installed."""
+    try:
+        from markdown_it import MarkdownIt
+        from mdit_py_plugins.dollarmath import dollarmath_plugin
+    except ModuleNotFoundError:
+        return f"<pre>{escape(text)}</pre>"
+    renderer = MarkdownIt("commonmark").enable("table")
+    renderer.use(dollarmath_plugin, renderer=_formula, allow_space=False)
+    html: str = renderer.render(text)
+    for level in (3, 2, 1):  # the page's own headings end at the third level
+        html = html.replace(f"<h{level}>", f"<h{level + 3}>").replace(f"</h{level}>", f"</h{level + 3}>")
+    return html
+
+
+def _formula(source: str, options: Mapping[str, Any]) -> str:
+    from lagrotor.report.formulas.mathml_latex import from_latex
+
+    drawn = from_latex(source, display=bool(options["display_mode"]))
+    return drawn or f"<code>{escape(source)}</code>"
+
+
+def _shown(value: Any, answers: Mapping[str, str]) -> str:
+    if isinstance(value, tuple | list):
+        return "".join(_shown(part, answers) for part in value)
+    if isinstance(value, Step):
+        says = f"<p><small>Proved: {prose(value.says)}.</small></p>" if value.says else ""
+        return f'<div class="step">{typeset(value.tex)}{says}</div>'
+    if isinstance(value, Formula):
+        return typeset(value.tex)
+    if isinstance(value, Statement):
+        answer = badge(answers[value.id]) if value.id in answers else ""
+        return f'<p class="judged"><a href="#{anchor(value.id)}">{escape(value.id)}</a> {answer}</p>'
+    if isinstance(value, Remark):
+        return f"<p><b>{prose(value.title)}.</b> {prose(value.text)}</p>"
+    if isinstance(value, Table):
+        return rows(value.head, (tuple(_cell(cell) for cell in row) for row in value.rows))
+    if isinstance(value, sp.Basic | sp.MatrixBase):
+        return typeset(Formula(value).tex)
+    return ""
+
+
+def _cell(cell: Any) -> str:
+    if isinstance(cell, tuple):
+        return "<br>".join(map(_cell, cell))
+    return typeset(Formula(cell).tex) if isinstance(cell, sp.Basic) else prose(str(getattr(cell, "key", cell)))
+
+
+def reached_in(identifier: str) -> str:
+    """A link to where an equation is derived on the page."""
+    stem = scripts.stating().get(identifier)
+    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if stem else ""
