@@ -39,7 +39,10 @@ spin_matrix = Q.T * Q.applyfunc(lambda e: total_derivative(e, ROTOR))
 across = spin_matrix[2, 1] ** 2 + spin_matrix[0, 2] ** 2
 along = spin_matrix[1, 0]
 prove(
-    (across, along), (theta_v**2 + phi_v**2 * s**2, psi_v + phi_v * c), "the angular velocity across and along the axis"
+    (across, along),
+    (theta_v**2 + phi_v**2 * s**2, psi_v + phi_v * c),
+    "the angular velocity across and along the axis",
+    names=(r"\Omega_x^2 + \Omega_y^2", r"\Omega_z"),
 )
 
 # %% [markdown]
@@ -62,7 +65,7 @@ prove(
 # %%
 kinetic = I1 / 2 * across + I3 / 2 * along**2 + M / 2 * centre_velocity.dot(centre_velocity)
 L = rotor_lagrangian()
-prove(kinetic, L.subs(J, J_OF), "the kinetic energy, with J for the inertia about the joint")
+prove(kinetic, L.subs(J, J_OF), "the kinetic energy, with J for the inertia about the joint", names=r"\mathcal L")
 
 # %% [markdown]
 # The paper writes $I_1$ where $J$ belongs. It calls $I_1$ "the rotational inertia perpendicular to the gyroscope axis";
@@ -83,6 +86,7 @@ prove(
     (p_phi, p_psi),
     (phi_v * (J * s**2 + I3 * c**2) + psi_v * I3 * c, I3 * (psi_v + phi_v * c)),
     "the momenta of the two cyclic coordinates",
+    names=(r"p_\phi", r"p_\psi"),
 )
 
 # %%
@@ -112,7 +116,9 @@ verdict("5.02", rate, premises=[ABOUT_JOINT], uses=["5.01", "5.03"])
 
 # %%
 rate_of_spin = rate.subs(M_3, I3 * omega)
-prove(rate_of_spin, (M_z - I3 * omega * c) / (J * s**2), "the rate of precession by the axial velocity")
+prove(
+    rate_of_spin, (M_z - I3 * omega * c) / (J * s**2), "the rate of precession by the axial velocity", names=r"\dot\phi"
+)
 
 # %%
 verdict("5.05", rate_of_spin, premises=[EQUAL_INERTIAS], uses=["5.02", "5.04"])
@@ -125,7 +131,7 @@ verdict("5.05", rate_of_spin, premises=[EQUAL_INERTIAS], uses=["5.02", "5.04"])
 # %%
 motion = dict(zip(ROTOR.a, accelerations(L, ROTOR), strict=True))
 change = total_derivative(p_phi / I3, ROTOR).subs(motion)
-prove(change, 0, "the rate of a along the motion")
+prove(change, 0, "the rate of a along the motion", names=r"\dot a")
 
 # %%
 verdict("5.06", {"a": p_phi / I3, r"\dot a": change}, premises=[EQUAL_INERTIAS], uses=["5.04"])

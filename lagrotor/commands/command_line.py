@@ -2,8 +2,10 @@
 
 import argparse
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +21,20 @@ from lagrotor.errors import LagrotorError
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 
 
+class _Terminated(BaseException):
+    """SIGTERM, which ends a run as an interrupt does: what it began is removed."""
+
+
+def _terminated(number: int, frame: Any) -> None:
+    raise _Terminated
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and give its exit status; every refusal is one line on stderr."""
     if sys.stdout is None:  # started with its output closed
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    with suppress(ValueError):  # not in the main thread: the caller keeps its signals
+        signal.signal(signal.SIGTERM, _terminated)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
@@ -35,6 +47,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _flushed(int(done.code or 0))
     except BrokenPipeError:
         return _abandoned()
+    except _Terminated:
+        return say("terminated", 143)
     except KeyboardInterrupt:
         return say("interrupted", 130)
     except MemoryError:
@@ -80,6 +94,7 @@ def _parser() -> argparse.ArgumentParser:
         "lagrotor reproduce --out report",
     )
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
+    added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
     added.description = "Judge the paper's equations. For single ids only their own derivations run."

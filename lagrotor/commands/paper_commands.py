@@ -14,7 +14,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.reproduce import reproduce
 
-    made = reproduce(given.out, progress)
+    made = reproduce(given.out, progress, given.jobs)
     page = given.out / "index.html"
     judged = sum(made.equations.values())
     print(f"{judged} equations judged: {told(made.equations) or 'none'}; {made.waiting} not yet judged")

@@ -37,23 +37,21 @@ def say(message: str, status: int) -> int:
 
 @contextmanager
 def progress(total: int) -> Iterator[Callable[[str], None]]:
-    """A function to call with the name of each of `total` steps as it begins; quiet unless stderr is a terminal."""
-    if not sys.stderr.isatty():
-        yield lambda name: None
-        return
-    done, began = 0, time.perf_counter()
+    """A function to call with the name of each of `total` steps as it begins.
 
-    def finish() -> None:
-        if done:
-            print(f" {time.perf_counter() - began:.1f} s", file=sys.stderr)
+    A terminal shows the step in one line that is written over; elsewhere each step is a line on stderr.
+    """
+    done, began, live = 0, time.perf_counter(), sys.stderr.isatty()
 
     def step(name: str) -> None:
-        nonlocal done, began
-        finish()
-        done, began = done + 1, time.perf_counter()
-        print(f"[{done}/{total}] {name} …", end="", file=sys.stderr, flush=True)
+        nonlocal done
+        done += 1
+        line = f"[{done}/{total}] {time.perf_counter() - began:4.0f} s  {name}"
+        width = shutil.get_terminal_size().columns - 1
+        print(f"\r{line[:width]:<{width}}" if live else line, end="" if live else "\n", file=sys.stderr, flush=True)
 
     try:
         yield step
     finally:
-        finish()
+        if live and done:
+            print(f"\r{'':<{shutil.get_terminal_size().columns - 1}}\r", end="", file=sys.stderr, flush=True)

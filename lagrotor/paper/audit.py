@@ -61,13 +61,15 @@ def audit(identifier: str | None = None, progress: Progress | None = None) -> Au
     """
     if identifier is not None:
         return _one(identifier, progress)
-    verdicts: dict[str, Verdict] = {}
-    for stem in scripts.names("derivations", "s"):
-        verdicts |= {verdict.id: verdict for verdict in judged(stem, progress)}
-    answers = {i: v.verdict for i, v in verdicts.items()}
-    uses = {i: v.statement.depends_on for i, v in verdicts.items()}
-    ordered = (verdicts[i] for i in equations() if i in verdicts)
-    return Audit(tuple(_followed(verdict, answers, uses) for verdict in ordered))
+    return Audit(tuple(with_reach(v for stem in scripts.names("derivations", "s") for v in judged(stem, progress))))
+
+
+def with_reach(verdicts: Iterable[Verdict]) -> list[Verdict]:
+    """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them."""
+    found = {verdict.id: verdict for verdict in verdicts}
+    answers = {i: v.verdict for i, v in found.items()}
+    uses = {i: v.statement.depends_on for i, v in found.items()}
+    return [_followed(found[i], answers, uses) for i in equations() if i in found]
 
 
 def _one(identifier: str, progress: Progress | None) -> Verdict:

@@ -28,13 +28,19 @@ class Formula:
         return rf"$\displaystyle {self.tex}$"
 
 
+# Characters of LaTeX beyond which a left side is not shown: it is what the code computed, and the right side says it.
+_LONGEST = 240
+
+
 @dataclass(frozen=True)
 class Step:
-    """Equations that were proved. pairs: (left, right). domain: factors that must not vanish. order: of a series in `small`."""
+    """Equations that were proved. pairs: (left, right). names: LaTeX of the left sides, where they are better named than
+    written out. domain: factors that must not vanish. order: of a series in `small`."""
 
     pairs: tuple[tuple[Any, Any], ...]
     says: str
     domain: tuple[sp.Expr, ...]
+    names: tuple[str, ...] = ()
     small: sp.Symbol | None = None
     order: int | None = None
 
@@ -42,19 +48,34 @@ class Step:
     def tex(self) -> str:
         """The equations below each other, as LaTeX."""
         end = rf" + O\left({latex(self.small)}^{{{(self.order or 0) + 1}}}\right)" if self.small is not None else ""
-        lines = [f"{latex(left)} &= {latex(right)}{end}" for left, right in self.pairs]
+        names = self.names or tuple(latex(left) for left, _ in self.pairs)
+        lines = [
+            f"{name if len(name) <= _LONGEST else chr(92) + 'cdots'} &= {latex(right)}{end}"
+            for name, (_, right) in zip(names, self.pairs, strict=True)
+        ]
         return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.tex}$"
 
 
-def prove(left: Any, right: Any, says: str = "", small: sp.Symbol | None = None, order: int | None = None) -> Step:
+def prove(
+    left: Any,
+    right: Any,
+    says: str = "",
+    small: sp.Symbol | None = None,
+    order: int | None = None,
+    names: str | Sequence[str] = (),
+) -> Step:
     """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
 
-    says: what is proved, in words. Raises ProofError with the difference where it does not hold or is not decided.
+    says: what is proved, in words. names: LaTeX shown for the left sides. Raises ProofError with the difference where it
+    does not hold or is not decided.
     """
     pairs = _pairs(left, right)
+    named = (names,) if isinstance(names, str) else tuple(names)
+    if named and len(named) != len(pairs):
+        raise ProofError(f"prove: {len(named)} names for {len(pairs)} equations")
     domain: dict[sp.Expr, None] = {}
     for a, b in pairs:
         if small is not None:
@@ -64,7 +85,7 @@ def prove(left: Any, right: Any, says: str = "", small: sp.Symbol | None = None,
         if decision.answer != "zero":
             raise ProofError(f"prove: {says or 'this step'} is {decision.answer}: {a} against {b}: {decision.reason}")
         domain |= dict.fromkeys(f for f in decision.domain if not (f.is_positive or f.is_number))
-    return Step(pairs, says, tuple(domain), small, order)
+    return Step(pairs, says, tuple(domain), named, small, order)
 
 
 def _pairs(left: Any, right: Any) -> tuple[tuple[Any, Any], ...]:

@@ -56,8 +56,8 @@ class Report:
 
     claims: the paper's claims after their tests; findings: (title, sentence) of what the derivations found besides;
     tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings; speed, stability:
-    tables of accuracy against cost, and of where methods fail; versions: (what, version) the run was made with;
-    inputs: (what, SHA-256) of what it was made from.
+    tables of accuracy against cost, and of where methods fail; derivations: (stem, title, HTML); model: HTML; versions:
+    (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
     """
 
     verdicts: tuple[Verdict, ...]
@@ -70,6 +70,8 @@ class Report:
     theory: tuple[tuple[str, str], ...] = ()
     speed: tuple[Table, ...] = ()
     stability: tuple[Table, ...] = ()
+    derivations: tuple[tuple[str, str, str], ...] = ()
+    model: str = ""
     versions: tuple[tuple[str, str], ...] = ()
     inputs: tuple[tuple[str, str], ...] = ()
 
@@ -145,6 +147,7 @@ def contents(report: Report) -> list[tuple[str, str]]:
         ("model", "The interactive model", True),
         *paper,
         ("claims", "Claims", bool(report.claims)),
+        ("derivations", "Derivations", bool(report.derivations)),
         ("findings", "Findings", bool(report.findings)),
         ("figures", "Figures", bool(report.pictures_of(""))),
         ("tables", "Tables", bool(report.tables)),

@@ -56,14 +56,11 @@ def corrected(statement: Statement) -> tuple[str, ...]:
 
 
 def _line(quantity: str, relation: Relation) -> str:
-    """quantity = expression, up to a power of what is small where the correction is a series.
-
-    Of a vector the quantity is the whole equation; its components were judged and stand in the JSON.
-    """
-    if isinstance(relation.printed, sp.MatrixBase):
+    """quantity = expression, up to a power of what is small where the correction is a series."""
+    if isinstance(relation.printed, sp.MatrixBase) and "=" in quantity:
         return quantity
     rest = rf" + O({latex(relation.small ** (relation.claimed + 1))})" if relation.small else ""
-    return f"{quantity} = {latex(relation.printed)}{rest}"
+    return (f"{quantity} = " if quantity else "") + f"{latex(relation.printed)}{rest}"
 
 
 def latex_document(verdicts: Iterable[Verdict]) -> str:

@@ -3,13 +3,13 @@
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from lagrotor.errors import InputError
 
 # How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
-TIMES, MADE = "times.json", "made.json"
+TIMES, MADE, PRODUCTS = "times.json", "made.json", "products"
 CONTENTS = {
     "index.html",
     "api.html",
@@ -23,6 +23,7 @@ CONTENTS = {
     "figures",
     TIMES,
     MADE,
+    PRODUCTS,
 }
 # What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
 _COMPILED = {
@@ -59,10 +60,42 @@ def _alive(process: str) -> bool:
 
 
 @contextmanager
+def _alone(target: Path) -> Iterator[None]:
+    """No other run writes into `target` meanwhile. Raises InputError where one does."""
+    lock = target.with_name(f".{target.name}.lock")
+    while True:
+        try:
+            handle = os.open(lock, os.O_CREAT | os.O_EXCL | os.O_WRONLY)
+            break
+        except FileExistsError:
+            with suppress(FileNotFoundError):
+                owner = lock.read_text(encoding="ascii", errors="replace").strip()
+                if _alive(owner) or not owner:
+                    raise InputError(
+                        f"{target} is being written by another run (process {owner or 'starting'}): wait until it ends, or "
+                        "choose another folder"
+                    ) from None
+                lock.unlink()  # of a run that was killed
+    try:
+        os.write(handle, str(os.getpid()).encode())
+        os.close(handle)
+        yield
+    finally:
+        lock.unlink(missing_ok=True)
+
+
+@contextmanager
 def replaced(target: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not."""
+    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not.
+
+    Raises InputError where another run is writing into `target`.
+    """
     target = check_target(target)
-    # Two runs at once each fill a folder of their own; the last to end is the one that stays.
+    with _alone(target):
+        yield from _replaced(target)
+
+
+def _replaced(target: Path) -> Iterator[Path]:
     new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
     for left in target.parent.glob(f".{target.name}.new-*"):
         if not _alive(left.name.rpartition("-")[2]):

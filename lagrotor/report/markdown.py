@@ -217,6 +217,9 @@ _PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
     "errata": lambda report: errata_blocks(report.verdicts),
     "model": lambda report: ["Sliders and both tips in motion, in a browser: [index.html](index.html#model)."],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
+    "derivations": lambda report: [
+        "\n".join(f"- [{_prose(name)}](index.html#derivation-{stem})" for stem, name, _ in report.derivations)
+    ],
     "findings": lambda report: _shown((), report.findings, (), report),
     "figures": lambda report: _shown((), (), report.pictures_of(""), report),
     "tables": lambda report: _shown(report.tables, (), (), report),

@@ -21,10 +21,10 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import errata
 from lagrotor.report.formulas.font import font_face
-from lagrotor.report.interactive.interactive import interactive
 from lagrotor.report.page_parts import (
     claim_entry,
     count_entry,
+    derivation_entry,
     equation_entry,
     erratum_entry,
     finding_entry,
@@ -71,7 +71,7 @@ def page(report: Report) -> str:
 
 def _section(anchor: str, heading: str, report: Report) -> str:
     if anchor == "model":
-        return interactive()
+        return report.model
     paper = anchor.startswith("section-")
     inside = _paper(report, anchor.removeprefix("section-")) if paper else _PARTS[anchor](report)
     return f'<section aria-labelledby="{anchor}"><h2 id="{anchor}">{escape(heading)}</h2>\n{inside}</section>'
@@ -139,6 +139,7 @@ _PARTS: dict[str, Callable[[Report], str]] = {
     "verdicts": _verdicts,
     "errata": _errata,
     "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
+    "derivations": lambda report: "\n".join(map(derivation_entry, report.derivations)),
     "findings": lambda report: _shown(report, (), report.findings, []),
     "figures": lambda report: _shown(report, (), (), report.pictures_of("")),
     "tables": lambda report: _shown(report, report.tables, (), []),

@@ -7,6 +7,7 @@ from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
+from lagrotor.report.derivation_pages import reached_in
 from lagrotor.report.embed import embedded, size
 from lagrotor.report.errata import Erratum
 from lagrotor.report.page_pieces import (
@@ -34,13 +35,14 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     printed = typeset(entry.latex)
     derived = formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
     read = formulas(sides(statement.relations, "printed"))
-    source = code(entry.latex) + (f"<p>As read, to be judged:</p>{read}" if read else "")
+    how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
+    source = code(entry.latex) + how + (f"<p>As read, to be judged:</p>{read}" if read else "")
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, 'As derived', derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{reached_in(verdict.id)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
 
 
@@ -96,6 +98,12 @@ def headline_entry(headline: Headline) -> str:
 def finding_entry(title: str, text: str) -> str:
     """A sentence that a derivation found besides."""
     return f"<h3>{prose(title)}</h3><p>{prose(text)}</p>"
+
+
+def derivation_entry(derivation: tuple[str, str, str]) -> str:
+    """A derivation, folded."""
+    stem, name, inside = derivation
+    return f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
 
 
 def count_entry(answer: str, count: int, meaning: str) -> str:

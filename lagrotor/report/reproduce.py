@@ -1,37 +1,38 @@
-"""The main job: judge every equation, draw every figure, write the report, and only then replace the last one."""
+"""The main job: judge every equation, test every claim, draw every figure, write the report, and only then replace the last one.
+
+The steps do not depend on each other's order: they run in as many processes as there are cores, and what each gave in the last
+run is taken where nothing that it is made from has changed. The report is the same bytes whatever the number of processes.
+"""
 
 import json
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import asdict, dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from lagrotor.files import write_text
-from lagrotor.paper import audit, claim_tests, scripts, tables
-from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.ledger import Verdict
-from lagrotor.paper.notebook import findings
+from lagrotor.paper import audit, claim_tests
+from lagrotor.paper.audit import with_reach
 from lagrotor.paper.record import OnRecord, changes, recorded
 from lagrotor.paper.scripts import beside
-from lagrotor.pictures import figures
-from lagrotor.pictures.figures import Picture
-from lagrotor.report import reuse
+from lagrotor.paper.claim_tests import Result
+from lagrotor.report import reach
 from lagrotor.report.api import api_page
 from lagrotor.report.content import Report
 from lagrotor.report.errata import latex_document
 from lagrotor.report.folder import TIMES, check_target, replaced
 from lagrotor.report.formulas.mathml_latex import converter
-from lagrotor.report.interactive.interactive import interactive
+from lagrotor.report.kept import Kept
 from lagrotor.report.markdown import errata_blocks, markdown
 from lagrotor.report.page import page
-from lagrotor.report.reuse import Kept, digest
+from lagrotor.report.processes import cores, results
+from lagrotor.report.reach import digest
+from lagrotor.report.steps import Derived, Step, steps
 from lagrotor.report.supplement import supplement
 
-# Derivations that state no equation: tables, benchmarks, theory past the paper, the table of it.
-_BESIDES = "mbtp"
 Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 
@@ -39,7 +40,7 @@ Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 class Outcome:
     """What a run found, in numbers: verdict → how many, claims likewise; a sentence for each change; what was taken.
 
-    taken: names of the parts that are those of the last run; ["report"] when all of it is.
+    taken: names of the steps whose product is that of the last run; ["report"] when all of it is.
     """
 
     equations: dict[str, int]
@@ -51,31 +52,25 @@ class Outcome:
     seconds: float
 
 
-def reproduce(target: Path, progress: Progress) -> Outcome:
+def reproduce(target: Path, progress: Progress, jobs: int | None = None) -> Outcome:
     """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
 
-    `progress(total)` gives the function that is told what begins. Raises InputError when `target` cannot be written or
-    is no report. Until all is done the old report stays.
+    jobs: how many processes; None: as many as there are cores, one in a debugger. `progress(total)` gives the function that
+    is called with the name of each step as it begins. Raises InputError when `target` cannot be written, is no report, or is
+    being written by another run. Until all is done the old report stays.
     """
     began, on_record, old = time.perf_counter(), recorded(), check_target(target)
-    made_from = json.dumps([reuse.inputs(), {i: row.verdict for i, row in on_record.items()}, converter()])
-    whole = digest(reuse.foundation(), made_from, beside("CITATION.cff").read_bytes())
+    made_from = json.dumps([reach.inputs(), {i: row.verdict for i, row in on_record.items()}, converter()])
+    whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
         return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
     with replaced(target) as new:
-        kept, marks = Kept(old, new), list[tuple[str, float]]()
+        kept = Kept(old, new)
         (new / "figures").mkdir()
-        with progress(_steps(kept)) as told:
-
-            def step(name: str) -> None:
-                marks.append((name, time.perf_counter()))
-                told(name)
-
-            report = _find(kept, on_record, step)
-            step("interactive model")
-            interactive()
-            step("report")
-            _write(new, report)
+        products, seconds = _make(kept, list(steps()), progress, jobs or cores())
+        report = _report(products, new / "figures", on_record)
+        start = time.perf_counter()
+        _write(new, report)
         found = {
             "equations": report.counts,
             "waiting": len(report.waiting),
@@ -85,74 +80,79 @@ def reproduce(target: Path, progress: Progress) -> Outcome:
         }
         kept.keep("report", whole, found, (path for path in new.rglob("*") if path.is_file()))
         kept.write()
-        ends = pairwise([*marks, ("", time.perf_counter())])
-        seconds = {name: round(end - start, 3) for (name, start), (_, end) in ends}
+        seconds["report"] = round(time.perf_counter() - start, 3)
         _write_json(new / TIMES, {"seconds": seconds, "taken from the last run": kept.taken})
     return Outcome(**found, taken=kept.taken, seconds=time.perf_counter() - began)
 
 
-def _steps(kept: Kept) -> int:
-    """How many times `step` will be called."""
-    claims = sum(kept.last(f"claim {i}", reuse.foundation()) is None for i in claim_tests.claim_tests())
-    drawn = sum(kept.last(f"figure {key}", _figure_from(stem)) is None for key, stem in figures.stems().items())
-    return sum(len(scripts.names("derivations", prefix)) for prefix in f"s{_BESIDES}") + claims + drawn + 2
+def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tuple[dict[str, Any], dict[str, float]]:
+    """Every step's product by name, in the order of the steps, and how long each that was made took, in s."""
+    products = {step.name: kept.take(step.name, step.made_from) for step in wanted}
+    left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(kept.old))
+    seconds: dict[str, float] = {}
+    with progress(len(left) + 1) as begins:
+        for step, (product, took) in results(left, partial(_timed, folder=kept.new / "figures"), jobs, _named(begins)):
+            products[step.name], seconds[step.name] = product, round(took, 3)
+            stem = getattr(product, "stem", "")
+            files = [f for f in (kept.new / "figures").glob(f"{stem}.*") if stem and step.name.startswith("figure")]
+            kept.keep(step.name, step.made_from, product, files)
+        begins("report")
+    return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}
 
 
-def _find(kept: Kept, on_record: dict[str, OnRecord], step: Callable[[str], None]) -> Report:
-    """Everything that the report tells."""
-    verdicts = audit.audit(progress=lambda stem: step(f"derivation {stem}"))
-    results = _claims(kept, step)
-    for prefix in _BESIDES:
-        for stem in scripts.names("derivations", prefix):
-            step(f"derivation {stem}")
-            scripts.run("derivations", stem)
+def _named(begins: Callable[[str], None]) -> Callable[[Step], None]:
+    return lambda step: begins(step.name)
+
+
+def _timed(step: Step, folder: Path) -> tuple[Any, float]:
+    began = time.perf_counter()
+    product = step.run(*step.args, folder=folder)
+    return product, time.perf_counter() - began
+
+
+def _longest_first(old: Path) -> Callable[[Step], float]:
+    """The steps in falling order of what they took last; figures and claims before the rest where nothing is known."""
+    try:
+        took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
+    except (OSError, ValueError, KeyError, TypeError):
+        took = {}
+    return lambda step: -float(took.get(step.name, 1.0))
+
+
+def _report(products: dict[str, Any], folder: Path, on_record: dict[str, OnRecord]) -> Report:
+    """Everything that the report says; its pictures lie in `folder`."""
+    derived = [product for product in products.values() if isinstance(product, Derived)]
+    verdicts = with_reach(verdict for each in derived for verdict in each.verdicts)
+    tested = _tested(products)
+    answers = {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in tested}
+
+    pictures = [product for name, product in products.items() if name.startswith("figure ")]
+
+    def of(letters: str, what: str) -> tuple[Any, ...]:
+        return tuple(part for each in derived if each.stem.startswith(letters) for part in getattr(each, what))
+
     return Report(
         verdicts=tuple(verdicts),
-        pictures=tuple(_draw(kept, step)),
-        changes=tuple(changes(outcomes(verdicts, results), on_record)),
-        claims=tuple(results),
-        findings=tuple(findings("s")),
-        tables=tuple(tables.tables("m1")),
-        past=tuple(tables.tables("p")),
-        theory=tuple(findings("t")),
-        speed=tuple(tables.tables("b")),
-        stability=tuple(tables.tables("m3")),
-        versions=tuple(reuse.versions().items()),
-        inputs=tuple(reuse.inputs().items()),
+        pictures=tuple(replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in pictures),
+        changes=tuple(changes(answers, on_record)),
+        claims=tuple(tested),
+        findings=of("s", "remarks"),
+        tables=of("m1", "tables"),
+        past=of("p", "tables"),
+        theory=of("t", "remarks"),
+        speed=of("b", "tables"),
+        stability=of("m3", "tables"),
+        derivations=tuple((each.stem, each.title, each.html) for each in derived),
+        model=products["interactive model"],
+        versions=tuple(reach.versions().items()),
+        inputs=tuple(reach.inputs().items()),
     )
 
 
-def _claims(kept: Kept, step: Callable[[str], None]) -> list[Result]:
-    """Every claim, its measured numbers those of the last run where they can be taken; they are decided anew."""
-    results = []
-    for identifier, test in claim_tests.claim_tests().items():
-        name = f"claim {identifier}"
-        measured = kept.take(name, reuse.foundation())
-        if measured is None:
-            step(name)
-            results.append(test.result)
-            kept.keep(name, reuse.foundation(), dict(results[-1].measured))
-        else:
-            results.append(Result(test, measured, test.decide(measured), 0.0))
-    return results
-
-
-def _figure_from(stem: str) -> str:
-    return digest(reuse.foundation(), (scripts.folder("figures") / f"{stem}.py").read_bytes())
-
-
-def _draw(kept: Kept, step: Callable[[str], None]) -> Iterator[Picture]:
-    """Every figure, the last run's where it can be taken."""
-    folder = kept.new / "figures"
-    for key, stem in figures.stems().items():
-        name = f"figure {key}"
-        told = kept.take(name, _figure_from(stem))
-        if told is None:
-            step(name)
-            picture = figures.draw(key, folder)
-            told = {field: value for field, value in asdict(picture).items() if field not in ("svg", "png")}
-            kept.keep(name, _figure_from(stem), told, (picture.svg, picture.png))
-        yield Picture(**told, svg=folder / f"{stem}.svg", png=folder / f"{stem}.png")
+def _tested(products: dict[str, Any]) -> list[Result]:
+    """Every claim with its measured numbers, decided anew."""
+    tests = claim_tests.claim_tests()
+    return [Result(test, products[f"claim {i}"], test.decide(products[f"claim {i}"]), 0.0) for i, test in tests.items()]
 
 
 def _write(folder: Path, report: Report) -> None:
@@ -174,8 +174,3 @@ def _timeless(record: dict[str, Any]) -> dict[str, Any]:
 
 def _write_json(file: Path, found: Any) -> None:
     write_text(file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
-
-
-def outcomes(verdicts: Iterable[Verdict] = (), results: Iterable[Result] = ()) -> dict[str, str]:
-    """Id → verdict or outcome, in the form that is recorded."""
-    return {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in results}

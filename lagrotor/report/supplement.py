@@ -180,6 +180,9 @@ _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "verdicts": _verdicts,
     "errata": lambda report: [latex_block(e) for e in errata(report.verdicts)],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
+    "derivations": lambda report: [
+        table(("Derivation", "Script"), [(prose(name), prose(f"{stem}.py")) for stem, name, _ in report.derivations])
+    ],
     "findings": lambda report: _shown((), report.findings, (), report),
     "figures": lambda report: _shown((), (), report.pictures_of(""), report),
     "tables": lambda report: _shown(report.tables, (), (), report),

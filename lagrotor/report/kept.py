@@ -1,0 +1,124 @@
+"""Products of the last run, taken again where nothing that they were made from has changed.
+
+A product (what a derivation states, a claim's numbers, a figure) is kept in the report's folder as a pickle, with a digest of
+all that it was made from and the digests of its files. It is taken only if all of these still agree; whatever is missing,
+damaged or out of date is made anew.
+"""
+
+import io
+import json
+import pickle
+import shutil
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lagrotor.files import write_beside, write_text
+from lagrotor.report.folder import MADE, PRODUCTS
+from lagrotor.report.reach import digest
+
+# What a product may be made of: a pickle that names anything else is not read.
+_TRUSTED = (
+    "sympy.",
+    "lagrotor.",
+    "numpy.",
+    "pathlib",
+    "collections",
+    "builtins",
+    "copyreg",
+    "fractions",
+    "mpmath.",
+    "_codecs",
+)
+_BUILTINS = {
+    "dict",
+    "list",
+    "tuple",
+    "set",
+    "frozenset",
+    "int",
+    "float",
+    "complex",
+    "str",
+    "bytes",
+    "bool",
+    "slice",
+    "object",
+}
+
+
+class _Reader(pickle.Unpickler):
+    """Reads products, and refuses a pickle that would call anything else."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        if not f"{module}.".startswith(_TRUSTED) or (module == "builtins" and name not in _BUILTINS):
+            raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
+        return super().find_class(module, name)
+
+
+@dataclass
+class Kept:
+    """Products of the last report in the folder `old`, and those of the one that is made in the folder `new`."""
+
+    old: Path
+    new: Path
+    taken: list[str] = field(default_factory=list)
+    _parts: dict[str, Any] = field(default_factory=dict)
+    _last: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        with suppress(OSError, ValueError, TypeError):  # no last report, or a damaged one: everything is made anew
+            self._last = dict(json.loads((self.old / MADE).read_text(encoding="utf-8")))
+
+    def last(self, name: str, made_from: str) -> Any:
+        """A product of the last report; None unless it was made from the same and is undamaged."""
+        try:
+            part = self._last[name]
+            whole = part["seal"] == _seal(made_from, part["files"])
+            whole = whole and all(
+                digest((self.old / file).read_bytes()) == seen for file, seen in part["files"].items()
+            )
+            return _Reader(io.BytesIO((self.old / _file_of(name)).read_bytes())).load() if whole else None
+        except (
+            OSError,
+            TypeError,
+            KeyError,
+            AttributeError,
+            pickle.UnpicklingError,
+            EOFError,
+            ImportError,
+            IndexError,
+        ):
+            return None
+
+    def take(self, name: str, made_from: str) -> Any:
+        """The same, and its files copied into the new report."""
+        value = self.last(name, made_from)
+        if value is not None:
+            part = self._parts[name] = self._last[name]
+            for file in part["files"]:
+                (self.new / file).parent.mkdir(exist_ok=True)
+                shutil.copyfile(self.old / file, self.new / file)
+            self.taken.append(name)
+        return value
+
+    def keep(self, name: str, made_from: str, value: Any, files: Iterable[Path] = ()) -> None:
+        """Keep a product of the new report for the next run, with its files in the folder `new`."""
+        (self.new / PRODUCTS).mkdir(exist_ok=True)
+        own = write_beside(self.new / _file_of(name), lambda file: pickle.dump(value, file, protocol=5))
+        seen = {path.relative_to(self.new).as_posix(): digest(path.read_bytes()) for path in sorted({own, *files})}
+        self._parts[name] = {"seal": _seal(made_from, seen), "files": seen}
+
+    def write(self) -> None:
+        """Write what the next run will read."""
+        write_text(self.new / MADE, json.dumps(dict(sorted(self._parts.items())), indent=1, ensure_ascii=False) + "\n")
+
+
+def _file_of(name: str) -> str:
+    return f"{PRODUCTS}/{name.replace(' ', '-')}.pickle"
+
+
+def _seal(made_from: str, files: dict[str, str]) -> str:
+    return digest(made_from, json.dumps(files, sort_keys=True))

@@ -1,0 +1,62 @@
+"""Steps in several processes: results in the order in which they end, nothing left behind when the run is stopped."""
+
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+Task = TypeVar("Task")
+# Loaded once, before the processes part.
+_HEAVY = ["lagrotor.report.steps", "matplotlib.figure", "scipy.integrate"]
+
+
+def cores() -> int:
+    """Processors that this process may use; one where a debugger is attached."""
+    if sys.gettrace() is not None or "pydevd" in sys.modules:
+        return 1
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def results(
+    tasks: Iterable[Task], run: Callable[[Task], Any], jobs: int, begins: Callable[[Task], None]
+) -> Iterator[tuple[Task, Any]]:
+    """(task, what it gives) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process."""
+    if jobs == 1:
+        for task in tasks:
+            begins(task)
+            yield task, run(task)
+        return
+    left, running = list(tasks), dict[Future[Any], Task]()
+    with _pool(jobs) as pool:
+        while left or running:
+            while left and len(running) < jobs:
+                task = left.pop(0)
+                begins(task)
+                running[pool.submit(run, task)] = task
+            done, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield running.pop(future), future.result()
+
+
+@contextmanager
+def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes that leave interrupts to their parent, and that end with it."""
+    methods = multiprocessing.get_all_start_methods()
+    context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
+    if hasattr(context, "set_forkserver_preload"):
+        context.set_forkserver_preload(_HEAVY)
+    pool = ProcessPoolExecutor(
+        jobs, mp_context=context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)
+    )
+    try:
+        yield pool
+    except BaseException:
+        for process in list(getattr(pool, "_processes", {}).values()):
+            process.terminate()
+        pool.shutdown(wait=True, cancel_futures=True)
+        raise
+    pool.shutdown()

@@ -1,0 +1,129 @@
+"""What a script is made from: its own text, every module of the package that it reaches, the data beside them, other scripts.
+
+The digest of all this, with the versions of the tools, is what a product of the last run must agree with to be taken again.
+"""
+
+import ast
+import hashlib
+import platform
+from collections.abc import Iterable
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+from lagrotor.about import __version__
+from lagrotor.paper import scripts
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+_TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
+# What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
+_NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff"}
+_NO_DATA = {"recorded.json"}
+
+
+def digest(*parts: bytes | str) -> str:
+    """SHA-256 of some parts, each with its length, so that no two lists of parts are read as one."""
+    seen = hashlib.sha256()
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else part
+        seen.update(len(data).to_bytes(8, "big") + data)
+    return seen.hexdigest()
+
+
+@cache
+def versions() -> dict[str, str]:
+    """What a run is made with."""
+    return {"Python": platform.python_version(), "lagrotor": __version__} | {name: version(name) for name in _TOOLS}
+
+
+@cache
+def _tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def _later() -> dict[str, str]:
+    """Public name of the package → the module that its face hands it on from."""
+    found: dict[str, str] = {}
+    for node in ast.walk(_tree(_PACKAGE / "__init__.py")):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {alias.asname or alias.name: node.module for alias in node.names}
+    return found
+
+
+@cache
+def imports(path: Path) -> frozenset[Path]:
+    """The files of the package that one file imports, wherever in it."""
+    names: set[str] = set()
+    for node in ast.walk(_tree(path)):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module == "lagrotor":
+            names |= {_later().get(alias.name, f"lagrotor.{alias.name}") for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return frozenset(file for name in names if (file := _file_of(name)))
+
+
+def _file_of(module: str) -> Path | None:
+    first, *rest = module.split(".")
+    if first != "lagrotor" or not rest:
+        return None
+    base = _PACKAGE.joinpath(*rest)
+    return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
+
+
+@cache
+def _named_scripts(path: Path) -> frozenset[Path]:
+    """Derivations that a script names: it may run them."""
+    known = {stem: scripts.folder("derivations") / f"{stem}.py" for stem in scripts.names("derivations")}
+    texts = (n.value for n in ast.walk(_tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str))
+    return frozenset(known[text] for text in texts if text in known) - {path}
+
+
+@cache
+def reached(path: Path) -> tuple[Path, ...]:
+    """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each module."""
+    found, left = {path}, [path]
+    while left:
+        current = left.pop()
+        new = (imports(current) | _named_scripts(current)) - found
+        found |= new
+        left += new
+    folders = {file.parent for file in found if _PACKAGE in file.parents and file.parent != _PACKAGE}
+    beside = {f for folder in folders for f in folder.iterdir() if f.is_file() and f.suffix not in _NO_SOURCE}
+    return tuple(sorted(found | {file for file in beside if file.name not in _NO_DATA}))
+
+
+@cache
+def _file_digest(path: Path) -> str:
+    return digest(path.read_bytes())
+
+
+def made_from(path: Path) -> str:
+    """Digest of all that a script's product is made from."""
+    files = (part for file in reached(path) for part in (_place(file), _file_digest(file)))
+    return digest(*files, *map(str, versions().items()), platform.machine(), platform.system())
+
+
+def digest_of(files: Iterable[Path]) -> str:
+    """Digest of some files, by their places and their bytes."""
+    return digest(*(part for file in sorted(files) for part in (_place(file), _file_digest(file))))
+
+
+def _place(file: Path) -> str:
+    """A file's place, the same in a checkout and in an installed package."""
+    for kind in ("derivations", "figures"):
+        if file.parent == scripts.folder(kind):
+            return f"{kind}/{file.name}"
+    return file.relative_to(_PACKAGE).as_posix() if _PACKAGE in file.parents else file.name
+
+
+def inputs() -> dict[str, str]:
+    """What a whole run is made from: name → SHA-256."""
+    package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
+    package -= {f for f in package if f.suffix in _NO_SOURCE - {".py"} or f.name in _NO_DATA}
+    package -= {f for kind in ("derivations", "figures") for f in (_PACKAGE / kind).rglob("*")}
+    toml = {f for f in package if f.suffix == ".toml"}
+    found = {"catalogue of equations, claims, figures": digest_of(toml), "package": digest_of(package - toml)}
+    return found | {kind: digest_of(scripts.folder(kind).glob("*.py")) for kind in ("derivations", "figures")}
