@@ -16,9 +16,9 @@ from typing import Any
 from lagrotor.files import write_text
 from lagrotor.paper import audit, claim_tests
 from lagrotor.paper.audit import with_reach
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.record import OnRecord, changes, recorded
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.claim_tests import Result
 from lagrotor.report import reach
 from lagrotor.report.api import api_page
 from lagrotor.report.content import Report
