@@ -11,7 +11,7 @@ from lagrotor.paper.ledger import Statement
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, Step
 from lagrotor.paper.tables import Table
-from lagrotor.report.content import anchor
+from lagrotor.report.content import Report, anchor
 from lagrotor.report.page_pieces import badge, link, prose, rows, typeset
 
 
@@ -76,7 +76,8 @@ def _cell(cell: Any) -> str:
     return typeset(Formula(cell).tex) if isinstance(cell, sp.Basic) else prose(str(getattr(cell, "key", cell)))
 
 
-def reached_in(identifier: str) -> str:
-    """A link to where an equation is derived on the page."""
+def reached_in(identifier: str, report: Report) -> str:
+    """A link to where an equation is derived on the page; nothing where its derivation is not in the report."""
     stem = scripts.stating().get(identifier)
-    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if stem else ""
+    there = any(stem == shown for shown, _, _ in report.derivations)
+    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if there else ""

@@ -42,7 +42,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, 'As derived', derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{reached_in(verdict.id)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{reached_in(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
 
 

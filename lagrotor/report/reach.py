@@ -102,13 +102,15 @@ def _file_digest(path: Path) -> str:
 
 def made_from(path: Path) -> str:
     """Digest of all that a script's product is made from."""
-    files = (part for file in reached(path) for part in (_place(file), _file_digest(file)))
-    return digest(*files, *map(str, versions().items()), platform.machine(), platform.system())
+    files = sorted((_place(file), _file_digest(file)) for file in reached(path))
+    return digest(
+        *(part for file in files for part in file), *map(str, versions().items()), platform.machine(), platform.system()
+    )
 
 
 def digest_of(files: Iterable[Path]) -> str:
     """Digest of some files, by their places and their bytes."""
-    return digest(*(part for file in sorted(files) for part in (_place(file), _file_digest(file))))
+    return digest(*(part for file in sorted((_place(f), _file_digest(f)) for f in files) for part in file))
 
 
 def _place(file: Path) -> str:

@@ -143,7 +143,7 @@ def _report(products: dict[str, Any], folder: Path, on_record: dict[str, OnRecor
         speed=of("b", "tables"),
         stability=of("m3", "tables"),
         derivations=tuple((each.stem, each.title, each.html) for each in derived),
-        model=products["interactive model"],
+        model=products["model"],
         versions=tuple(reach.versions().items()),
         inputs=tuple(reach.inputs().items()),
     )

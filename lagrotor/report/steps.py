@@ -76,4 +76,4 @@ def steps() -> Iterator[Step]:
         yield Step(f"claim {identifier}", measure, (identifier,), Path(test.measure.__code__.co_filename))
     for key, stem in figures.stems().items():
         yield Step(f"figure {key}", draw, (key,), scripts.folder("figures") / f"{stem}.py")
-    yield Step("interactive model", model, (), Path(interactive_module.__file__))
+    yield Step("model", model, (), Path(interactive_module.__file__))

@@ -2,30 +2,33 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-import sympy as sp
 
 import lagrotor
 from lagrotor.benchmark import scenes_and_methods as chart_module
 from lagrotor.benchmark.runner import Chart, Point
-from lagrotor.commands import paper_commands, terminal
+from lagrotor.commands import terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.symbols import M, R
 from lagrotor.paper import audit, claim_tests, scripts
-from lagrotor.paper.catalogue import claims
-from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper import record as paper_record
+from lagrotor.paper.ledger import Relation, Statement, judge
 from lagrotor.pictures import figures
-from lagrotor.report import folder, page, reproduce, reuse
+from lagrotor.report import folder, reproduce
 from lagrotor.report.formulas import mathml_latex
+from lagrotor.report.interactive import interactive
 
 ROOT = Path(lagrotor.__file__).parent.parent
+SINGLE_ROTOR = ("5.01", "5.02", "5.03", "5.04", "5.05", "5.06")
 SCENE = ["simulate", "--spins", "10", "-10"]
 PULSE = ["--shock", "40", "-11", "0", "--shock-time", "2", "--shock-width", "0.05"]
 FIGURE = """
@@ -50,20 +53,19 @@ def small_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     real = scripts.folder
     monkeypatch.setattr(scripts, "folder", lambda name: drawn if name == "figures" else real(name))
     names = scripts.names
-    only = {"s": ["s5_2a_single_rotor"]}
+    only = {prefix: ["s5_2a_single_rotor"] for prefix in ("", "s")}
     monkeypatch.setattr(
         scripts, "names", lambda kind, prefix="": only.get(prefix, []) if kind == "derivations" else names(kind, prefix)
     )
-    monkeypatch.setattr(reproduce, "RECORDED", tmp_path / "recorded.json")
-    for module in (page, reproduce):
-        monkeypatch.setattr(module, "interactive", lambda: '<section id="model"><h2>The model</h2></section>')
-    reuse.inputs.cache_clear()
+    monkeypatch.setattr(paper_record, "RECORDED", tmp_path / "recorded.json")
+    monkeypatch.setattr(interactive, "interactive", lambda: '<section id="model"><h2>The model</h2></section>')
+    monkeypatch.setattr(scripts, "stating", lambda: dict.fromkeys(SINGLE_ROTOR, "s5_2a_single_rotor"))
     monkeypatch.chdir(work)
     return work
 
 
 def record(verdicts: dict[str, str]) -> None:
-    reproduce.RECORDED.write_text(json.dumps(verdicts), encoding="utf-8")
+    paper_record.RECORDED.write_text(json.dumps(verdicts), encoding="utf-8")
 
 
 def found() -> dict[str, str]:
@@ -158,10 +160,10 @@ def test_read_only_folder_is_refused(
 
 def test_folder_that_is_no_report_is_not_replaced(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (small_paper / "thesis.tex").write_text("years of work")
-    assert main(["reproduce", "--out", "."]) == 2
+    assert main(["reproduce", "--jobs", "1", "--out", "."]) == 2
     assert "holds thesis.tex, which is no part of a report" in capsys.readouterr().err
     assert (small_paper / "thesis.tex").read_text() == "years of work"
-    assert main(["reproduce", "--out", "thesis.tex"]) == 2
+    assert main(["reproduce", "--jobs", "1", "--out", "thesis.tex"]) == 2
 
 
 def run(*argv: str) -> subprocess.CompletedProcess[str]:
@@ -284,22 +286,6 @@ def test_pair_without_a_bar(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*SCENE, *tilted, "--t-end", "1"]) == 2
 
 
-def test_what_is_right_stands_under_what_is_not(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    right = Statement("5.20", chain(M, R), correction=chain(M, M))
-    assert paper_commands.in_a_line(right) == "M"
-    series = Statement("5.20", chain(M, R), correction=chain(M, M, small=R, claimed=2))
-    assert paper_commands.in_a_line(series) == "M + O(R**3)"
-    long = Statement("5.20", chain(M, R), correction=chain(M, sum(sp.symbols("x1:60"))))
-    assert paper_commands.in_a_line(long).startswith("see the errata sheet")
-    monkeypatch.setattr(audit, "audit", lambda step: [judge(series), judge(Statement("5.21", chain(M, M)))])
-    assert main(["audit"]) == 0
-    head, refuted, corrected, holds = capsys.readouterr().out.splitlines()
-    assert refuted.startswith("5.20  refuted") and corrected.strip() == "right: M + O(R**3)"
-    assert holds.startswith("5.21  holds"), head
-
-
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 def test_letters_that_a_pipe_lacks_are_no_traceback(encoding: str) -> None:
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding}
@@ -322,15 +308,41 @@ def test_a_claim_is_told_with_its_outcome(monkeypatch: pytest.MonkeyPatch, capsy
 
 def test_audit_table_and_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["audit"]) == 0
-    assert "holds if" in capsys.readouterr().out
-    assert main(["audit", "5.02", "5.06", "--json"]) == 0
-    listed = json.loads(capsys.readouterr().out)
-    assert [entry["id"] for entry in listed] == ["5.02", "5.06"]
-    keys = (
-        "id, section, title, printed, derived, verdict, condition, order, small, domain, correction, "
-        "correction_verdict, depends_on, reaches_result, evidence, seconds"
-    )
-    assert ", ".join(listed[0]) == keys
+    head, *lines = capsys.readouterr().out.splitlines()
+    assert [line[:4] for line in lines] == list(SINGLE_ROTOR), head
+    assert "holds if" in lines[0] and "the transverse inertia about the ground joint" in lines[0]
+    assert main(["audit", "5.02", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)
+    assert (row["id"], row["verdict"], row["domain"]) == ("5.02", "holds-if", [r"\sin{\left(\theta \right)} \neq 0"])
+    assert row["premises"][0].startswith("I₁ is read as")
+
+
+def test_one_equation_is_put_into_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["audit", "5.02"]) == 0
+    out = capsys.readouterr().out
+    parts = ("5.02  precession rate", "printed    φ̇ = ", "if         I₁ is read", "domain     sin(θ) ≠ 0")
+    assert all(part in out for part in (*parts, "derivations/s5_2a"))
+
+
+def test_what_is_wrong_and_right_is_said(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    line = Relation(M, M + R, quantity=r"\dot\phi")
+    wrong = Statement("5.02", (Relation(M, R, quantity=r"\dot\phi"),), correction=(line,), wrong="It is another.")
+    right = replace(wrong, correction=(replace(line, printed=R + M),))
+    assert judge(wrong).correction_verdict == "refuted"
+    monkeypatch.setattr(audit, "statements", lambda stem: [right])
+    assert main(["audit", "5.02"]) == 0
+    out = capsys.readouterr().out
+    assert "refuted" in out
+    assert "wrong      It is another." in out
+    assert "right      φ̇ = M + R" in out
+    assert "correction holds" in out
+
+
+def test_near_misses_are_named(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["audit", "5.1"]) == 2
+    assert "'5.1' is not in the catalogue: 5.01 or 5.10?" in capsys.readouterr().err
+    assert main(["claims", "8"]) == 2
+    assert "C08?" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -348,7 +360,7 @@ def test_status_tells_whether_verdicts_are_as_recorded(
 ) -> None:
     record(change(found()))
     assert main(["audit", "--json"]) == status
-    assert main(["reproduce"]) == status
+    assert main(["reproduce", "--jobs", "1"]) == status
     out, err = capsys.readouterr()
     assert err.count("lagrotor: changed: 5.") == 2 * status
     assert "5.01" in out
@@ -361,7 +373,7 @@ def test_only_the_asked_equations_are_compared() -> None:
 
 
 def test_broken_record_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    reproduce.RECORDED.write_text("{", encoding="utf-8")
+    paper_record.RECORDED.write_text("{", encoding="utf-8")
     assert main(["audit"]) == 2
     assert "restore it" in capsys.readouterr().err
 
@@ -397,10 +409,12 @@ def test_figure_past_the_paper(small_paper: Path, capsys: pytest.CaptureFixture[
 
 
 def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     report = small_paper / "report"
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
-    assert kept == folder.CONTENTS - {"figures"} | {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
+    kept = {name for name in kept if not name.startswith(folder.PRODUCTS)}
+    drawn = {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
+    assert kept == folder.CONTENTS - {"figures", folder.PRODUCTS} | drawn
     assert {entry["id"] for entry in json.loads((report / "verdicts.json").read_text())} == set(found())
     assert json.loads((report / "measured.json").read_text()) == {"fig17_stub": {"slope": 1.0}}
     assert "no verdicts are on record" in capsys.readouterr().err
@@ -410,7 +424,7 @@ def test_report_is_complete(small_paper: Path, capsys: pytest.CaptureFixture[str
 def test_interrupted_report_leaves_the_last_good_one(
     stop: type[BaseException], small_paper: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     last = small_paper / "report" / "index.html"
     good = last.read_text()
     (small_paper / "report" / "figures" / "fig17_stub.svg").unlink()  # so that there is something to do
@@ -421,48 +435,48 @@ def test_interrupted_report_leaves_the_last_good_one(
 
     monkeypatch.setattr(figures, "draw", interrupted)
     if stop is KeyboardInterrupt:
-        assert main(["reproduce"]) == 130
-        assert capsys.readouterr().err == "lagrotor: interrupted\n"
+        assert main(["reproduce", "--jobs", "1"]) == 130
+        assert capsys.readouterr().err.splitlines()[-1] == "lagrotor: interrupted"
     else:
         with pytest.raises(stop):
-            main(["reproduce"])
+            main(["reproduce", "--jobs", "1"])
     assert last.read_text() == good
     assert [path.name for path in small_paper.iterdir()] == ["report"]
 
 
 def test_report_of_an_older_version_may_be_replaced(small_paper: Path) -> None:
     """It holds fewer files; but only what is a report."""
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     (small_paper / "report" / "report.tex").unlink()
     (small_paper / "report" / folder.MADE).unlink()
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert (small_paper / "report" / "report.tex").exists()
     (small_paper / "report" / "verdicts.json").unlink()
-    assert main(["reproduce"]) == 2
+    assert main(["reproduce", "--jobs", "1"]) == 2
 
 
 def test_second_run_says_what_it_takes(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert "taken" not in capsys.readouterr().out
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert "all taken from the last run (same inputs)" in capsys.readouterr().out
     (small_paper / "report" / "index.html").write_text("edited")
-    assert main(["reproduce"]) == 0
-    assert "\n1 figure taken from the last run (same inputs)\n" in capsys.readouterr().out
+    assert main(["reproduce", "--jobs", "1"]) == 0
+    assert "\n1 derivation, 1 figure, 1 model taken from the last run (same inputs)\n" in capsys.readouterr().out
 
 
 def test_what_latex_leaves_is_no_obstacle(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     report = small_paper / "report"
     for name in ("report.pdf", "report.aux", "errata.log", "report.synctex.gz"):
         (report / name).touch()
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert (report / "report.pdf").exists(), "nothing had changed"
     (report / "index.html").write_text("edited")
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert {path.name for path in report.iterdir()} == folder.CONTENTS, "the PDF was of the last report"
     (report / "thesis.pdf").touch()
-    assert main(["reproduce"]) == 2
+    assert main(["reproduce", "--jobs", "1"]) == 2
     assert "holds thesis.pdf, which" in capsys.readouterr().err
 
 
@@ -470,11 +484,11 @@ def test_report_without_the_converter_says_so(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(mathml_latex, "converter", lambda: "1.0")
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     assert "pip install" not in capsys.readouterr().out
     monkeypatch.setattr(mathml_latex, "converter", lambda: "")
     monkeypatch.setattr(reproduce, "converter", lambda: "")
-    assert main(["reproduce"]) == 0
+    assert main(["reproduce", "--jobs", "1"]) == 0
     out = capsys.readouterr().out
     assert out.splitlines()[-1].endswith("pip install 'lagrotor[report]'")
     assert "all taken" not in out, "another page"
@@ -528,24 +542,58 @@ def test_killed_swap_is_mended_by_the_next_run(small_paper: Path) -> None:
     assert [path.name for path in small_paper.iterdir()] == ["report"]
 
 
-def test_progress_is_shown_in_a_terminal_only(
+def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     record(found())
-    assert main(["reproduce"]) == 0
-    assert not capsys.readouterr().err
+    assert main(["reproduce", "--jobs", "1"]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert [re.sub(r" +\d+ s  ", " ", line) for line in lines] == [
+        "[1/4] derivation s5_2a_single_rotor",
+        "[2/4] figure 17",
+        "[3/4] model",
+        "[4/4] report",
+    ]
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert main(["reproduce", "--out", "another"]) == 0
-    steps = capsys.readouterr().err.splitlines()
-    names = (
-        "[1/4] derivation s5_2a_single_rotor …",
-        "[2/4] figure 17 …",
-        "[3/4] interactive model …",
-        "[4/4] report …",
-    )
-    assert [line.rsplit(" ", 2)[0] for line in steps] == list(names)
-    assert main(["reproduce", "--out", "another"]) == 0
+    assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
+    shown = capsys.readouterr().err
+    assert shown.count("\n") == 0
+    assert shown.count("\r[") == 4
+    assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     assert not capsys.readouterr().err, "nothing to do"
+
+
+def test_a_second_run_into_the_same_folder_is_refused(small_paper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with folder.replaced(small_paper / "report") as made:
+        assert main(["reproduce", "--jobs", "1"]) == 2
+        assert "is being written by another run" in capsys.readouterr().err
+        for name in ("index.html", "verdicts.json"):
+            (made / name).write_text("mine")
+    assert (small_paper / "report" / "index.html").read_text() == "mine"
+    assert [path.name for path in small_paper.iterdir()] == ["report"], "the lock is gone"
+    (small_paper / ".report.lock").write_text("999999999")  # of a run that was killed
+    with folder.replaced(small_paper / "report"):
+        pass
+
+
+def test_a_terminated_run_leaves_nothing_behind(small_paper: Path) -> None:
+    program = (
+        "import sys, time\nfrom pathlib import Path\nfrom lagrotor.commands.command_line import main\n"
+        "from lagrotor.report import reproduce\n"
+        "def wait(*a, **k):\n    print('running', flush=True)\n    time.sleep(60)\n"
+        "reproduce._make = wait\nsys.exit(main(['reproduce', '--jobs', '1']))"
+    )
+    running = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert running.stdout
+    assert running.stdout.readline() == "running\n"
+    running.terminate()
+    _, err = running.communicate()
+    assert running.returncode == 143
+    assert err == "lagrotor: terminated\n"
+    assert not list(small_paper.iterdir())
 
 
 def test_table_wraps_at_the_edge_of_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:

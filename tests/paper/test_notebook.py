@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
-from lagrotor.pair.symbols import PAIR, ell
 from lagrotor.paper import notebook as shown
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.ledger import Statement, chain, judge
@@ -18,14 +17,6 @@ WRONG = Statement("5.02", chain(x, -x), wrong="The sign is <b>lost</b>.", correc
 def claim_test(explanation: str) -> ClaimTest:
     finding = Finding((Part("both <i>precess</i>", True), Part("alike", False, "1 < 2")), explanation)
     return ClaimTest("C01", (1, 1), {}, "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
-
-
-def test_rates_have_dots() -> None:
-    v, acceleration = PAIR.v[0], PAIR.a[0]
-    latex = shown.Formula(sp.Matrix([v * ell, acceleration, PAIR.q[0]]))._repr_latex_()
-    assert all(part in latex for part in (r"\dot{\theta_{1}}", r"\ddot{\theta_{1}}", r"\ell"))
-    assert "dot}" not in latex
-    assert "dot}" in sp.latex(v), "sympy alone makes an index of it"
 
 
 def test_statements_are_shown_with_their_verdicts() -> None:

@@ -16,11 +16,15 @@ from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 from lagrotor.paper import catalogue, claim_tests, scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equation, equations
+<<<<<<< HEAD
 from lagrotor.paper.claim_tests import Finding, Part, Result
 from lagrotor.paper.ledger import Statement, chain, judge
+=======
+from lagrotor.paper.claim_tests import Finding, Result
+from lagrotor.paper.ledger import Relation, Statement, chain, judge
+>>>>>>> 8e8b6fe (Tests of the main job follow its steps and products)
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
-from lagrotor.report import page as page_module
 from lagrotor.report import page_pieces
 from lagrotor.report.content import Report, contents
 from lagrotor.report.folder import CONTENTS
@@ -66,14 +70,8 @@ class Reader(HTMLParser):
         return [identifier for _, attrs in self.seen if (identifier := attrs.get("id"))]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def small_model() -> Iterator[None]:
-    """The live model has tests of its own; here a heading stands for it."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            page_module, "interactive", lambda: '<section id="model"><h2>The interactive model</h2></section>'
-        )
-        yield
+# The live model has tests of its own; here a heading stands for it.
+MODEL = '<section id="model"><h2>The interactive model</h2></section>'
 
 
 @pytest.fixture(scope="module")
@@ -86,16 +84,15 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     corrected = Statement(
         "5.20",
         chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
-        correction=chain(sp.cos(r0), sp.cos(r0)),
+        correction=(Relation(sp.cos(r0), sp.cos(r0), quantity="c"),),
         depends_on=("5.06",),
         evidence=(HOSTILE,),
-        steps=(HOSTILE,),
     )
     judged.append(replace(judge(corrected), reaches_result=True))
     picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25})
-    return Report(
-        tuple(judged), (picture,), (HOSTILE,), versions=(("Python", "3"), ("sympy", "1")), inputs=(("package", "0a"),)
-    )
+    derivation = ("s5_2a_single_rotor", HOSTILE, "<p>inside</p>")
+    made = {"versions": (("Python", "3"), ("sympy", "1")), "inputs": (("package", "0a"),)}
+    return Report(tuple(judged), (picture,), (HOSTILE,), derivations=(derivation,), model=MODEL, **made)
 
 
 @pytest.fixture(scope="module")
@@ -195,7 +192,7 @@ def test_faults_are_seen(whole: str, broken: str, says: str, longer: Report) -> 
 def test_page_is_escaped(report: Report) -> None:
     text = page(report)
     assert text.count("<script") == 1, "the page's own"
-    assert read(text).text.count(HOSTILE) == 5  # change, evidence, step, figure's title, caption
+    assert read(text).text.count(HOSTILE) == 5  # change, evidence, derivation, figure's title, caption
     assert read(text).text.count(HOSTILE.replace("_", " ")) == 1  # measured name
 
 
@@ -382,7 +379,7 @@ def test_search() -> None:
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
-    script = Path(page_module.__file__).with_name("page.js").read_text(encoding="utf-8")
+    script = Path(page.__code__.co_filename).with_name("page.js").read_text(encoding="utf-8")
     asked = SEARCHED.replace("ENTRIES", json.dumps(ENTRIES)).replace("QUERIES", json.dumps(list(QUERIES)))
     done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
     assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES

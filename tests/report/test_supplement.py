@@ -15,7 +15,7 @@ from lagrotor.pair.symbols import M, r0
 from lagrotor.paper import claim_tests
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equations
-from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.ledger import Relation, Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import TITLE, Report, contents
@@ -36,12 +36,10 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     corrected = Statement(
         "5.20",
         chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
-        correction=chain(sp.cos(r0), sp.cos(r0)),
+        correction=(Relation(sp.cos(r0), sp.cos(r0), quantity="c"),),
         wrong=HOSTILE,
-        quantities=("x",),
         depends_on=("5.06",),
         evidence=(HOSTILE,),
-        steps=(HOSTILE,),
     )
     judged.append(replace(judge(corrected), reaches_result=True))
     paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})

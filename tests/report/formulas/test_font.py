@@ -64,7 +64,8 @@ def formulas() -> Iterator[str]:
             for relation in (*statement.relations, *statement.correction):
                 yield mathml(relation.printed, display=False)
                 yield mathml(relation.derived, display=False)
-            yield from filter(None, (from_latex(name) for name in statement.quantities))
+            for relation in statement.correction:
+                yield from filter(None, [from_latex(relation.quantity)] if relation.quantity else [])
     yield from map(mathml, GLOSSARY)
 
 

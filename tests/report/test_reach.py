@@ -1,0 +1,95 @@
+"""What a script is made from: all that it reaches and nothing else; and the same digest wherever the package lies."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+import lagrotor
+from lagrotor.paper import scripts
+from lagrotor.report import reach
+from lagrotor.report.reach import digest, imports, made_from, reached
+
+PACKAGE = Path(lagrotor.__file__).parent
+
+
+@pytest.fixture(autouse=True)
+def fresh():
+    clear()
+    yield
+    clear()
+
+
+def clear() -> None:
+    for cached in (reach._tree, reach._later, reach.imports, reach._named_scripts, reach.reached, reach._file_digest):
+        cached.cache_clear()
+
+
+def derivation(stem: str) -> Path:
+    return scripts.folder("derivations") / f"{stem}.py"
+
+
+def places(path: Path) -> set[str]:
+    return {reach._place(file) for file in reached(path)}
+
+
+def test_a_derivation_reaches_its_modules_and_their_data() -> None:
+    found = places(derivation("s5_2a_single_rotor"))
+    assert {
+        "derivations/s5_2a_single_rotor.py",
+        "pair/lagrangians.py",
+        "mechanics/lagrangian.py",
+        "algebra/identity.py",
+    } <= found
+    assert "paper/equations.toml" in found
+    assert "paper/recorded.json" not in found, "the record is compared with, nothing is made from it"
+    assert not any(place.startswith(("models/", "report/", "commands/")) for place in found)
+
+
+def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
+    assert PACKAGE / "models" / "simulate.py" in reached(script)
+    assert imports(script) == {PACKAGE / "models" / "simulate.py"}
+
+
+def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text('run("derivations", "s5_2a_single_rotor")', encoding="utf-8")
+    assert derivation("s5_2a_single_rotor") in reached(script)
+    script.write_text('run("derivations", "no_such_script")', encoding="utf-8")
+    clear()
+    assert reached(script) == (script,)
+
+
+@pytest.mark.parametrize(
+    ("file", "matters"),
+    [
+        ("pair/lagrangians.py", True),
+        ("paper/equations.toml", True),
+        ("models/simulate.py", False),
+        ("report/page.css", False),
+    ],
+)
+def test_a_product_is_made_from_what_is_reached_only(
+    file: str, matters: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = tmp_path / "lagrotor"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "derivations", "figures"))
+    for kind in ("derivations", "figures"):
+        shutil.copytree(scripts.folder(kind), copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
+    here = made_from(derivation("s5_2a_single_rotor"))
+    for module in (reach, scripts):
+        monkeypatch.setattr(module, "_PACKAGE", copy)
+    clear()
+    there = copy / "derivations" / "s5_2a_single_rotor.py"
+    assert made_from(there) == here, "an installed package has the digests of the checkout"
+    with (copy / file).open("a", encoding="utf-8") as appended:
+        appended.write("\n# changed\n")
+    clear()
+    assert (made_from(there) != here) == matters
+
+
+def test_no_two_lists_have_one_digest() -> None:
+    assert digest("ab", "c") != digest("a", "bc") != digest("abc")
+    assert digest("é") == digest("é".encode())
