@@ -21,6 +21,7 @@ from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.symbols import M, R
 from lagrotor.paper import audit, claim_tests, scripts
 from lagrotor.paper import record as paper_record
+from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Relation, Statement, judge
 from lagrotor.pictures import figures
 from lagrotor.report import folder, reproduce

@@ -16,13 +16,8 @@ from lagrotor.pair.symbols import ANSATZ, ROTOR, M, r0
 from lagrotor.paper import catalogue, claim_tests, scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import claims, equation, equations
-<<<<<<< HEAD
 from lagrotor.paper.claim_tests import Finding, Part, Result
-from lagrotor.paper.ledger import Statement, chain, judge
-=======
-from lagrotor.paper.claim_tests import Finding, Result
 from lagrotor.paper.ledger import Relation, Statement, chain, judge
->>>>>>> 8e8b6fe (Tests of the main job follow its steps and products)
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report import page_pieces
@@ -237,6 +232,7 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
             "errata",
             "model",
             "claims",
+            "derivations",
             "findings",
             "figures",
             "tables",
