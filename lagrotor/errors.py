@@ -6,7 +6,7 @@ class LagrotorError(Exception):
 
 
 class InputError(LagrotorError, ValueError):
-    """A value that makes no sense: refused at the door, before work starts."""
+    """A value that makes no sense: refused before work starts."""
 
 
 class NotExactError(LagrotorError, ValueError):
@@ -14,7 +14,7 @@ class NotExactError(LagrotorError, ValueError):
 
 
 class DomainError(LagrotorError, ValueError):
-    """A closed form asked for outside its domain."""
+    """A closed form evaluated outside its domain."""
 
 
 class ConstraintError(LagrotorError, ValueError):

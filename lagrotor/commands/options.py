@@ -39,7 +39,7 @@ def add_pair(parser: argparse.ArgumentParser) -> None:
         ("--link-mass", Link.mass, "mass of the bar, kg"),
         ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
     ):
-        default = None if name.startswith("--link") else usual  # None tells what was not asked for
+        default = None if name.startswith("--link") else usual  # None: not given
         group.add_argument(name, type=float, default=default, metavar="X", help=f"{says} (default: {usual:g})")
     group.add_argument("--no-link", action="store_true", help="a pair without a bar")
 
@@ -79,10 +79,10 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
 def _link(given: argparse.Namespace) -> Link | None:
     """The bar, if any. Raises InputError for one that is described and left out."""
     parts = {"length": given.link_length, "mass": given.link_mass, "inertia": given.link_inertia}
-    asked = {name: value for name, value in parts.items() if value is not None}
-    if given.no_link and asked:
-        raise InputError(f"--no-link and --link-{next(iter(asked))}: a pair without a bar has none; leave one out")
-    return None if given.no_link else Link(**asked)
+    bar = {name: value for name, value in parts.items() if value is not None}
+    if given.no_link and bar:
+        raise InputError(f"--no-link and --link-{next(iter(bar))}: a pair without a bar has none; leave one out")
+    return None if given.no_link else Link(**bar)
 
 
 def shock_of(given: argparse.Namespace) -> Shock | None:

@@ -10,16 +10,16 @@ from lagrotor.errors import InputError
 
 def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.record import recorded
-    from lagrotor.report.content import told
+    from lagrotor.report.content import counted
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.reproduce import reproduce
 
     made = reproduce(given.out, progress, given.jobs)
     page = given.out / "index.html"
     judged = sum(made.equations.values())
-    print(f"{judged} equations judged: {told(made.equations) or 'none'}; {made.waiting} not yet judged")
+    print(f"{judged} equations judged: {counted(made.equations) or 'none'}; {made.waiting} not yet judged")
     if made.claims:
-        print(f"{sum(made.claims.values())} claims tried: {told(made.claims)}")
+        print(f"{sum(made.claims.values())} claims tried: {counted(made.claims)}")
     if made.taken == ["report"]:
         print("all taken from the last run (same inputs); to run it again, delete the folder")
     elif made.taken:

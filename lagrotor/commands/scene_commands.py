@@ -104,8 +104,8 @@ def rate_command(given: argparse.Namespace) -> int:
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None
     if given.json:
-        told = {name: limit.rate for name, limit in limits.items()}
-        print(json.dumps({"rate": rate, "period": period, "limits": told}))
+        rates = {name: limit.rate for name, limit in limits.items()}
+        print(json.dumps({"rate": rate, "period": period, "limits": rates}))
     else:
         print(f"natural rate  {rate:.12g} rad/s")
         print(f"period        {f'{period:.12g} s' if period else 'none: no oscillation'}")

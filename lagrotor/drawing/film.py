@@ -130,7 +130,7 @@ def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
 
 
 def _frames(moving: "Motion") -> Iterator[Pixels]:
-    """The frames (height, width, 3). What stands still is drawn once; of the rest only the data change."""
+    """The frames (height, width, 3). What does not move is drawn once; of the rest only the data change."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)

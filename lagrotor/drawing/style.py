@@ -1,4 +1,4 @@
-"""One look for every figure: colours fixed by meaning, told apart by the colour-blind (Okabe & Ito), a light grid."""
+"""One look for every figure: colours fixed by meaning, distinguishable by the colour-blind (Okabe & Ito), a light grid."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""The scene: rotors, bar, shock and initial state, in SI units. What makes no sense is refused here, at the door."""
+"""The scene: rotors, bar, shock and initial state, in SI units. What makes no sense is refused here."""
 
 from __future__ import annotations
 
@@ -236,7 +236,7 @@ class Scene:
         return J + whole + twist, whole - twist
 
     def summary(self) -> dict[str, str]:
-        """What is spun, joined and struck, name → words."""
+        """Spins, rotors, bar and shock, name → words."""
         rotor, bar, shock = self.rotor, self.link, self.shock
         return {
             "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",
@@ -247,6 +247,6 @@ class Scene:
 
     def _repr_html_(self) -> str:
         vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
-        told = self.summary() | {"r_1, r_2, r_1', r_2'": ", ".join(vectors)}
-        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in told.items())
+        lines = self.summary() | {"r_1, r_2, r_1', r_2'": ", ".join(vectors)}
+        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in lines.items())
         return f"<table><caption>Scene</caption>{rows}</table>"

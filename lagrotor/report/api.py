@@ -90,7 +90,7 @@ def _short(default: Any) -> str:
 
 
 def _words(text: str) -> str:
-    """Text of a docstring for HTML: what stands between backticks as code, as it is."""
+    """Text of a docstring for HTML: what is between backticks as code."""
     parts = enumerate(text.split("`"))
     return "".join(f"<code>{escape(part)}</code>" if i % 2 else prose(part) for i, part in parts)
 
@@ -100,11 +100,11 @@ def api_page() -> str:
     style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
     blocks = []
     for entry in entries():
-        told = "".join(f"<p>{_words(part)}</p>" for part in entry.text.split("\n\n"))
+        text = "".join(f"<p>{_words(part)}</p>" for part in entry.text.split("\n\n"))
         members = "".join(f"<li><code>{escape(call)}</code>: {_words(line)}</li>" for call, line in entry.members)
         how = code(f"from {entry.module} import {entry.name}\n{entry.call}")
         listed = f"<ul>{members}</ul>" if members else ""
-        blocks.append(f'<article id="{entry.name}"><h2>{entry.name}</h2>{how}{told}{listed}</article>')
+        blocks.append(f'<article id="{entry.name}"><h2>{entry.name}</h2>{how}{text}{listed}</article>')
     names = "".join(f'<li><a href="#{entry.name}">{entry.name}</a></li>' for entry in entries())
     return "\n".join(
         [

@@ -6,7 +6,7 @@ from lagrotor.paper import scripts
 
 
 def citation() -> tuple[list[str], str]:
-    """(sentences: what is asked, the references), (a BibTeX entry)."""
+    """(sentences: how to cite, the references), (a BibTeX entry)."""
     head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
     field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
     title, authors = field["title"].strip('"'), " and ".join(_names(head))

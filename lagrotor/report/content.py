@@ -18,7 +18,7 @@ TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
 HOW_TO_READ = (
     "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
-    "procedure; each claim made in words is put to a run; each figure is drawn again. What stands here as a number was "
+    "procedure; each claim made in words is tested by a run; each figure is drawn again. Every number here was "
     "computed by the run that wrote this page, but for seconds, which are on record with their machine. An "
     "equation goes by its section and place, such as 5.07, a claim as C08."
 )
@@ -44,9 +44,9 @@ MEANINGS = {
     "undecided": "outside what can be decided exactly; numbers are given as evidence",
 }
 CLAIM_MEANINGS = {
-    "confirmed": "its own run bears it out",
+    "confirmed": "its run agrees",
     "confirmed-if": "it holds under the condition that is named",
-    "refuted": "its own run says otherwise",
+    "refuted": "its run disagrees",
 }
 
 
@@ -131,7 +131,7 @@ class Fact:
 
 
 def anchor(identifier: str) -> str:
-    """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") stands in the page."""
+    """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") is on the page."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
     return f"claim-{identifier}" if identifier in claims() else f"eq-{identifier}"
@@ -171,7 +171,7 @@ def word(answer: str) -> str:
     return answer.replace("-", " ")
 
 
-def told(counts: dict[str, int]) -> str:
+def counted(counts: dict[str, int]) -> str:
     """Counts as people read them: 9 confirmed, 3 refuted."""
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
@@ -209,8 +209,8 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
 
 
 _REACHES = {
-    True: "yes: a result of the paper that rests on it is refuted too",
-    False: "no: every result of the paper that rests on it stands",
+    True: "yes: a result of the paper that depends on it is refuted too",
+    False: "no: no result of the paper depends on this error",
 }
 
 

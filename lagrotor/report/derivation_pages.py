@@ -29,7 +29,7 @@ def title(stem: str) -> str:
 
 
 def written(text: str) -> str:
-    """Markdown with formulas between dollars as HTML; as it stands where markdown-it is not installed."""
+    """Markdown with formulas between dollars as HTML; unchanged where markdown-it is not installed."""
     try:
         from markdown_it import MarkdownIt
         from mdit_py_plugins.dollarmath import dollarmath_plugin

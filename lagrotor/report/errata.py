@@ -28,8 +28,8 @@ class Erratum:
     def reach(self) -> str:
         """What becomes of the paper's results, in words."""
         if self.survives:
-            return "every result of the paper that rests on it stands"
-        return "a result of the paper that rests on it, or is it, is refuted too"
+            return "no result of the paper depends on this error"
+        return "a result of the paper that depends on it, or is it, is refuted too"
 
 
 def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:

@@ -111,7 +111,7 @@ def derived(expression: sp.Basic) -> str:
     """An expression on its own line; a matrix that is too wide as a list of its elements; the longest are only named."""
     source = latex(expression)
     if len(source) > _LONGEST:
-        return f"An expression of {len(source)} characters: it stands in full in verdicts.json."
+        return f"An expression of {len(source)} characters: it is given in full in verdicts.json."
     if not isinstance(expression, sp.MatrixBase):
         return printed(source)
     rows, columns = expression.shape

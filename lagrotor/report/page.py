@@ -81,13 +81,13 @@ def _summary(report: Report) -> str:
     equations = "".join(count_entry(answer, count, MEANINGS[answer]) for answer, count in report.counts.items())
     tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
     fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
-    told = f"<p>{escape(balance(report))}</p>" + (f"<p>Those that fall: {fallen}</p>" if fallen else "")
+    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Those that fall: {fallen}</p>" if fallen else "")
     results = "".join(map(headline_entry, headlines(report)))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
     warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
     claims = f'<h3>Claims</h3><ul class="summary">{tried}</ul>' if tried else ""
-    return f'{warning}{told}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}'
+    return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}'
 
 
 def _verdicts(report: Report) -> str:

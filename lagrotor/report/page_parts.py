@@ -25,7 +25,7 @@ from lagrotor.report.page_pieces import (
 )
 from lagrotor.report.results import Headline
 
-# Characters of MathML beyond which the derived form stands below the printed one, not beside it.
+# Characters of MathML beyond which the derived form is placed below the printed one, not beside it.
 _WIDEST = 2_000
 
 

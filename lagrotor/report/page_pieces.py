@@ -38,8 +38,8 @@ def numbers(what: str, measured: Iterable[tuple[str, float]]) -> str:
 def side_by_side(table: Table, report: Report) -> str:
     """A table of the derivations under its title, with its note."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
-    told = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
-    return f'<div class="table"><h3>{prose(table.title)}</h3>{rows(table.head, lines)}{told}</div>'
+    note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
+    return f'<div class="table"><h3>{prose(table.title)}</h3>{rows(table.head, lines)}{note}</div>'
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -73,7 +73,7 @@ def formulas(expressions: Iterable[sp.Basic]) -> str:
 
 
 def typeset(source: str) -> str:
-    """LaTeX as a formula; as it stands, with a word, where the converter is not installed."""
+    """LaTeX as a formula; its source, with a note, where the converter is not installed."""
     formula = from_latex(source)
     if formula is None:
         return f"{code(source)}<p><small>LaTeX: install latex2mathml to have it typeset.</small></p>"
@@ -86,7 +86,7 @@ def code(source: str) -> str:
 
 
 def fold(summary: str, inside: str, kind: str = "fold") -> str:
-    """What opens when it is asked for."""
+    """Content that the reader opens."""
     return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
 
 

@@ -1,5 +1,5 @@
 """Renew what is on record: `python -m lagrotor.report.record` the verdicts that `reproduce`, `audit` and `claims` compare
-with, `python -m lagrotor.report.record speed` the seconds that the report tells.
+with, `python -m lagrotor.report.record speed` the timings that the report shows.
 """
 
 import sys

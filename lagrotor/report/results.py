@@ -32,15 +32,15 @@ def balance(report: Report) -> str:
     text += f"{counts.get('holds-if', 0)} under a condition that is named, "
     text += f"{counts.get('holds-to-order', 0)} to the order that is named. "
     whole = 0 < corrected == len(fallen)
-    told = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
-    text += f"{len(fallen)} fall{told} that itself holds, "
+    how = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
+    text += f"{len(fallen)} fall{how} that itself holds, "
     text += f"and {reaching} take a result of the paper with them. The other {other} give a name or a measured number."
     return text
 
 
 def headlines(report: Report) -> list[Headline]:
     """The three results with the strongest evidence, those whose parts are in the report."""
-    return [headline for tell in (_constant, _trajectories, _force) for headline in tell(report)]
+    return [headline for write in (_constant, _trajectories, _force) for headline in write(report)]
 
 
 def _constant(report: Report) -> Iterator[Headline]:

@@ -21,7 +21,7 @@ _SIGNS = (
     "ℏℑℒℓℜℝℤℕℂℋ←↑→↓↔↦⇐⇒⇔∀∂∃∅∆∇∈∉∏∑−∓∕∗∘∙√∝∞∠∣∥∧∨∩∪∫∮∴∼≃≅≈≔≠≡≢≤≥≪≫≲≳⊂⊆⊕⊗⊙⊤⊥⋅⋆⋮⋯⋱⌈⌉⌊⌋⟨⟩"
 )
 _GREEK = "".join(map(chr, [*range(0x391, 0x3A2), *range(0x3A3, 0x3AA), *range(0x3B1, 0x3CA)])) + "ϑϕϖϱϵ"
-# Italic, bold, bold italic letters and double-struck digits stand in a block of their own.
+# Italic, bold, bold italic letters and double-struck digits have a block of their own.
 _STYLED = re.compile(
     r"MATHEMATICAL ((BOLD |BOLD ITALIC |ITALIC )(SMALL|CAPITAL|DIGIT|PARTIAL|DOTLESS|\w+ SYMBOL)|DOUBLE-STRUCK DIGIT)"
 )

@@ -163,7 +163,7 @@ def _parts(items: list[Element]) -> Iterator[list[Element]]:
 
 
 def _breaks_source(item: Element, after: Element | None) -> bool:
-    """Whether a wide space stands for the end of a line in the source, before a relation."""
+    """Whether a wide space marks the end of a line in the source, before a relation."""
     return item.tag == "mspace" and width(item) >= 1.0 and after is not None and after.text in RELATIONS
 
 

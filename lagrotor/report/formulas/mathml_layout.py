@@ -106,8 +106,8 @@ def _letter(element: Element, text: str) -> list[Element]:
     if element.tag == "mo" or (element.tag == "mi" and not any(c.isalnum() or c == "∞" for c in text)):
         spaces = {"lspace": "0", "rspace": _SPACES[text]} if text in _SPACES else {}
         return [leaf("mo", _OPERATORS.get(text, text), **spaces)]
-    asked = "mathvariant" in element.attrib or text in _CAPITALS
-    upright = {"mathvariant": "normal"} if element.tag == "mi" and len(text) == 1 and asked else {}
+    given = "mathvariant" in element.attrib or text in _CAPITALS
+    upright = {"mathvariant": "normal"} if element.tag == "mi" and len(text) == 1 and given else {}
     return [leaf(element.tag, text, **upright)]
 
 
@@ -149,7 +149,7 @@ def _paired(items: list[Element]) -> list[Element]:
 
 
 def _bracket(left: Element, inside: list[Element], right: Element) -> Element:
-    """A row in brackets; a script of the closing one stands at that bracket, or where they stretch at the row."""
+    """A row in brackets; a script of the closing one is set at that bracket, or where they stretch at the row."""
     tall = any(True for item in inside for tag in _TALL for _ in item.iter(tag))
     left, mark = (leaf("mo", bracket.text or "", stretchy=str(tall).lower()) for bracket in (left, core(right)))
     left.set("form", "prefix")
@@ -166,7 +166,7 @@ def _on(script: Element, base: Element) -> Element:
 
 
 def _signed(items: list[Element]) -> list[Element]:
-    """Signs told apart: a plus or minus with nothing to its left is a prefix."""
+    """Signs distinguished: a plus or minus with nothing to its left is a prefix."""
     before: Element | None = None
     for item in items:
         if item.tag == "mo" and item.text in SIGNS:
