@@ -4,14 +4,14 @@ A `Program` is a list of named stages and the outputs made of them. Stages keep 
 one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
-from sympy.utilities.iterables import topological_sort
+from sympy.simplify.cse_main import tree_cse
 
 from lagrotor.errors import SingularError
 
@@ -22,11 +22,16 @@ _BLOCK = 8192  # values at once: what a processor keeps close
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """arguments → stages → outputs; a stage may use the arguments and the stages before it. Equal only to itself."""
+    """arguments → stages → outputs; a stage may use the arguments and the stages before it. Equal only to itself.
+
+    shared: the stages were made so that sums and products have few parts in common: only equal subexpressions are then
+    sought, in a time linear in their number.
+    """
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]
     outputs: tuple[sp.Expr, ...]
+    shared: bool = False
 
     def __post_init__(self) -> None:
         known = set(self.arguments)
@@ -42,18 +47,27 @@ def reduce_common(program: Program) -> tuple[list[Stage], list[sp.Expr]]:
     """Stages with their common subexpressions taken out, in an order that can be run, and the reduced outputs."""
     names = [name for name, _ in program.stages]
     expressions = [e for _, e in program.stages] + list(program.outputs)
-    found, reduced = sp.cse(expressions, symbols=sp.numbered_symbols("c_", real=True))
+    symbols = sp.numbered_symbols("c_", real=True)
+    if program.shared:
+        found, reduced = tree_cse(expressions, symbols, order="none")
+    else:
+        found, reduced = sp.cse(expressions, symbols=symbols)
     body = dict(found) | dict(zip(names, reduced[: len(names)], strict=True))
     outputs = reduced[len(names) :]
-    # Keep only what an output needs, and put every definition before its use.
-    needed, queue = set(), [s for e in outputs for s in e.free_symbols if s in body]
+    # Only what an output needs, depth first, so that every definition comes before its use.
+    order: dict[sp.Symbol, None] = {}
+    queue = [(s, False) for e in reversed(outputs) for s in _named(e, body)]
     while queue:
-        if (name := queue.pop()) not in needed:
-            needed.add(name)
-            queue += [s for s in body[name].free_symbols if s in body]
-    edges = [(s, name) for name in needed for s in body[name].free_symbols if s in body]
-    order = topological_sort((sorted(needed, key=str), edges), key=str)
+        name, ready = queue.pop()
+        if ready:
+            order[name] = None
+        elif name not in order:
+            queue += [(name, True), *((s, False) for s in _named(body[name], body) if s not in order)]
     return [(name, body[name]) for name in order], outputs
+
+
+def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
+    return sorted((s for s in expression.free_symbols if s in body), key=str, reverse=True)
 
 
 def operations(program: Program) -> int:

@@ -11,12 +11,20 @@ from typing import Any
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
-from lagrotor.numerics.codegen import Program, reduce_common
+from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.integrators import LOST, Rate
 
 
 class _Products(PythonCodePrinter):  # type: ignore[misc]
-    """Python in which a small power of a symbol is a product, and no sum begins with a minus sign that it can do without."""
+    """Python in which a small power of a symbol is a product, no sum begins with a minus sign that it can do without, and
+    symbols may have other names."""
+
+    def __init__(self) -> None:
+        super().__init__({"fully_qualified_modules": False})
+        self.names: dict[sp.Symbol, str] = {}
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return self.names.get(expr) or super()._print_Symbol(expr)
 
     def _as_ordered_terms(self, expr: sp.Add, order: Any = None) -> list[sp.Expr]:
         return sorted(super()._as_ordered_terms(expr, order), key=lambda term: term.could_extract_minus_sign())
@@ -27,6 +35,21 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
         return super()._print_Pow(expr, rational=rational)
 
 
+def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products) -> list[str]:
+    """The stages as assignments to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
+    last = {s: i for i, (_, e) in enumerate(stages) for s in e.free_symbols}
+    passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
+    free, lines, used = list[str](), list[str](), 0
+    for i, (name, expression) in enumerate(stages):
+        right = show.doprint(expression)
+        free += [show.names[s] for s in sorted(expression.free_symbols & passing, key=str) if last[s] == i]
+        if not free:
+            free, used = [f"_{used}"], used + 1
+        show.names[name] = free.pop()
+        lines.append(f"{show.names[name]} = {right}")
+    return lines
+
+
 def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
     """parameters → rate(s, y), for a program whose first `states` arguments are the state.
 
@@ -34,17 +57,21 @@ def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
     cannot, raises one of LOST there instead.
     """
     stages, outputs = reduce_common(program)
-    show = _Products({"fully_qualified_modules": False}).doprint
+    show = _Products()
     state, parameters = program.arguments[:states], program.arguments[states:]
-    fixed, moving, known = [], [], set(parameters)
+    fixed, moving, known = list[str](), list[Stage](), set(parameters)
     for name, expression in stages:
         if expression.free_symbols <= known:
             known.add(name)
-            fixed.append(f"{name} = {show(expression)}")
+            fixed.append(f"{name} = {show.doprint(expression)}")
         else:
-            moving.append(f"{name} = {show(expression)}")
-    unpack, values = f"{', '.join(map(str, state))} = y.tolist()", f"return [{', '.join(map(show, outputs))}]"
-    body = [unpack, *moving, values]
+            moving.append((name, expression))
+    lines = _lines(moving, outputs, show)
+    body = [
+        f"{', '.join(map(str, state))} = y.tolist()",
+        *lines,
+        f"return [{', '.join(map(show.doprint, outputs))}]",
+    ]
     source = [
         f"def make({', '.join(map(str, parameters))}):",
         *(f"    {line}" for line in fixed),

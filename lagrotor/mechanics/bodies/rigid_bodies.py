@@ -99,6 +99,19 @@ class Energy:
         """The energy in q, v and t."""
         return sp.Add(self.rest, *(factor * _value(body, field) for body, field, factor in self.terms))
 
+    @cached_property
+    def free_symbols(self) -> set[sp.Basic]:
+        """The symbols in it, velocities left aside."""
+        found = set(self.rest.free_symbols)
+        for body, field, factor in self.terms:
+            found |= body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
+            found |= set().union(*(e.free_symbols for e in field or ()))
+            frame: MovingFrame | None = body.frame
+            while frame is not None and frame.parent is not None:
+                found |= frame.amount.free_symbols
+                frame = frame.parent
+        return found
+
     def _sympy_(self) -> sp.Expr:
         return self.expression
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.integration import Array, Engine, Values, increasing, rhs_factory, states
-from lagrotor.mechanics.running.programs import Generated, generated, motion_program, parameter_values
+from lagrotor.mechanics.running.programs import Generated, energy_program, generated, motion_program, parameter_values
 from lagrotor.numerics.codegen import compile_program
 
 Kind = TypeVar("Kind", bound="Motion")
@@ -32,7 +32,8 @@ class Motion:
     @cached_property
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""
-        return self.evaluate(self.system.energy)
+        given = energy_program(self.system)
+        return self._values(given, _compiled(given))
 
     @cached_property
     def drift(self) -> Array:
@@ -45,7 +46,10 @@ class Motion:
 
         Raises InputError when it contains anything else.
         """
-        given, function = _function(self.system, sp.sympify(expression))
+        given = _function(self.system, sp.sympify(expression))
+        return self._values(given, _compiled(given))
+
+    def _values(self, given: Generated, function: Any) -> Array:
         columns = [*self.q.T, *self.v.T, *((self.t,) if len(given.states) > 2 * self.q.shape[1] else ())]
         with np.errstate(all="ignore"):
             (found,) = function(*columns, *parameter_values(given, self.values))
@@ -75,6 +79,10 @@ class Motion:
 
 
 @lru_cache(maxsize=256)
-def _function(system: Equations, expression: sp.Expr) -> tuple[Generated, Any]:
-    given = generated(system, (), [expression])
-    return given, compile_program(given.program, "numpy")
+def _function(system: Equations, expression: sp.Expr) -> Generated:
+    return generated(system, (), [expression])
+
+
+@lru_cache(maxsize=256)
+def _compiled(given: Generated) -> Any:
+    return compile_program(given.program, "numpy")

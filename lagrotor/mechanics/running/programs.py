@@ -12,10 +12,15 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
+from lagrotor.mechanics.bodies.articulated import Stages, joints, tree_accelerations, tree_energy
+from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import singular_mass, t
+from lagrotor.mechanics.lagrangian import gradient, singular_mass, t
 from lagrotor.numerics.codegen import Program, Stage, reduce_common, solve_symmetric
+
+LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
+MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +48,9 @@ def motion_program(system: Equations) -> Generated:
 def generated(
     system: Equations, stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """A program of the system's state and parameters, its symbols renamed to plain identifiers; `moving`: t' = 1 is its
-    last output where time enters.
+    """A program of the system's state and parameters, its symbols renamed to plain identifiers.
+
+    moving: t' = 1 is its last output where time enters.
     """
     own = {name for name, _ in stages}
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
@@ -69,19 +75,39 @@ def generated(
         tuple(plain[s] for s in (*states, *parameters)),
         tuple((plain[name], e.xreplace(rename)) for name, e in stages),
         tuple(e.xreplace(rename) for e in outputs),
+        shared=len(stages) > MANY,
     )
     return Generated(program, states, parameters)
 
 
+@lru_cache(maxsize=64)
+def energy_program(system: Equations) -> Generated:
+    """(q, v[, t]) → the Jacobi integral."""
+    tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
+    if tree is None:
+        return generated(system, (), [system.energy])
+    keep = Stages()
+    energy = tree_energy(tree, joints(tree, system.c, keep), keep)
+    return generated(system, keep.made, [energy])
+
+
 def depends_on_time(system: Equations) -> bool:
     """Whether t is in the Lagrangian, a force, the friction or a constraint."""
-    expressions = (system.L, system.dissipation, *system.forces, *system.constraints, *system.rolling)
+    expressions = (system.lagrangian, system.dissipation, *system.forces, *system.constraints, *system.rolling)
     return any(t in e.free_symbols for e in expressions)
 
 
 def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
-    """Stages, and the accelerations made of them."""
-    G, push = system.rows, system.push - system.bias
+    """Stages, and the accelerations made of them: of a tree of bodies by its recursion, else from the mass matrix."""
+    G = system.rows
+    tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
+    if tree is not None:
+        keep = Stages()
+        push = system.push + gradient(tree.rest, system.c.q)
+        columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
+        found = tree_accelerations(tree, joints(tree, system.c, keep), columns, keep)
+        return bound(keep.made, sp.Matrix(found).T, G, system.gamma)
+    push = system.push - system.bias
     try:
         stages, solved = solve_symmetric(system.mass, push.row_join(G.T), "_m")
     except SingularError:
