@@ -1,22 +1,21 @@
-"""The generators of an expression: a polynomial ring in which sines, cosines and exponentials are plain symbols.
+"""The generators of an expression: symbols, square roots, and a cosine and sine or an exponential for each base angle.
 
-Every angle is a whole multiple of a base angle monomial/n, n the least common multiple of the denominators it appears
-with; each base angle gives a cosine and a sine, tied by the rule for the sine's square.
+Every angle is a whole multiple of a base angle u = monomial/n, n the least common multiple of the denominators it
+appears with.  The multiples of u are polynomials in its cosine and sine; where some multiple is large, powers of
+w = exp(i*u), or exp(u) for the hyperbolic functions, are shorter and take their place.
 """
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from functools import partial, reduce
+from typing import Any
 
 import sympy as sp
-from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.errors import NotExactError
-
-Pair = tuple[PolyElement, PolyElement]
-# How finely each monomial is divided, for the circular (False), the hyperbolic (True) and the exponential (None).
-Steps = dict[tuple[bool | None, sp.Expr], int]
 
 # Cosine and sine of the circular (False) and the hyperbolic (True) family.
 FAMILY: dict[bool, tuple[Any, Any]] = {False: (sp.cos, sp.sin), True: (sp.cosh, sp.sinh)}
@@ -27,100 +26,167 @@ CIRCULAR: dict[Any, tuple[int | None, int | None]] = {
 HYPERBOLIC: dict[Any, tuple[int | None, int | None]] = {
     sp.cosh: (0, None), sp.sinh: (1, None), sp.tanh: (1, 0), sp.coth: (0, 1), sp.sech: (None, 0), sp.csch: (None, 1),
 }  # fmt: skip
+# The largest multiple of a base angle that is written in its cosine and sine.
+LARGEST_MULTIPLE = 12
+# Bounds on the terms and the powers in the argument of a function.
+_MOST_TERMS, _MOST_POWER = 200, 1000
+
+Angle = tuple[bool, sp.Expr]  # hyperbolic, monomial
+Monomial = frozenset[tuple[sp.Expr, int]]
 
 
-class Quotient(NamedTuple):
-    """numerator / product of factor**exponent; the factors are kept apart so that common ones are seen."""
+@dataclass
+class Multiples:
+    """Of one monomial: the lcm of the denominators, the largest factor, and whether only exponentials have it."""
 
-    numerator: PolyElement
-    factors: dict[PolyElement, int]
-
-
-@dataclass(frozen=True)
-class Chart:
-    """The polynomial ring of an expression, its rules g**2 = square, and every factor it divides by."""
-
-    ring: PolyRing
-    generators: dict[sp.Expr, PolyElement]
-    steps: Steps
-    rules: tuple[tuple[int, PolyElement], ...]
-    divisors: dict[PolyElement, sp.Expr | None] = field(default_factory=dict)
-    known: dict[sp.Expr, Quotient] = field(default_factory=dict)
+    step: int = 1
+    largest: sp.Rational = sp.S.Zero
+    exponential: bool = True
 
 
-def chart_of(expression: sp.Expr) -> Chart:
-    """Find the generators: symbols, constants, and a cosine and sine of monomial/n, n the lcm of all denominators."""
+@dataclass
+class Survey:
+    """What an expression is made of: symbols and pi, radicands, and the angles with their multiples.
+
+    largest: the largest multiple of a base angle that is written in its cosine and sine.
+    """
+
+    largest: float
+    atoms: dict[sp.Expr, None] = field(default_factory=dict)
+    radicands: dict[sp.Expr, None] = field(default_factory=dict)
+    angles: dict[Angle, Multiples] = field(default_factory=dict)
+
+    def compact(self, angle: Angle) -> bool:
+        """Whether powers of one exponential stand for the multiples of this angle."""
+        multiples = self.angles[angle]
+        return multiples.exponential or multiples.largest * multiples.step > self.largest
+
+
+def survey(expression: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
+    """Collect what the expression is made of; raise NotExactError outside the class."""
     if floats := expression.atoms(sp.Float):
         raise NotExactError(f"The floating-point number {min(floats)} is not exact.")
-    atoms: set[sp.Expr] = set()
-    steps: Steps = {}
-    _survey(expression, atoms, steps, set())
-    squares: dict[sp.Expr, sp.Expr] = {atom: atom**2 for atom in atoms if not (atom.is_Symbol or atom is sp.pi)}
-    if any(hyperbolic for hyperbolic, _ in steps):
-        # Beside cosh and sinh an exponential is their sum.
-        for exponential, monomial in [key for key in steps if key[0] is None]:
-            step = steps.pop((exponential, monomial))
-            steps[True, monomial] = sp.ilcm(steps.get((True, monomial), 1), step)
-    for (hyperbolic, monomial), step in steps.items():
-        if hyperbolic is None:
-            atoms.add(sp.exp(monomial / step))
-            continue
-        c, s = (part(monomial / step) for part in FAMILY[hyperbolic])
-        atoms |= {c, s}
-        squares[s] = c**2 - 1 if hyperbolic else 1 - c**2
-    symbols = sorted(atoms, key=sp.default_sort_key)
-    ring = PolyRing(symbols or [sp.Dummy()], sp.QQ)
-    rules = tuple((i, ring.from_expr(squares[g])) for i, g in enumerate(symbols) if g in squares)
-    return Chart(ring, dict(zip(symbols, ring.gens, strict=False)), steps, rules)
+    found, seen, left = Survey(largest), set[sp.Expr](), [expression]
+    while left:
+        node = left.pop()
+        if node not in seen:
+            seen.add(node)
+            left += _enter(node, found)
+    if any(not hyperbolic and found.compact((hyperbolic, m)) for hyperbolic, m in found.angles):
+        found.radicands[sp.S.NegativeOne] = None
+    return found
 
 
-def _survey(node: sp.Expr, atoms: set[sp.Expr], steps: Steps, seen: set[sp.Expr]) -> None:
-    """Collect atoms and base angles of everything below the node; raise NotExactError outside the class."""
-    if node in seen:
-        return
-    seen.add(node)
-    if (node.is_Symbol and node.is_commutative) or node in (sp.pi, sp.I):
-        atoms.add(node)
-    elif is_root(node):
-        atoms.update(sp.sqrt(prime) for prime in sp.factorint(node.base))
+def _enter(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
+    """Enter one node into what is found; return the parts that are still to be looked at."""
+    if node.is_Symbol or node is sp.pi:
+        _check_symbol(node)
+        found.atoms[node] = None
+    elif node is sp.I:
+        found.radicands[sp.S.NegativeOne] = None
+    elif (base := radicand(node)) is not None:
+        if not all(part.is_Symbol or part is sp.pi or _is_rational_step(part) for part in sp.preorder_traversal(base)):
+            raise NotExactError(f"{node} is outside the class: only roots of rational functions of symbols are in it.")
+        found.radicands[base] = None
+        return (base,)
     elif node.func in CIRCULAR or node.func in HYPERBOLIC or node.func is sp.exp:
-        hyperbolic = None if node.func is sp.exp else node.func in HYPERBOLIC
-        turn, rates = angle_of(node)
-        for monomial, rate in rates.items():
-            steps[hyperbolic, monomial] = sp.ilcm(steps.get((hyperbolic, monomial), 1), rate.q)
-        for value in (sp.cos(turn * sp.pi), sp.sin(turn * sp.pi)):
-            if value.has(sp.cos, sp.sin):
-                raise NotExactError(f"{value} is not made of square roots of integers.")
-            _survey(value, atoms, steps, seen)
-    elif node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer):
-        for part in node.args:
-            _survey(part, atoms, steps, seen)
-    elif not node.is_Rational:
+        return _enter_function(node, found)
+    elif _is_rational_step(node):
+        return node.args[:1] if node.is_Pow else node.args
+    else:
         raise NotExactError(f"{node} is outside the trigonometric-rational class.")
+    return ()
 
 
-def is_root(node: sp.Expr) -> bool:
-    return bool(node.is_Pow and node.exp == sp.S.Half and node.base.is_Integer)
+def _check_symbol(node: sp.Expr) -> None:
+    if not node.is_commutative or node.is_finite is False:
+        raise NotExactError(f"{node} is outside the class: it must commute and be finite.")
+
+
+def _is_rational_step(node: sp.Expr) -> bool:
+    return bool(node.is_Rational or node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer))
+
+
+def _enter_function(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
+    turn, rates = angle_of(node)
+    for monomial, rate in rates.items():
+        multiples = found.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
+        multiples.step = int(sp.ilcm(multiples.step, rate.q))
+        multiples.largest = max(multiples.largest, abs(rate))
+        multiples.exponential &= node.func is sp.exp
+    constants = tuple(part(turn * sp.pi) for part in FAMILY[False])
+    for value in constants:
+        if value.has(sp.cos, sp.sin):
+            raise NotExactError(f"{value} is not made of square roots of integers.")
+    return constants
+
+
+def radicand(node: sp.Expr) -> sp.Expr | None:
+    """B where the node is a power B**(k/2) of its root, or |x| = sqrt(x**2) of a real x; None elsewhere."""
+    if node.is_Pow and node.exp.is_Rational and node.exp.q == 2:
+        return node.base
+    if isinstance(node, sp.Abs) and node.args[0].is_real:
+        return sp.Pow(node.args[0], 2, evaluate=False)
+    return None
 
 
 def angle_of(function: sp.Expr) -> tuple[sp.Rational, dict[sp.Expr, sp.Rational]]:
     """Split the argument into turn*pi + sum of rate*monomial; raise NotExactError if it is nothing of the kind."""
     turn, rates = sp.S.Zero, {}
-    for term in sp.Add.make_args(sp.expand(function.args[0])):
-        rate, monomial = term.as_coeff_Mul()
-        if monomial is sp.pi and function.func in CIRCULAR:
+    for powers, rate in _terms(function.args[0], function).items():
+        if powers == {(sp.pi, 1)} and function.func in CIRCULAR:
             turn = rate
-        elif rate.is_Rational and _is_monomial(monomial):
-            rates[monomial] = rate
-        elif rate != 0:
-            raise NotExactError(f"The argument of {function} is not a rational combination of monomials and pi.")
+        # Whole-number symbols are left out: sin(pi*n/2) obeys relations that sine and cosine in general do not.
+        elif all(base is sp.pi or not base.is_integer for base, _ in powers) and powers - {
+            (sp.pi, n) for _, n in powers
+        }:
+            rates[sp.Mul(*(base**power for base, power in powers))] = rate
+        else:
+            raise _bad_argument(function)
     return turn, rates
 
 
-def _is_monomial(monomial: sp.Expr) -> bool:
-    powers = [factor.as_base_exp() for factor in sp.Mul.make_args(monomial)]
-    # Whole-number symbols are left out: sin(pi*n/2) obeys relations that sine and cosine in general do not.
-    return bool(monomial.free_symbols) and all(
-        exponent.is_Integer and (base is sp.pi or (base.is_Symbol and base.is_commutative and not base.is_integer))
-        for base, exponent in powers
-    )
+def _bad_argument(function: sp.Expr) -> NotExactError:
+    return NotExactError(f"The argument of {function} is not a rational combination of monomials and pi.")
+
+
+def _terms(node: sp.Expr, function: sp.Expr) -> dict[Monomial, sp.Rational]:
+    """Expand a polynomial in symbols, their reciprocals and pi: monomial -> coefficient."""
+    if node.is_Rational:
+        return {frozenset(): node} if node else {}
+    if node.is_Symbol or node is sp.pi:
+        _check_symbol(node)
+        return {frozenset({(node, 1)}): sp.S.One}
+    if node.is_Add:
+        return _collected((powers, rate) for part in node.args for powers, rate in _terms(part, function).items())
+    if node.is_Mul:
+        return reduce(partial(_product, function), (_terms(part, function) for part in node.args))
+    if node.is_Pow and node.exp.is_Integer and abs(node.exp) <= _MOST_POWER:
+        base = _terms(node.base, function)
+        if node.exp < 0:
+            if len(base) != 1:
+                raise _bad_argument(function)
+            base = {frozenset((s, -n) for s, n in powers): 1 / rate for powers, rate in base.items()}
+        return reduce(partial(_product, function), [base] * abs(int(node.exp)), {frozenset(): sp.S.One})
+    raise _bad_argument(function)
+
+
+def _product(
+    function: sp.Expr, a: dict[Monomial, sp.Rational], b: dict[Monomial, sp.Rational]
+) -> dict[Monomial, sp.Rational]:
+    if len(a) * len(b) > _MOST_TERMS:
+        raise NotExactError(f"The argument of {function} has more than {_MOST_TERMS} terms.")
+    return _collected((_merged(p, q), u * v) for p, u in a.items() for q, v in b.items())
+
+
+def _merged(p: Monomial, q: Monomial) -> Monomial:
+    powers = Counter(dict(p))
+    powers.update(dict(q))
+    return frozenset((base, power) for base, power in powers.items() if power)
+
+
+def _collected(terms: Iterable[tuple[Monomial, sp.Rational]]) -> dict[Monomial, sp.Rational]:
+    total: dict[Monomial, sp.Rational] = {}
+    for powers, rate in terms:
+        total[powers] = total.get(powers, sp.S.Zero) + rate
+    return {powers: rate for powers, rate in total.items() if rate}

@@ -5,7 +5,9 @@ With e the small quantity, a series is carried as the finitely many terms
     e**start * (a_0 + a_1*e + ... + a_(n-1)*e**(n-1)) + O(e**(start + n)),
 
 negative powers included, so that sin(e)/e is regular.  A function is expanded about the value u0 of its argument,
-f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v = O(e) leaves finitely many terms.
+f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v = O(e) leaves finitely many terms.  For a logarithm, a root or an
+inverse function with a branch cut, u0 must lie off the cut or the argument stay on it; e and the symbols of which
+nothing is declared are taken to be real.
 """
 
 from __future__ import annotations
@@ -15,15 +17,18 @@ from typing import NamedTuple
 
 import sympy as sp
 
+from lagrotor.algebra.evidence import points, size_at
 from lagrotor.algebra.identity import decide_zero
-from lagrotor.errors import NotExactError
+from lagrotor.algebra.scalar import scalar
+from lagrotor.errors import InputError, NotExactError
 
-# Analytic wherever they are finite, so that expansion by derivatives is right.
+# Analytic wherever they are finite, and real for real arguments, so that expansion by derivatives is right.
 _ANALYTIC = (
     sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc,
-    sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch,
-    sp.exp, sp.log, sp.atan, sp.asinh,
+    sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch, sp.exp,
 )  # fmt: skip
+# Cut along the imaginary axis, from i and -i outwards; the logarithm and the powers along the negative real axis.
+_CUT = (sp.atan, sp.asinh)
 # How many orders may be lost to division by a power of the small quantity.
 _MARGIN = 8
 # Well above the error of a value computed to more than thirty digits.
@@ -42,9 +47,10 @@ class LeadingTerm:
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
     """Return the Taylor polynomial of the expression in `small` about 0, through small**order.
 
-    Raises NotExactError if the expression is singular at small = 0 or not known to be analytic there.
+    Raises NotExactError if the expression is singular at small = 0 or not known to be analytic there, InputError for what
+    is not a scalar expression, a symbol and a whole number from zero on.
     """
-    coefficients = _taylor(sp.sympify(expression), small, order)
+    coefficients = _taylor(scalar(expression, "truncated_series"), small, order)
     terms = [
         sp.expand_mul(coefficient) * small**power
         for power, coefficient in enumerate(coefficients)
@@ -58,9 +64,9 @@ def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> Lea
 
     Raises NotExactError if a coefficient met on the way is undecided, or the expression is singular at small = 0.
     """
-    for power, coefficient in enumerate(_taylor(sp.sympify(expression), small, through)):
+    for power, coefficient in enumerate(_taylor(scalar(expression, "leading_term"), small, through)):
         decision = decide_zero(coefficient)
-        if decision.answer == "undecided":
+        if decision.answer == "undecided" or decision.partly:
             raise NotExactError(f"coefficient {coefficient} of {small}**{power} is undecided: {decision.reason}")
         if decision.answer == "nonzero":
             return LeadingTerm(power, sp.expand_mul(coefficient), through)
@@ -72,7 +78,7 @@ def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, throug
 
     Raises NotExactError as `leading_term` does.
     """
-    return leading_term(sp.sympify(printed) - sp.sympify(derived), small, through)
+    return leading_term(scalar(printed, "agreement_order") - scalar(derived, "agreement_order"), small, through)
 
 
 class _Series(NamedTuple):
@@ -91,6 +97,10 @@ class _Series(NamedTuple):
 
 def _taylor(expression: sp.Expr, small: sp.Symbol, order: int) -> list[sp.Expr]:
     """Return the coefficients of small**0 to small**order."""
+    if not getattr(small, "is_Symbol", False) or isinstance(order, bool) or not isinstance(order, int) or order < 0:
+        raise InputError(
+            f"series: small = {small!r} must be a symbol and the order {order!r} a whole number from zero on"
+        )
     series = _Series(0, ())
     for length in (order + 1, order + 1 + _MARGIN):
         try:
@@ -121,19 +131,21 @@ def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
     if node.is_Pow and not node.exp.has(small):
         base = _expanded(node.base, small, length)
         if node.exp.is_Integer and node.exp > 0:
-            total = base
-            for _ in range(int(node.exp) - 1):
-                total = _times(total, base)
-            return total
+            return _power(base, int(node.exp))
         base = _stripped(base)
         if base.start and not node.exp.is_Integer:
             raise NotExactError(f"{node} is singular at {small} = 0")
+        if not node.exp.is_Integer:
+            _check_cut(node, base)
         shift = base.start * int(node.exp) if base.start else 0
         return _Series(shift, _composed(z**node.exp, z, _Series(0, base.terms)).terms)
     if node.is_Pow and not node.base.has(small):
         return _composed(node.base**z, z, _regular(_expanded(node.exp, small, length)))
-    if isinstance(node, _ANALYTIC):
-        return _composed(node.func(z), z, _regular(_expanded(node.args[0], small, length)))
+    if isinstance(node, (*_ANALYTIC, *_CUT, sp.log)):
+        inner = _regular(_expanded(node.args[0], small, length))
+        if not isinstance(node, _ANALYTIC):
+            _check_cut(node, inner)
+        return _composed(node.func(z), z, inner)
     raise NotExactError(f"{node} is not known to be analytic in {small}")
 
 
@@ -154,6 +166,34 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
     return total
 
 
+def _check_cut(node: sp.Expr, inner: _Series) -> None:
+    """Raise NotExactError unless the argument starts off the branch cut of the function or stays on the cut's line."""
+    u0, *tail = inner.terms
+    if isinstance(node, _CUT):
+        off = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
+        on_line = u0.is_imaginary and all(_is_real(sp.expand(sp.I * term)) for term in tail)
+    else:
+        off = u0.is_positive or u0.is_extended_real is False
+        on_line = _is_real(u0) and all(map(_is_real, tail))
+    if not (off or on_line):
+        raise NotExactError(
+            f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"
+        )
+
+
+def _is_real(node: sp.Expr) -> bool:
+    """Whether the expression is real wherever it is finite; symbols of which nothing is declared are."""
+    if node.is_Symbol:
+        return node.is_extended_real is not False and node.is_imaginary is not True
+    if node.is_extended_real:
+        return True
+    if node.is_Pow and not node.exp.is_Integer:
+        return bool(node.base.is_nonnegative) and _is_real(node.exp)
+    return (node.is_Add or node.is_Mul or node.is_Pow or isinstance(node, (*_ANALYTIC, *_CUT))) and all(
+        map(_is_real, node.args)
+    )
+
+
 def _plus(a: _Series, b: _Series) -> _Series:
     start, end = min(a.start, b.start), min(a.end, b.end)
     return _Series(start, tuple(a.at(power) + b.at(power) for power in range(start, end)))
@@ -165,6 +205,13 @@ def _times(a: _Series, b: _Series) -> _Series:
         a.start + b.start,
         tuple(sp.Add(*(a.terms[j] * b.terms[k - j] for j in range(k + 1))) for k in range(length)),
     )
+
+
+def _power(base: _Series, times: int) -> _Series:
+    """base**times, times > 0, by repeated squares."""
+    half = _power(base, times // 2) if times > 1 else base
+    squared = _times(half, half) if times > 1 else base
+    return _times(squared, base) if times % 2 and times > 1 else squared
 
 
 def _padded(terms: list[sp.Expr], length: int) -> tuple[sp.Expr, ...]:
@@ -191,6 +238,9 @@ def _regular(series: _Series) -> _Series:
 
 def _vanishes(coefficient: sp.Expr) -> bool:
     decision = decide_zero(coefficient)
-    if decision.answer == "undecided" and not (decision.evidence or 0) > _CLEARLY_NONZERO:
+    if decision.answer == "undecided":
+        sizes = [size_at(coefficient, point) for point in points(coefficient.free_symbols)]
+        clear = min((size for size in sizes if size is not None), default=0) > _CLEARLY_NONZERO
+    if decision.partly or (decision.answer == "undecided" and not clear):
         raise NotExactError(f"cannot tell whether {coefficient} vanishes: {decision.reason}")
     return decision.answer == "zero"

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sympy import Rational, asinh, atan, cos, cosh, exp, log, sin, sqrt, tan
 
 from lagrotor.algebra.series import LeadingTerm, agreement_order, leading_term, truncated_series
-from lagrotor.errors import NotExactError
+from lagrotor.errors import InputError, NotExactError
 
 x, y, e = sp.symbols("x y epsilon")
 
@@ -54,6 +54,7 @@ def test_series(expression: sp.Expr, order: int, series: sp.Expr) -> None:
         ((1 + e) ** e, "not known to be analytic"),
         (1 / (sin(e) ** 2 + cos(e) ** 2 - 1), "too few terms"),
         (1 / (e + sqrt(x * y) - sqrt(x) * sqrt(y)), "cannot tell"),
+        (1 / (e + log(x * y) - log(x) - log(y)), "cannot tell"),
     ],
 )
 def test_refused(expression: sp.Expr, reason: str) -> None:
@@ -69,8 +70,75 @@ def test_leading_term() -> None:
 
 
 def test_undecided_coefficient_is_named() -> None:
-    with pytest.raises(NotExactError, match=r"coefficient sqrt\(x\) of epsilon\*\*1"):
-        leading_term(e * sqrt(x) + e**2, e)
+    with pytest.raises(NotExactError, match=r"coefficient log\(x\) of epsilon\*\*1"):
+        leading_term(e * log(x) + e**2, e)
+    with pytest.raises(NotExactError, match="is undecided: The reduced numerator is not zero"):
+        leading_term(e * (sqrt(x**2) - x) + e**2, e)  # vanishes where x > 0
+    assert leading_term(e * sqrt(x) + e**2, e).order == 1
+
+
+p, n, m = sp.Symbol("p", positive=True), sp.Symbol("n", negative=True), sp.Symbol("m", imaginary=True)
+i = sp.I
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        sqrt(-1 + i * e),
+        1 / sqrt(-1 + i * e),
+        log(-1 + i * e),
+        sqrt(x + i * e),
+        sqrt(n + i * e * x),
+        (-2 + i * e) ** Rational(1, 3),
+        (-2 + i * e) ** x,
+        sqrt(-exp(i * e)),
+        sqrt(-1 + e * m),
+        log(x + e * log(y)),
+        atan(2 * i + e),
+        atan(m + e),
+        asinh(-3 * i + e * x),
+    ],
+)
+def test_a_series_from_a_branch_cut_is_refused(expression: sp.Expr) -> None:
+    with pytest.raises(NotExactError, match="may lie on a branch cut"):
+        truncated_series(expression, e, 2)
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        sqrt(-1 + e),
+        1 / sqrt(-2 - e + e**2),
+        log(-1 + e * Rational(1, 2)),
+        sqrt(1 + i * e),
+        log(3 * i + i * e),
+        (-2 + e) ** Rational(1, 3),
+        (2 + i * e) ** Rational(-5, 3),
+        sqrt(-cos(e)),
+        atan(i / 2 + e),
+        atan(3 + 2 * i * e),
+        atan(1 + 2 * i + e),
+        asinh(1 + i * e),
+    ],
+)
+def test_off_a_cut_or_along_it_a_series_is_near_its_function_on_both_sides(expression: sp.Expr) -> None:
+    series = truncated_series(expression, e, 4)
+    for size in (Rational(1, 50), -Rational(1, 50)):
+        assert abs(sp.N((expression - series).subs(e, size), 30)) < 1e-7
+    assert abs(sp.N((sqrt(-1 + i * e) - i - e / 2).subs(e, -Rational(1, 50)), 30)) > 1  # what is refused is wrong
+
+
+@pytest.mark.parametrize(
+    ("expression", "small", "order"), [(None, e, 2), (x, x + 1, 2), (x, e, -1), (x, e, 2.0), ("e", e, 1)]
+)
+def test_bad_input_is_named(expression: object, small: sp.Expr, order: int) -> None:
+    with pytest.raises(InputError, match=r"truncated_series|series: small"):
+        truncated_series(expression, small, order)
+
+
+def test_a_large_power_is_expanded() -> None:
+    assert sp.expand(truncated_series((1 + e) ** (10**6), e, 2) - 1 - 10**6 * e - 499999500000 * e**2) == 0
+    assert truncated_series((e + e**2) ** 5, e, 6) == e**5 + 5 * e**6
 
 
 @pytest.mark.parametrize(

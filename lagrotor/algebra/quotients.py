@@ -1,0 +1,153 @@
+"""Quotients of polynomials in generators of which some have a known square, with a bound on the work.
+
+The ring is Q[g_1, ..., g_n] with rules g**2 = square, each square free of the generators that have rules themselves.
+A product costs as many units of work as it has pairs of terms, times the length of their coefficients and monomials; a
+product that would exceed the bound is not begun.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import reduce
+from typing import Any, NamedTuple
+
+import sympy as sp
+from sympy.polys.rings import PolyElement, PolyRing
+
+from lagrotor.errors import NotExactError
+
+# Units of work for one expression: a few seconds.
+MOST_WORK = 300_000
+# Bits of a coefficient that one unit of work multiplies.
+_BITS = 256
+# Generators that one unit of work multiplies.
+_LETTERS = 16
+
+
+class Quotient(NamedTuple):
+    """numerator / product of factor**exponent; the factors are kept apart so that common ones are seen."""
+
+    numerator: PolyElement
+    factors: dict[PolyElement, int]
+
+
+class Ring:
+    """The polynomials in `names`, expressions that serve as generators, and every factor that was divided by."""
+
+    def __init__(self, names: Iterable[sp.Expr]) -> None:
+        self.names = tuple(names) or (sp.Dummy(),)
+        # Fixed letters: the names of the generators themselves may coincide.
+        self.polynomials = PolyRing(sp.symbols(f"g:{len(self.names)}"), sp.QQ)
+        self.generators: dict[sp.Expr, PolyElement] = dict(zip(self.names, self.polynomials.gens, strict=True))
+        self.squares: dict[int, PolyElement] = {}
+        self.divisors: dict[PolyElement, sp.Expr | None] = {}
+        self.work = 0
+
+    @property
+    def one(self) -> PolyElement:
+        return self.polynomials.one
+
+    def set_square(self, name: sp.Expr, square: PolyElement) -> None:
+        """Add the rule name**2 = square."""
+        self.squares[self.names.index(name)] = square
+
+    def number(self, value: sp.Rational) -> Quotient:
+        return Quotient(self.one * sp.QQ(value.p, value.q), {})
+
+    def expression(self, polynomial: PolyElement) -> sp.Expr:
+        return polynomial.as_expr(*self.names)
+
+    def spend(self, work: int) -> None:
+        """Raise NotExactError if the work to come exceeds what is left."""
+        self.work += work
+        if self.work > MOST_WORK:
+            raise NotExactError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
+
+    def product(self, a: PolyElement, b: PolyElement) -> PolyElement:
+        self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _LETTERS))
+        return self.reduced(a * b)
+
+    def products(self, polynomials: Iterable[PolyElement]) -> PolyElement:
+        return reduce(self.product, polynomials, self.one)
+
+    def power(self, polynomial: PolyElement, times: int) -> PolyElement:
+        if len(polynomial) == 1:
+            [(monomial, coefficient)] = polynomial.terms()
+            if abs(coefficient) != 1:
+                self.spend((1 + times * _bits(coefficient) // _BITS) ** 2)
+            raised = self.polynomials.from_dict({tuple(times * e for e in monomial): coefficient**times})
+            return self.reduced(raised)
+        result = self.one
+        for _ in range(times):
+            result = self.product(result, polynomial)
+        return result
+
+    def expanded(self, factors: Mapping[PolyElement, int]) -> PolyElement:
+        return self.products(self.power(factor, times) for factor, times in factors.items())
+
+    def reduced(self, polynomial: PolyElement) -> PolyElement:
+        """Replace g**(2*k + r) by square**k * g**r, r = 0 or 1, for every generator g with a known square."""
+        degrees = tuple(map(max, zip(*polynomial.monoms(), strict=True)))
+        for index, square in self.squares.items():
+            # A square holds no generator with a rule: the degrees in the others that have one do not change.
+            if not degrees or degrees[index] < 2:
+                continue
+            parts: dict[int, dict[tuple[int, ...], Any]] = {}
+            for monomial, coefficient in polynomial.terms():
+                times, rest = divmod(monomial[index], 2)
+                parts.setdefault(times, {})[(*monomial[:index], rest, *monomial[index + 1 :])] = coefficient
+            polynomial = self.polynomials.zero
+            for times, part in parts.items():
+                polynomial += self.product(self.power(square, times), self.polynomials.from_dict(part))
+        return polynomial
+
+    def times(self, a: Quotient, b: Quotient) -> Quotient:
+        factors = {f: a.factors.get(f, 0) + b.factors.get(f, 0) for f in a.factors | b.factors}
+        return Quotient(self.product(a.numerator, b.numerator), factors)
+
+    def sum(self, terms: Iterable[Quotient]) -> Quotient:
+        """Bring the terms over the least common multiple of their factors, like denominators first."""
+        alike: dict[frozenset[tuple[PolyElement, int]], PolyElement] = {}
+        common: dict[PolyElement, int] = {}
+        for numerator, factors in terms:
+            key = frozenset(factors.items())
+            alike[key] = alike.get(key, self.polynomials.zero) + numerator
+            common |= {factor: max(times, common.get(factor, 0)) for factor, times in factors.items()}
+        total = self.polynomials.zero
+        for key, numerator in alike.items():
+            own = dict(key)
+            missing = {factor: times - own.get(factor, 0) for factor, times in common.items()}
+            total += self.product(numerator, self.expanded(missing))
+        return Quotient(total, common)
+
+    def raised(self, base: Quotient, times: int) -> Quotient:
+        """base**times, times of either sign."""
+        if times < 0:
+            base = self.times(Quotient(self.expanded(base.factors), {}), self.inverse(base.numerator))
+        factors = {factor: abs(times) * power for factor, power in base.factors.items()}
+        return Quotient(self.power(base.numerator, abs(times)), factors)
+
+    def inverse(self, polynomial: PolyElement, name: sp.Expr | None = None) -> Quotient:
+        """Return 1/polynomial, noting its factors, or `name` for it; raise NotExactError if it is zero in the ring."""
+        if not polynomial:
+            raise NotExactError("A denominator vanishes identically.")
+        powers = tuple(min(exponents) for exponents in zip(*polynomial.monoms(), strict=True))
+        factors = {g: n for g, n in zip(self.polynomials.gens, powers, strict=True) if n}
+        rest = {tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.terms()}
+        if len(rest) > 1:
+            factors[self.polynomials.from_dict(rest).monic()] = 1
+        if name is None:
+            for factor in factors:
+                self.divisors.setdefault(factor, None)
+        else:
+            self.divisors[polynomial.monic()] = name
+        return Quotient(self.one * (1 / polynomial.LC), factors)
+
+
+def _length(polynomial: PolyElement) -> int:
+    """The longest coefficient, in units of _BITS."""
+    return 1 + max(map(_bits, polynomial.coeffs()), default=0) // _BITS
+
+
+def _bits(coefficient: Any) -> int:
+    return int(coefficient.numerator).bit_length() + int(coefficient.denominator).bit_length()

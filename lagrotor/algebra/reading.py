@@ -1,0 +1,203 @@
+"""An expression as a quotient of polynomials in its generators."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from typing import NamedTuple
+
+import sympy as sp
+from sympy.polys.rings import PolyElement
+
+from lagrotor.algebra.evidence import Point, sign_at
+from lagrotor.algebra.generators import CIRCULAR, FAMILY, HYPERBOLIC, Angle, Survey, angle_of, radicand
+from lagrotor.algebra.quotients import Quotient, Ring
+from lagrotor.algebra.roots import Dependent, Root, split_roots
+
+
+class Pair(NamedTuple):
+    """Cosine and sine, over one product of factors."""
+
+    cosine: PolyElement
+    sine: PolyElement
+    factors: dict[PolyElement, int]
+
+    def part(self, place: int) -> PolyElement:
+        return self.sine if place else self.cosine
+
+
+class Roots(NamedTuple):
+    """Independent roots, dependent ones with their sign (None: it may differ from region to region), and their ring."""
+
+    ring: Ring
+    independent: list[Root]
+    dependent: list[tuple[Dependent, int | None]]
+
+    @property
+    def unsigned(self) -> list[Dependent]:
+        return [root for root, sign in self.dependent if sign is None]
+
+    def sign_ratio(self, root: Dependent) -> sp.Expr:
+        """The root over what it is with the sign +1."""
+        return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(other.base) for other in root.of)))
+
+    def signs_at(self, point: Point) -> tuple[int | None, ...]:
+        return tuple(sign_at(self.sign_ratio(root), point) for root in self.unsigned)
+
+    def _factor(self, root: Dependent) -> sp.Expr:
+        """What the product of the square roots `of` is multiplied by."""
+        over = [root.numerator, *(other.denominator for other in root.of)]
+        return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
+
+    def known_sign(self, root: Dependent) -> int | None:
+        """The sign where the symbols' assumptions settle it: sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0 or b >= 0."""
+        if not root.numerator:
+            return 1
+        if not any(base.free_symbols for base in (root.base, *(other.base for other in root.of))):
+            return sign_at(self.sign_ratio(root), {})
+        if sum(not other.base.is_nonnegative for other in root.of) > 1:
+            return None
+        factor = self._factor(root)
+        return 1 if factor.is_nonnegative else -1 if factor.is_nonpositive else None
+
+
+def find_roots(survey: Survey) -> Roots:
+    """Divide the roots of the survey into independent and dependent ones."""
+    plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
+    ordered = sorted(survey.radicands, key=lambda base: (bool(base.free_symbols), base.sort_key()))
+    given = [(base, plain.quotient(base)) for base in ordered]
+    independent, dependent = split_roots(
+        plain.ring, [(base, over, plain.ring.expanded(factors)) for base, (over, factors) in given]
+    )
+    unsigned = Roots(plain.ring, independent, [(root, None) for root in dependent])
+    return Roots(plain.ring, independent, [(root, unsigned.known_sign(root)) for root in dependent])
+
+
+def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
+    """The reader of a survey's expressions, `signs` those of the roots whose sign is not known."""
+    names = set(survey.atoms)
+    named = {root: roots.ring.expression(root.denominator) * sp.sqrt(root.base) for root in roots.independent}
+    names |= set(named.values())
+    for angle in survey.angles:
+        names |= set(_names(survey, angle))
+    ring = Ring(sorted(names, key=sp.default_sort_key))
+    for angle in survey.angles:
+        if not survey.compact(angle):
+            c, s = _names(survey, angle)
+            square = ring.generators[c] ** 2 - 1
+            ring.set_square(s, square if angle[0] else -square)
+
+    def lifted(polynomial: PolyElement) -> PolyElement:
+        given = [ring.generators[name] for name in roots.ring.names if name in ring.generators]
+        terms = (ring.products([ring.one * c, *map(ring.power, given, m)]) for m, c in polynomial.terms())
+        return sum(terms, ring.polynomials.zero)
+
+    for root, name in named.items():
+        ring.set_square(name, lifted(root.square))
+    values: dict[sp.Expr, Quotient] = {}
+    for root, name in named.items():
+        values[root.base] = ring.times(Quotient(ring.generators[name], {}), ring.inverse(lifted(root.denominator)))
+    left = iter(signs)
+    for one, sign in roots.dependent:
+        over = ring.products([lifted(one.numerator), *(ring.generators[named[other]] for other in one.of)])
+        over *= next(left) if sign is None else sign
+        values[one.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(one.denominator)))
+    return Reader(survey, ring, values)
+
+
+def _names(survey: Survey, angle: Angle) -> tuple[sp.Expr, ...]:
+    """The generators of a base angle: an exponential, or cosine and sine."""
+    hyperbolic, monomial = angle
+    base = monomial / survey.angles[angle].step
+    if survey.compact(angle):
+        return (sp.exp(base if hyperbolic else sp.I * base, evaluate=False),)
+    return tuple(part(base, evaluate=False) for part in FAMILY[hyperbolic])
+
+
+class Reader:
+    """Reads expressions of one survey in one ring; `roots` holds the square root of each radicand."""
+
+    def __init__(self, survey: Survey, ring: Ring, roots: dict[sp.Expr, Quotient]) -> None:
+        self.survey, self.ring, self.roots = survey, ring, roots
+        self.known: dict[sp.Expr, Quotient] = {}
+
+    def quotient(self, node: sp.Expr) -> Quotient:
+        """The node as a quotient in the ring; raise NotExactError where a denominator vanishes identically."""
+        if node not in self.known:
+            self.known[node] = self._build(node)
+        return self.known[node]
+
+    def _build(self, node: sp.Expr) -> Quotient:
+        ring = self.ring
+        if node.is_Symbol or node is sp.pi:
+            return Quotient(ring.generators[node], {})
+        if node.is_Rational:
+            return ring.number(node)
+        if node is sp.I:
+            return self.roots[sp.S.NegativeOne]
+        if (base := radicand(node)) is not None:
+            return ring.raised(self.roots[base], int(2 * node.exp) if node.is_Pow else 1)
+        if node.is_Add:
+            return ring.sum(map(self.quotient, node.args))
+        if node.is_Mul:
+            return reduce(ring.times, map(self.quotient, node.args))
+        if node.is_Pow:
+            return ring.raised(self.quotient(node.base), int(node.exp))
+        if node.func is sp.exp:
+            return reduce(
+                ring.times, (self._exponential(*part) for part in angle_of(node)[1].items()), ring.number(sp.S.One)
+            )
+        return self._function(node)
+
+    def _function(self, node: sp.Expr) -> Quotient:
+        ring, pair = self.ring, self._pair(node)
+        over, under = (CIRCULAR | HYPERBOLIC)[node.func]
+        numerator = ring.expanded(pair.factors) if over is None else pair.part(over)
+        if under is None:
+            return Quotient(numerator, pair.factors)
+        name = FAMILY[node.func in HYPERBOLIC][under](node.args[0], evaluate=False)
+        return ring.times(Quotient(numerator, {}), ring.inverse(pair.part(under), name))
+
+    def _pair(self, node: sp.Expr) -> Pair:
+        """Cosine and sine of the function's argument, by the addition theorems."""
+        hyperbolic, (turn, rates) = node.func in HYPERBOLIC, angle_of(node)
+        cosine, sine = (self.quotient(part(turn * sp.pi)).numerator for part in FAMILY[False])
+        total = Pair(cosine, sine, {})
+        for monomial, rate in rates.items():
+            total = self._plus(hyperbolic, total, self._multiple((hyperbolic, monomial), rate))
+        return total
+
+    def _plus(self, hyperbolic: bool, a: Pair, b: Pair) -> Pair:
+        """C = C1*C2 -+ S1*S2, S = S1*C2 + C1*S2."""
+        product, sign = self.ring.product, 1 if hyperbolic else -1
+        cosine = product(a.cosine, b.cosine) + sign * product(a.sine, b.sine)
+        sine = product(a.sine, b.cosine) + product(a.cosine, b.sine)
+        return Pair(cosine, sine, {f: a.factors.get(f, 0) + b.factors.get(f, 0) for f in a.factors | b.factors})
+
+    def _multiple(self, angle: Angle, rate: sp.Rational) -> Pair:
+        """Cosine and sine of rate*monomial, for a pair of generators by doubling."""
+        ring, times = self.ring, abs(int(rate * self.survey.angles[angle].step))
+        names, sign = _names(self.survey, angle), 1 if rate > 0 else -1
+        if self.survey.compact(angle):
+            w = ring.generators[names[0]]
+            square = ring.power(w, 2 * times)
+            i = ring.one if angle[0] else self.roots[sp.S.NegativeOne].numerator
+            sine = ring.product(i if angle[0] else -i, (square - 1) / 2)
+            return Pair((square + 1) / 2, sign * sine, {w: times})
+        c, s = (ring.generators[name] for name in names)
+        double, total = Pair(c, sign * s, {}), Pair(ring.one, ring.polynomials.zero, {})
+        while times:
+            if times % 2:
+                total = self._plus(angle[0], total, double)
+            times //= 2
+            double = self._plus(angle[0], double, double) if times else double
+        return total
+
+    def _exponential(self, monomial: sp.Expr, rate: sp.Rational) -> Quotient:
+        """exp(rate*monomial): a power of the generator, or cosh + sinh."""
+        angle = True, monomial
+        if not self.survey.compact(angle):
+            pair = self._multiple(angle, rate)
+            return Quotient(pair.cosine + pair.sine, {})
+        w, times = self.ring.generators[_names(self.survey, angle)[0]], int(rate * self.survey.angles[angle].step)
+        return Quotient(self.ring.power(w, times), {}) if times > 0 else Quotient(self.ring.one, {w: -times})

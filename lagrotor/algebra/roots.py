@@ -1,0 +1,153 @@
+"""Square roots as generators: which of them are independent, and what the others are in terms of these.
+
+For B = N/D, a quotient of polynomials with rational coefficients, h = D*sqrt(B) has the square A = N*D.  Adjoining the
+roots h of A_1, ..., A_k to the rational functions gives a field of degree 2**k if and only if no product of some of the
+A is a square (Kummer theory; see S. Lang, Algebra, VI.8).  To find such products every A is written as a product of
+powers of pairwise coprime integers and polynomials none of which is a square; these come from greatest common divisors,
+no integer is factored.  Then a product is a square if and only if all its exponents are even.
+
+Where A*prod(A_k) = p**2, the root is sqrt(B) = sign*p*prod(h_k)/(D*prod(A_k)) with a sign, +1 or -1, that may differ
+from region to region: sqrt(x**2) is x or -x.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from math import gcd, isqrt, prod
+from typing import Any, NamedTuple
+
+import sympy as sp
+from sympy.polys.rings import PolyElement
+
+from lagrotor.algebra.quotients import Ring
+from lagrotor.errors import NotExactError
+
+# Greatest common divisors of larger polynomials may take hours.
+_MOST_TERMS, _MOST_DEGREE = 60, 16
+
+
+class Root(NamedTuple):
+    """sqrt(base) = root/denominator, root**2 = square, all in the ring of the symbols."""
+
+    base: sp.Expr
+    denominator: PolyElement
+    square: PolyElement
+
+
+class Dependent(NamedTuple):
+    """sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
+
+    base: sp.Expr
+    numerator: PolyElement
+    denominator: PolyElement
+    of: tuple[Root, ...]
+
+
+def split_roots(
+    ring: Ring, bases: Iterable[tuple[sp.Expr, PolyElement, PolyElement]]
+) -> tuple[list[Root], list[Dependent]]:
+    """Divide the roots of base = numerator/denominator into independent ones and those that follow from them."""
+    roots = [Root(base, under, ring.product(over, under)) for base, over, under in bases]
+    for root in roots:
+        if len(root.square) > _MOST_TERMS or max(map(sum, root.square.monoms()), default=0) > _MOST_DEGREE:
+            raise NotExactError(f"The root of {root.base} is too large: terms {len(root.square)}.")
+    numbers, polynomials = _coprime_parts([root.square for root in roots])
+    independent: list[Root] = []
+    dependent: list[Dependent] = []
+    rows: list[tuple[int, int]] = []  # parities of a product of independent squares, and of which
+    for root in roots:
+        if not root.square:
+            dependent.append(Dependent(root.base, ring.polynomials.zero, ring.one, ()))
+            continue
+        parity, members = _parity(root.square, numbers, polynomials), 0
+        for row, row_members in rows:
+            if parity ^ row < parity:
+                parity, members = parity ^ row, members ^ row_members
+        if parity:
+            rows.append((parity, members | 1 << len(independent)))
+            rows.sort(reverse=True)
+            independent.append(root)
+        else:
+            of = tuple(other for place, other in enumerate(independent) if members >> place & 1)
+            dependent.append(_expressed(ring, root, of, numbers, polynomials))
+    return independent, dependent
+
+
+def _coprime_parts(squares: Iterable[PolyElement]) -> tuple[list[int], list[PolyElement]]:
+    """Pairwise coprime integers and polynomials, no square among them, of whose powers all of these are products."""
+    numbers, polynomials = [], []
+    for square in filter(None, squares):
+        numbers.append(abs(_content(square)))
+        polynomials += [part.monic() for part, _ in square.sqf_list()[1]]
+    return (
+        _refined([_rootless(n) for n in numbers], gcd, lambda a, b: a // b, lambda n: n == 1, _rootless),
+        _refined(polynomials, lambda a, b: a.gcd(b).monic(), lambda a, b: a.exquo(b), lambda p: p.is_ground),
+    )
+
+
+def _refined(
+    values: list[Any],
+    common: Callable[[Any, Any], Any],
+    divided: Callable[[Any, Any], Any],
+    is_unit: Callable[[Any], bool],
+    rootless: Callable[[Any], Any] = lambda value: value,
+) -> list[Any]:
+    """Split values by common divisors until they are pairwise coprime."""
+    found: list[Any] = []
+    while values:
+        value = rootless(values.pop())
+        if is_unit(value) or value in found:
+            continue
+        for place, other in enumerate(found):
+            shared = common(value, other)
+            if not is_unit(shared):
+                del found[place]
+                values += [shared, divided(value, shared), divided(other, shared)]
+                break
+        else:
+            found.append(value)
+    return found
+
+
+def _rootless(number: int) -> int:
+    """The number, or its root while it is a square."""
+    while number > 1 and isqrt(number) ** 2 == number:
+        number = isqrt(number)
+    return number
+
+
+def _content(square: PolyElement) -> int:
+    """An integer that is the leading coefficient but for the square of a rational."""
+    return int(square.LC.numerator) * int(square.LC.denominator)
+
+
+def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> list[int]:
+    """0 or 1 for the sign, then how often each number and each polynomial divides."""
+    content, found = _content(square), [int(square.LC < 0)]
+    for number in numbers:
+        found.append(0)
+        while content % number == 0:
+            content, found[-1] = content // number, found[-1] + 1
+    for polynomial in polynomials:
+        found.append(0)
+        while not (division := square.div(polynomial))[1]:
+            square, found[-1] = division[0], found[-1] + 1
+    return found
+
+
+def _parity(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> int:
+    return sum((n % 2) << place for place, n in enumerate(_exponents(square, numbers, polynomials)))
+
+
+def _expressed(
+    ring: Ring, root: Root, of: tuple[Root, ...], numbers: list[int], polynomials: list[PolyElement]
+) -> Dependent:
+    """The root in terms of those whose squares, multiplied by its own, give the square of p."""
+    squares = [root.square, *(other.square for other in of)]
+    halves = [sum(n) // 2 for n in zip(*(_exponents(s, numbers, polynomials) for s in squares), strict=True)]
+    content = prod((sp.Rational(int(s.LC.numerator), int(s.LC.denominator)) for s in squares), start=sp.S.One)
+    p = ring.number(sp.Rational(isqrt(content.p), isqrt(content.q))).numerator
+    for polynomial, times in zip(polynomials, halves[1 + len(numbers) :], strict=True):
+        p = ring.product(p, ring.power(polynomial, times))
+    numerator, denominator = p.cancel(ring.products(other.square for other in of))
+    return Dependent(root.base, numerator, ring.product(denominator, root.denominator), of)
