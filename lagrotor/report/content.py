@@ -3,9 +3,11 @@
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import sympy as sp
 
+from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equations
 from lagrotor.paper.catalogue import figures as papers_figures
 from lagrotor.paper.claim_tests import Result
@@ -176,9 +178,10 @@ def counted(counts: dict[str, int]) -> str:
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
-def sides(relations: Iterable[Relation], side: str) -> tuple[sp.Basic, ...]:
-    """The printed or derived expressions of some relations, each once."""
-    return tuple(dict.fromkeys(getattr(relation, side) for relation in relations))
+def sides(relations: Iterable[Relation], side: Literal["printed", "derived"]) -> tuple[str, ...]:
+    """Equations in LaTeX, quantity = the printed or the derived expression of some relations, each once."""
+    lines = ((relation.quantity, latex(getattr(relation, side))) for relation in relations)
+    return tuple(dict.fromkeys(f"{quantity} = {right}" if quantity else right for quantity, right in lines))
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:

@@ -113,7 +113,7 @@ def _equation(verdict: Verdict, report: Report) -> str:
         _display(entry.latex),
     ]
     if derived := sides(statement.relations, "derived"):
-        parts += ["As derived:", *map(_formula, derived)]
+        parts += ["As derived:", *map(_display, derived)]
     parts += [_fact(fact) for fact in facts(verdict, report)]
     return "\n\n".join(parts)
 

@@ -13,6 +13,7 @@ from lagrotor.report.errata import Erratum
 from lagrotor.report.page_pieces import (
     badge,
     code,
+    equations,
     fact_list,
     fold,
     formulas,
@@ -33,8 +34,8 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     """As printed beside as derived; what is said of it; folds with the source and the steps."""
     entry, statement = equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
-    derived = formulas(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
-    read = formulas(sides(statement.relations, "printed"))
+    derived = equations(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
+    read = equations(sides(statement.relations, "printed"))
     how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
     source = code(entry.latex) + how + (f"<p>As read, to be judged:</p>{read}" if read else "")
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""

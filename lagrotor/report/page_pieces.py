@@ -72,6 +72,12 @@ def formulas(expressions: Iterable[sp.Basic]) -> str:
     return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
 
 
+def equations(sources: Iterable[str]) -> str:
+    """Equations in LaTeX, each on a line of its own; folded when they would fill a page."""
+    drawn = "".join(map(typeset, sources))
+    return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
+
+
 def typeset(source: str) -> str:
     """LaTeX as a formula; its source, with a note, where the converter is not installed."""
     formula = from_latex(source)

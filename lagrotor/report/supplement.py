@@ -1,6 +1,7 @@
 """The report as one LaTeX file, a supplement to a paper: ASCII, compiled by pdflatex, its pictures in `figures/`."""
 
 from collections.abc import Callable, Iterable
+from itertools import starmap
 
 import sympy as sp
 
@@ -25,7 +26,6 @@ from lagrotor.report.content import (
     linked_facts,
     made_beside,
     note,
-    sides,
     word,
 )
 from lagrotor.report.errata import errata, latex_block
@@ -72,13 +72,18 @@ def _paper(report: Report, name: str) -> list[str]:
     return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
 
 
+def _derived(quantity: str, expression: sp.Basic) -> str:
+    """What was derived for a quantity, on a line of its own."""
+    return (rf"\({quantity}\) =" if quantity else "") + derived(expression)
+
+
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
-    found = sides(statement.relations, "derived")
+    found = dict.fromkeys((relation.quantity, relation.derived) for relation in statement.relations)
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
         rf"\textbf{{As printed.}} {printed(entry.latex)}",
-        rf"\textbf{{As derived.}} {' '.join(map(derived, found)) or 'nothing to derive'}",
+        rf"\textbf{{As derived.}} {' '.join(starmap(_derived, found)) or 'nothing to derive'}",
         *(_fact(fact) for fact in facts(verdict, report)),
     ]
     return "\n\n".join(filter(None, parts))
