@@ -7,7 +7,7 @@ from typing import Literal
 
 import sympy as sp
 
-from lagrotor.pair.symbols import latex
+from lagrotor.pair.symbols import GLOSSARY, latex
 from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equations
 from lagrotor.paper.catalogue import figures as papers_figures
 from lagrotor.paper.claim_tests import Result
@@ -145,6 +145,7 @@ def contents(report: Report) -> list[tuple[str, str]]:
     listed = [
         ("summary", "In short", True),
         ("verdicts", "Verdicts", True),
+        ("notation", "Notation", True),
         ("errata", "Errata", any(v.verdict == "refuted" for v in report.verdicts)),
         ("model", "The interactive model", True),
         *paper,
@@ -161,6 +162,12 @@ def contents(report: Report) -> list[tuple[str, str]]:
         ("made", "How this was made", True),
     ]
     return [(name, heading) for name, heading, there in listed if there]
+
+
+def notation() -> list[tuple[sp.Symbol, str, str]]:
+    """The letters of the report: (symbol, meaning, unit), without velocities and accelerations, which have dots."""
+    shown = (entry for symbol, entry in GLOSSARY.items() if not symbol.name.endswith("dot"))
+    return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
 
 
 def made_beside(name: Callable[[str], str]) -> str:

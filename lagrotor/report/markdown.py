@@ -27,6 +27,7 @@ from lagrotor.report.content import (
     figure_facts,
     linked_facts,
     made_beside,
+    notation,
     note,
     sides,
     word,
@@ -214,6 +215,11 @@ def _prose(text: str) -> str:
 _PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
     "summary": _summary,
     "verdicts": lambda report: [_table(report)],
+    "notation": lambda report: [
+        _rows(
+            ("Symbol", "Meaning", "Unit"), [(f"${latex(s)}$", _prose(meaning), unit) for s, meaning, unit in notation()]
+        )
+    ],
     "errata": lambda report: errata_blocks(report.verdicts),
     "model": lambda report: ["Sliders and both tips in motion, in a browser: [index.html](index.html#model)."],
     "claims": lambda report: [_claim(result, report) for result in report.claims],

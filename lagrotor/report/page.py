@@ -17,10 +17,12 @@ from lagrotor.report.content import (
     Report,
     contents,
     made_beside,
+    notation,
     note,
 )
 from lagrotor.report.errata import errata
 from lagrotor.report.formulas.font import font_face
+from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.page_parts import (
     claim_entry,
     count_entry,
@@ -98,6 +100,17 @@ def _verdicts(report: Report) -> str:
     return _SEARCH + rows(("Equation", "Title", "Verdict", "Order or condition"), lines, "verdicts")
 
 
+def _notation(report: Report) -> str:
+    lines = [(mathml(symbol, display=False), prose(meaning), escape(unit)) for symbol, meaning, unit in notation()]
+    return rows(("Symbol", "Meaning", "Unit"), lines)
+
+
+def _derivations(report: Report) -> str:
+    how = "<p>Each derivation opens. Every step in it was proved by the run that wrote this page; letters as in the "
+    how += '<a href="#notation">notation</a>.</p>'
+    return how + "\n".join(map(derivation_entry, report.derivations))
+
+
 def _errata(report: Report) -> str:
     return "\n".join(map(erratum_entry, errata(report.verdicts)))
 
@@ -137,9 +150,10 @@ def _made(report: Report) -> str:
 _PARTS: dict[str, Callable[[Report], str]] = {
     "summary": _summary,
     "verdicts": _verdicts,
+    "notation": _notation,
     "errata": _errata,
     "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
-    "derivations": lambda report: "\n".join(map(derivation_entry, report.derivations)),
+    "derivations": _derivations,
     "findings": lambda report: _shown(report, (), report.findings, []),
     "figures": lambda report: _shown(report, (), (), report.pictures_of("")),
     "tables": lambda report: _shown(report, report.tables, (), []),

@@ -25,6 +25,7 @@ from lagrotor.report.content import (
     figure_facts,
     linked_facts,
     made_beside,
+    notation,
     note,
     word,
 )
@@ -183,6 +184,11 @@ def _links(identifiers: Iterable[str]) -> str:
 _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "summary": _summary,
     "verdicts": _verdicts,
+    "notation": lambda report: [
+        table(
+            ("Symbol", "Meaning", "Unit"), [(inline(s), prose(meaning), prose(unit)) for s, meaning, unit in notation()]
+        )
+    ],
     "errata": lambda report: [latex_block(e) for e in errata(report.verdicts)],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
     "derivations": lambda report: [

@@ -229,6 +229,7 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
         *(
             "summary",
             "verdicts",
+            "notation",
             "errata",
             "model",
             "claims",
