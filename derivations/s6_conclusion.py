@@ -1,30 +1,35 @@
 # %% [markdown]
 # # The conclusion (6.01, 6.02)
 #
-# **Objective.** Count the degrees of freedom and the modes of the pair with opposite spins, and hold the concluding
-# rate against the pair's.
+# **Objective.** The degrees of freedom and the modes of the pair with opposite spins, and the concluding rate against the
+# pair's.
 #
-# **Assumptions.** No gravity, ideal joints, any bar; small motion for the modes.
+# **Assumptions.** No gravity, ideal joints, any bar, any spins; the modes are those of small motion about the upright rest
+# state.
 #
-# **Notation.** $X = x_1 = x_2$ of the linear pair, $D = y_1 - y_2$; $G_1 = -G_2 = G$; $a \pm b$ as in the glossary.
+# **Notation.** $x$ the common component of the axes along the joint line, $y_1$, $y_2$ those across it; $G_i = I_3\omega_i$;
+# $a \pm b$ and $\sigma = (a+b)/(a-b)$ as in 5.3.
 
 # %%
 import sympy as sp
 
-from lagrotor.algebra import decide_zero
 from lagrotor.mechanics import degrees_of_freedom
-from lagrotor.pair.lagrangians import INERTIAS, J_OF, axes_pair, pair_with_bar
-from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, J, K, M, R, a, b, ell, k, m, omega, r0, sigma
-from lagrotor.paper.ledger import Relation
-from lagrotor.paper.legacy import stated
-from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
+from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.notebook import Formula, Remark
+from lagrotor.paper.premises import (
+    HEAVY_BAR,
+    LIGHT_BAR_PREMISE,
+    PAPERS_ROTOR,
+    RESTING_COUNTS,
+    TURNING_COUNTS,
+    TWO_MODES,
+    in_parameters,
+)
+from lagrotor.paper.proof import prove
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
-from lagrotor.theory.single_rotor import free_precession_rate
-
-theta = ROTOR.q[0]
-opposite = {G_1: G, G_2: -G}
-in_bar = {name: INERTIAS[name].subs(J, J_OF) for name in (a, b)}
 
 # %% [markdown]
 # ## Degrees of freedom
@@ -39,130 +44,145 @@ without_spins = degrees_of_freedom(axes_pair(), upright)
 {"with the spins": with_spins, "without": without_spins}
 
 # %% [markdown]
-# ## Modes
+# ## Small motion
 #
-# The characteristic polynomial has one pair $\pm i\Omega_0$ and four zeros. As nothing pulls the pair upright, every
-# position at rest is an equilibrium: three eigenvectors belong to zero, in $(y_1, X, y_2)$ and its rates. One of them,
-# the turning $y_1 = y_2$, begins a chain of two: it can go on at a constant rate. This is toppling. The other two are
-# displacements that stay, in $X$ and in $D$: the centre of the paired precession.
+# To first order the bar leaves the coordinates $(y_1, x, y_2)$. Nothing pulls the pair upright; the spins couple the three:
+# $M\ddot q + C\dot q = 0$ with
 
 # %%
 pair = linear_pair()
-s = sp.Symbol("s")
-characteristic = sp.factor(pair.characteristic(s).subs(opposite))
-polynomial = sp.Poly(characteristic, s)
-zeros = min(power for (power,) in polynomial.monoms())
-oscillations = (polynomial.degree() - zeros) // 2
-gyroscopic = pair.gyroscopic.subs(opposite)
-companion = sp.BlockMatrix(
-    [
-        [sp.zeros(3, 3), sp.eye(3)],
-        [-pair.mass.inv(method="ADJ") * pair.stiffness, -pair.mass.inv(method="ADJ") * gyroscopic],
-    ]
-).as_explicit()
-at_rest = 6 - companion.rank()
-chains = 6 - (companion**2).rank() - at_rest
-assert zeros == at_rest + chains
-growing = gyroscopic.nullspace()
-toppling = pair.basis * growing[0]
-assert len(growing) == chains
-assert toppling == sp.Matrix([0, 1, 0, 0, 1, 0])
-topplings, centres = chains, (zeros - 2 * chains) // 2
-modes = oscillations + topplings + centres
-characteristic
-
-# %% [markdown]
-# The centre: two quantities that the linear pair keeps. Both are zero for a precession about the upright position.
+prove(pair.stiffness, sp.zeros(3, 3), "the stiffness")
 
 # %%
-first_v, X_v, second_v, first, X, second = sp.symbols("y_1_dot X_dot y_2_dot y_1 X y_2", real=True)
-velocity = sp.Matrix([first_v, X_v, second_v])
-acceleration = -pair.mass.inv(method="ADJ") * gyroscopic * velocity
-kept_D = first - second + 2 * (a + b) * X_v / G
-kept_X = X - (a - b) * (first_v - second_v) / (2 * G)
+prove(pair.mass, sp.Matrix([[a, 0, b], [0, 2 * (a + b), 0], [b, 0, a]]), "the mass matrix M")
 
+# %%
+prove(pair.gyroscopic, sp.Matrix([[0, -G_1, 0], [G_1, 0, G_2], [0, -G_2, 0]]), "the gyroscopic matrix C")
 
-def drift(quantity: sp.Expr) -> sp.Expr:
-    at = ((first, first_v), (X, X_v), (second, second_v))
-    moved = sum(quantity.diff(place) * speed for place, speed in at)
-    return moved + sum(quantity.diff(speed) * rate for speed, rate in zip(velocity, acceleration, strict=True))
+# %% [markdown]
+# The characteristic polynomial has one pair of imaginary roots and four zeros, for any spins:
 
+# %%
+s = sp.Symbol("s")
+characteristic = sp.Poly(pair.characteristic(s), s)
+oscillating = 2 * (a + b) * (a**2 - b**2) * s**2 + a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
+prove(characteristic.as_expr(), s**4 * oscillating, "the characteristic polynomial det(s²M + sC)")
 
-centre_is_kept = {name: decide_zero(drift(e)).answer for name, e in (("X", kept_X), ("D", kept_D))}
-assert set(centre_is_kept.values()) == {"zero"}
-Formula(sp.Matrix([kept_X, kept_D]))
+# %% [markdown]
+# Every position at rest is an equilibrium: three of the zeros. The fourth belongs to a motion with $C\dot q = 0$, which goes on
+# at a constant velocity. So of the three freedoms one oscillates, one turns steadily, and one rests where it is put.
+
+# %%
+steady = pair.gyroscopic.nullspace()
+zeros = min(power for (power,) in characteristic.monoms())
+oscillations, turnings = (characteristic.degree() - zeros) // 2, len(steady)
+resting = without_spins - oscillations - turnings
+prove(zeros, without_spins + turnings, "the number of zero roots")
+
+# %%
+{"oscillations": oscillations, "steady turnings": turnings, "resting": resting}
+
+# %% [markdown]
+# The steady motion is across the joint line. For opposite spins it is $y_1 = y_2$: the toppling.
+
+# %%
+x_1, y_1, _, x_2, y_2, _ = pair.basis * steady[0]
+toppling = sp.Matrix([x_2 / y_1, y_2 / y_1])
+prove(toppling, sp.Matrix([0, -G_1 / G_2]), "the direction of the steady turning")
+
+# %% [markdown]
+# In the oscillation the first and the third equation give $(\dot y_1, \dot y_2)$ from $x$, by $M$ and $C$ without their row and
+# column of $x$. For opposite spins $y_1 = -y_2$: the paired precession.
+
+# %%
+across = pair.mass.extract([0, 2], [0, 2])
+y_1_v, y_2_v = across.LUsolve(-pair.gyroscopic.extract([0, 2], [1]))
+x_1, _, _, x_2, _, _ = pair.basis[:, 1]
+precession = sp.Matrix([x_2 / x_1, sp.cancel(y_2_v / y_1_v)])
+prove(precession, sp.Matrix([1, (a * G_2 - b * G_1) / (a * G_1 - b * G_2)]), "the direction of the oscillation")
+
+# %%
+verdict(
+    "6.01",
+    {
+        r"\text{degrees of freedom}": with_spins,
+        r"\text{degrees of freedom without the spins}": without_spins,
+        r"\text{modes}": oscillations + TURNING_COUNTS * turnings + RESTING_COUNTS * resting,
+        r"(x_2/y_1, y_2/y_1)\text{ of the toppling}": toppling,
+        r"(x_2/x_1, y_2/y_1)\text{ of the precession}": precession,
+    },
+    premises=[TWO_MODES],
+    uses=["5.09"],
+    evidence=[
+        f"To first order the {without_spins} freedoms without the spins are {oscillations} oscillation, {turnings} steady "
+        f"turning and {resting} displacement that rests. Taken literally, the conclusion's word oscillations fits one of its "
+        "two modes: toppling has no restoring force and comes round only as a full turn.",
+    ],
+)
+
+# %% [markdown]
+# ## The third freedom
+#
+# For opposite spins, $G_1 = -G_2 = G$, the linear pair keeps two quantities. They say where the centre of the precession
+# rests; both are zero for one about the upright position.
+
+# %%
+first_v, x_v, second_v, first, x, second = sp.symbols("y_1_dot x_dot y_2_dot y_1 x y_2", real=True)
+velocity = sp.Matrix([first_v, x_v, second_v])
+acceleration = -pair.mass.LUsolve(pair.gyroscopic.subs({G_1: G, G_2: -G}) * velocity)
+kept = sp.Matrix([x - (a - b) * (first_v - second_v) / (2 * G), first - second + 2 * (a + b) * x_v / G])
+Formula(kept)
+
+# %%
+moved = kept.jacobian([first, x, second]) * velocity + kept.jacobian(velocity) * acceleration
+prove(moved, sp.zeros(2, 1), "their rates along the linear motion")
+
+# %%
+Remark(
+    "Where the third freedom is",
+    "The precession centre, a displacement in x and one in y₁ − y₂, rests where a shock leaves it: two constants of the "
+    "linear pair, and with the two of toppling the four zero roots.",
+)
 
 # %% [markdown]
 # ## The rate
 #
-# Equal spins, parallel axes: one rotor with $a + b$ for $J$. Opposite spins: the linear rate and the series of the
-# paired precession in the amplitude (5.27).
+# Equal spins, parallel axes: one rotor with $a + b$ for $J$ (5.27). Opposite spins: the natural frequency, and the series of the
+# paired precession in the amplitude, $r_0 = \sin\theta$.
 
 # %%
-equal = free_precession_rate().expressions[0].subs(J, a + b).subs(in_bar).subs(G, I3 * omega)
-squared = sp.factor(polynomial.coeff_monomial(s**4) / polynomial.coeff_monomial(s**6))
-opposite_squared = squared.subs(in_bar).subs(G, I3 * omega)
+theta = ROTOR.q[0]
+with_mass, with_inertia = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 2 * K * R**2 / ell**2
+equal_rate = in_parameters(I3 * omega / (a + b))
+opposite_rate = in_parameters(I3 * omega / sp.sqrt(a**2 - b**2))
+prove(
+    (equal_rate, opposite_rate**2),
+    (omega * I3 / with_mass, omega**2 * I3**2 / (with_mass * with_inertia)),
+    "the natural frequency of equal spins, and the square of that of opposite spins",
+)
+
+# %%
 ratio = paired_frequency(3).expressions[0]
-curvature = sp.factor(sp.Poly(ratio, r0).coeff_monomial(r0**2))
+through_third = 1 - sigma * (k**2 * sigma - 3 * k**2 + 3) / (4 * k**2) * r0**2
+prove(ratio, through_third, "the rate of the paired precession over the natural frequency, through the third order")
 
-printed_rate = sp.Rational(7125, 10000) * omega * I3 / (sp.cos(theta) * (I1 + R**2 * M / 4))
-whole, twisting = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 2 * K * R**2 / ell**2
-
-statements = [
-    stated(
-        "6.01",
-        (
-            Relation(sp.Integer(5), sp.Integer(with_spins)),
-            Relation(sp.Integer(5 - 2), sp.Integer(without_spins)),
-            Relation(sp.Integer(2), sp.Integer(oscillations)),
-        ),
-        wrong="One mode oscillates, not two: toppling is a steady turning, and the third freedom is where the centre lies.",
-        quantities=(
-            r"\text{freedoms with the spins}",
-            r"\text{without}",
-            r"\text{oscillations}",
-            r"\det(s^2 M + s C)",
-        ),
-        correction=(
-            Relation(sp.Integer(5), sp.Integer(with_spins)),
-            Relation(sp.Integer(3), sp.Integer(without_spins)),
-            Relation(sp.Integer(1), sp.Integer(oscillations)),
-            Relation(2 * (a + b) * s**4 * ((a**2 - b**2) * s**2 + G**2), characteristic),
-        ),
-        depends_on=("5.09",),
-        evidence=(
-            f"5 - 2 = 3 is right: {with_spins} with the spins, {without_spins} without (rank of the constraints).",
-            f"Of the two modes printed {oscillations} oscillates; with the third freedom there are {modes} "
-            f"motions. det(s² M + s C) = "
-            f"{characteristic}: s² = -Omega_0² is the paired precession; of the {zeros} zero roots two are "
-            f"toppling, y_1 = y_2 growing at a constant rate ({topplings} chain of two), and two the centre of the "
-            "precession, a displacement in X and one in y_1 - y_2 that stay where a shock leaves them.",
-            f"The linear pair keeps the centre: {kept_X} and {kept_D} are constant (decided).",
-            "Small toppling is no oscillation: it has no restoring force, and comes round only as a full turn.",
-        ),
-    ),
-    stated(
-        "6.02",
-        (
-            Relation(printed_rate, equal),
-            Relation(printed_rate**2, opposite_squared * ratio.subs(r0, sp.sin(theta)) ** 2),
-        ),
-        wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos theta.",
-        quantities=(
-            r"\dot\phi\text{ (equal spins)}",
-            r"\Omega_0^2\text{ (opposite spins)}",
-            r"\Omega/\Omega_0\text{ (opposite spins)}",
-        ),
-        correction=(
-            Relation(omega * I3 / (sp.cos(theta) * whole), equal),
-            Relation(omega**2 * I3**2 / (whole * twisting), opposite_squared),
-            Relation(1 - r0**2 * sigma * (k**2 * sigma - 3 * k**2 + 3) / (4 * k**2), ratio, r0, 3),
-        ),
-        depends_on=("5.27", "5.28"),
-        evidence=(
-            f"Equal spins: {equal}, exact for parallel axes. Opposite spins: Omega_0² = {opposite_squared}, "
-            f"times (1 + ({curvature}) r_0²)² at amplitude r_0: not 1/cos theta, and not the same constant.",
-        ),
-    ),
-]
-Judged(statements)
+# %%
+at_theta = ratio.subs(r0, sp.sin(theta)).subs({k: ell / R, sigma: with_mass / with_inertia})
+verdict(
+    "6.02",
+    {
+        r"\dot\phi\text{ (equal spins)}": equal_rate / sp.cos(theta),
+        r"\dot\phi\text{ (opposite spins)}": opposite_rate * at_theta,
+        r"\Omega_0^2\text{ (opposite spins)}": opposite_rate**2,
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": ratio,
+    },
+    premises=[PAPERS_ROTOR, HEAVY_BAR, LIGHT_BAR_PREMISE],
+    correction={
+        r"\dot\phi\text{ (equal spins)}": omega * I3 / (sp.cos(theta) * with_mass),
+        r"\Omega_0^2\text{ (opposite spins)}": omega**2 * I3**2 / (with_mass * with_inertia),
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third,
+    },
+    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ.",
+    uses=["5.27", "5.28"],
+    evidence=["The line is 5.27's, now said of both kinds of pair; what is said there of each holds here."],
+)

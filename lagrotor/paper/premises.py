@@ -76,6 +76,12 @@ MASSLESS_BAR = massless_bar()
 EQUAL_INERTIAS = parameter_premise("the inertias about the ground joint are equal, J = I₃", {J: I3})
 BAR_AS_LONG_AS_ROTORS = parameter_premise("the bar is as long as the rotors, ℓ = R", {ell: R})
 UNIT_LENGTH = parameter_premise("lengths are measured in units of the rotor's, R = 1", {R: 1})
+PAPERS_ROTOR = parameter_premise(
+    "the rotor is the paper's, I₁ = I₃ = M = R = ℓ = 1", {I1: 1, I3: 1, M: 1, R: 1, ell: 1}
+)
+ONE_KILOGRAM_BAR = parameter_premise("the bar has a mass of 1 kg", {m: 1})
+HEAVY_BAR = parameter_premise("the bar is that of section 4.1, m = K = 1", {m: 1, K: 1})
+LIGHT_BAR_PREMISE = Premise("the bar is that of section 5.2.1, m = 0.01, K = 0.1", LIGHT_BAR)
 EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
 OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
 # What sections 5.2 and 6 call a mode (6.01 and claim C24): 1 where a motion of this kind counts as one, 0 where not.

@@ -7,6 +7,7 @@ import sympy as sp
 
 from lagrotor.pair.symbols import K, m
 from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.premises import ONE_KILOGRAM_BAR, PAPERS_ROTOR, in_parameters
 from lagrotor.report.content import Report, word
 
 
@@ -46,12 +47,12 @@ def headlines(report: Report) -> list[Headline]:
 def _constant(report: Report) -> Iterator[Headline]:
     verdict, claim = _verdict(report, "5.25"), _measured(report, "C21")
     if verdict and claim:
-        printed, derived = verdict.statement.relations[0].printed, verdict.statement.relations[0].derived
         closed = next(r.printed for r in verdict.statement.correction if r.printed.free_symbols & {m, K} == {m})
+        of_its_bar = ONE_KILOGRAM_BAR.on(PAPERS_ROTOR.on(in_parameters(closed)))
         yield Headline(
             "The fitted constant has a closed form",
             f"The paper finds {_FITTED} by trial and error (5.25). Derived, it is the closed form below: for its bar and "
-            f"equal spins {sp.Rational(_FITTED) * derived / printed} = {claim['J_over_J_plus_half_m']:.4f}. Exact runs "
+            f"equal spins {of_its_bar} = {claim['J_over_J_plus_half_m']:.4f}. Exact runs "
             f"have {claim['constant']:.4f} at its spins, {claim['constant_at_half_the_spins']:.4f} at half of them, "
             f"{claim['constant_bar_K_0.1']:.4f} with a bar of a tenth of the inertia, and "
             f"{claim['constant_light_bar']:.4f} with the light bar. The closed form, judged by the same rules: "

@@ -23,7 +23,7 @@ from lagrotor.commands import terminal
 from lagrotor.pictures import figures
 from lagrotor.report import content, page, reach, reproduce, results
 from lagrotor.report.interactive import interactive
-kept = {"s5_2e_bar_length", "s5_3_natural_rates", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
+kept = {"s5_2e_bar_length", "s5_3a_equal_spins", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
 names = scripts.names
 scripts.names = lambda kind, prefix="": [name for name in names(kind, prefix) if name in kept]
 interactive.interactive = lambda: '<section id="model"><h2>The model</h2></section>'
@@ -74,7 +74,7 @@ def test_what_hangs_on_the_hash_seed_is_seen(first: Path, tmp_path: Path) -> Non
 
 def test_durations_are_in_one_file(first: Path) -> None:
     times = json.loads((first / TIMES).read_text())
-    assert set(times["seconds"]) >= {"derivation s5_3_natural_rates", "claim C01", "figure 14", "report"}
+    assert set(times["seconds"]) >= {"derivation s5_3a_equal_spins", "claim C01", "figure 14", "report"}
     for name in ("verdicts.json", "claims.json"):
         assert all("seconds" not in entry for entry in json.loads((first / name).read_text()))
 

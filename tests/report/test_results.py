@@ -47,7 +47,7 @@ SAID = (
 
 @pytest.fixture(scope="module")
 def report() -> Report:
-    rates = {s.id: s for s in statements("s5_3_natural_rates")}
+    rates = {s.id: s for s in statements("s5_3a_equal_spins")}
     wrong = Statement("5.22", chain(M, R), correction=chain(M, M))
     claims = tuple(
         Result(

@@ -24,7 +24,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import Phi, omega, r0
+from lagrotor.pair.symbols import Phi, omega, r0, theta_0
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
@@ -145,10 +145,9 @@ def test_the_series_is_that_of_the_precession_orbit(order: int) -> None:
 @node
 def test_the_papers_formula_is_the_one_printed() -> None:
     at = np.column_stack([RANDOM.uniform(0, 0.5, 20), RANDOM.uniform(-10, 10, 20)])
-    sines, in_x = (
-        np.array(sp.lambdify([r0, Phi], [relation.printed for relation in printed(name).relations[:2]])(*at.T))
-        for name in ("5.20", "5.22")
-    )
+    squares, in_x = ([relation.printed for relation in printed(name).relations[:2]] for name in ("5.20", "5.22"))
+    sines = np.sqrt(sp.lambdify([theta_0, Phi], squares)(np.arcsin(at[:, 0]), at[:, 1]))
+    in_x = np.array(sp.lambdify([r0, Phi], in_x)(*at.T))
     found = np.reshape(called("paper", at.tolist()), (20, 2, 3))
     for i, azimuth in enumerate((at[:, 1], -at[:, 1])):
         inclined = [sines[i] * np.cos(azimuth), sines[i] * np.sin(azimuth), np.sqrt(1 - sines[i] ** 2)]
@@ -167,7 +166,7 @@ def test_the_papers_formula_is_the_derivations_expression() -> None:
     for expression, relation in zip((first - half, second + half), printed("5.22").relations, strict=False):
         assert decide_zero(expression - relation.printed).answer == "zero"
         assert decide_zero(expression + r0**2 - relation.printed).answer != "zero"
-    (stated,) = (s for s in statements("s5_3_natural_rates") if s.id == "5.28")
+    (stated,) = (s for s in statements("s5_3b_opposite_spins") if s.id == "5.28")
     rate = stated.relations[0].printed
     assert sp.diff(rate, omega).subs(dict.fromkeys(rate.free_symbols, 1)) == pytest.approx(0.57)
 
