@@ -15,7 +15,7 @@ import sympy as sp
 from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
-from lagrotor.paper.ansatz import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import norm
 from lagrotor.paper.notebook import Formula, Remark

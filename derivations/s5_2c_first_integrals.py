@@ -20,7 +20,7 @@ from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair.lagrangians import pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, I3, PAIR
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper.ansatz import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.ansatz_premises import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.ledger import verdict
 from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS, MASSLESS_BAR
 from lagrotor.paper.proof import prove

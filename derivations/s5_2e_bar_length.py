@@ -15,7 +15,8 @@ import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ANSATZ, PAIR, R, ell, r0, theta_0
-from lagrotor.paper.ansatz import AMPLITUDE, one_inclination, opposite_azimuths
+from lagrotor.paper.ansatz_premises import one_inclination, opposite_azimuths
+from lagrotor.paper.claims.precession_runs import PAPER_R0
 from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import norm
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH, Premise
@@ -78,11 +79,11 @@ for premise in assumed:
 prove(level, 1 + 4 * sp.sin(theta_0) ** 2 * sp.sin(phi) ** 2, "the square of the length at one inclination")
 
 # %%
-longest = float(sp.sqrt(1 + (2 * r0) ** 2).subs(r0, AMPLITUDE))
+longest = float(sp.sqrt(1 + (2 * r0) ** 2).subs(r0, PAPER_R0))
 verdict(
     "5.19",
     {"C^2(0)": C_squared, r"C^2(\pi/2)": C_squared, r"C(\pi/2)": norm(projected), r"C^2(\phi)": C_squared},
     premises=assumed,
     uses=["5.18"],
-    evidence=[f"At r₀ = {AMPLITUDE} the bar would have to stretch to {longest:.4f} of its length."],
+    evidence=[f"At r₀ = {PAPER_R0} the bar would have to stretch to {longest:.4f} of its length."],
 )

@@ -18,7 +18,7 @@ from lagrotor import Scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
-from lagrotor.paper.ansatz import AMPLITUDE
+from lagrotor.paper.claims.precession_runs import PAPER_R0
 from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Formula
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
@@ -74,7 +74,7 @@ prove(
 )
 
 # %%
-lengths = [float(sp.sqrt(length_squared.subs({r0: AMPLITUDE, Phi: angle}))) for angle in (0, sp.pi / 2)]
+lengths = [float(sp.sqrt(length_squared.subs({r0: PAPER_R0, Phi: angle}))) for angle in (0, sp.pi / 2)]
 verdict(
     "5.20",
     dict(zip((r"\sin^2\theta_1", r"\sin^2\theta_2"), squares, strict=True)),
@@ -84,7 +84,7 @@ verdict(
     uses=["5.19"],
     evidence=[
         f"With the printed correction the bar's length goes from {min(lengths):.4f} to {max(lengths):.4f} of what it is, at "
-        f"r₀ = {AMPLITUDE}.",
+        f"r₀ = {PAPER_R0}.",
         "No correction of the inclinations alone can keep the bar (5.11): the azimuths must move too (5.22).",
     ],
 )
@@ -159,7 +159,7 @@ rate_slope = measured_order(amplitudes, changes)
 slopes
 
 # %%
-at_paper = float(massless_frequency.subs(r0, AMPLITUDE))
+at_paper = float(massless_frequency.subs(r0, PAPER_R0))
 verdict(
     "5.21",
     {r"\dot\phi": varied, r"\Omega/\Omega_0": frequency},
@@ -171,7 +171,7 @@ verdict(
         "The printed product of derivatives should be their difference, which is zero: the last line follows by two errors "
         "that cancel. What it varies is an identity, not the rate.",
         f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
-        f"{rate_slope:.3f}; at r₀ = {AMPLITUDE} Ω/Ω₀ is {at_paper:.5f}.",
+        f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
     ],
 )
 

@@ -16,7 +16,13 @@ from lagrotor.pair import lagrangians
 from lagrotor.pair.symbols import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper import premises, proof, scripts
-from lagrotor.paper.ansatz import breach, no_bar_force, one_inclination, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.ansatz_premises import (
+    breach,
+    no_bar_force,
+    one_inclination,
+    opposite_azimuths,
+    opposite_spin_angles,
+)
 from lagrotor.paper.audit import statements
 from lagrotor.paper.ledger import Statement, Verdict, judge
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
@@ -135,10 +141,10 @@ def test_how_far_the_ansatz_is_from_the_exact_orbit(link: Link, spins: float) ->
     run = simulate(orbit.scene, np.linspace(0, 2 * np.pi / orbit.frequency, 401), "euler", 1e-10)
     turning = np.gradient(run.azimuths, run.t, axis=1)[:, 2:-2]
     spin = np.array([[10.0], [-10.0]]) - turning * np.cos(run.inclinations)[:, 2:-2]
-    found = breach(link.mass, link.inertia)
-    assert np.abs(spin.sum(0)).max() / 10 == pytest.approx(found.spins, rel=2e-3)
-    assert found.spins == pytest.approx(spins, abs=0.006)
-    assert f"{100 * found.spins:.0f} %" in opposite_spin_angles().broken
+    found = breach()["spin angles"][link.mass > 0]
+    assert np.abs(spin.sum(0)).max() / 10 == pytest.approx(found, rel=2e-3)
+    assert found == pytest.approx(spins, abs=0.006)
+    assert f"{100 * found:.0f} %" in opposite_spin_angles().broken
 
 
 def test_the_energy_of_a_rotor_from_its_rotation() -> None:

@@ -11,6 +11,7 @@ from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.symbols import G_1, G_2, a, b, k
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.premises import TWO_MODES
 from lagrotor.paper.readable import scientific
 from lagrotor.theory.natural_frequency import linear_pair, natural_rate
 
@@ -111,13 +112,6 @@ def measure_c24(spins: Spins) -> dict[str, float]:
     }
 
 
-# One sentence, one outcome: the condition of equation 6.01, in the same words.
-TWO_MODES = (
-    "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
-    "displacement of the precession centre, which rests, does not"
-)
-
-
 def decide_c24(m: Mapping[str, float]) -> Finding:
     """One steady turning, alike in y_1 and y_2 and none in x; one oscillation, alike in x and opposite in y; no more."""
     slopes = m["slope_ratio_y_2_to_y_1"] - 1, m["slope_x_over_slope_y"]
@@ -128,7 +122,7 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         (
             Part(TOPPLING, m["steady_turnings"] == 1 and max(map(abs, slopes)) < DIRECTION),
             Part(PRECESSION, m["oscillations"] == 1 and max(map(abs, waves)) < DIRECTION),
-            Part(TWO, complete and m["oscillations"] == 2, TWO_MODES if complete else ""),
+            Part(TWO, complete and m["oscillations"] == 2, TWO_MODES.says if complete else ""),
         ),
         f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
         f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}, and {m['zero_roots']:.0f} zero "
