@@ -2,12 +2,17 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import sympy as sp
+from numpy.typing import ArrayLike
 
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running import integration, simulation
+
+if TYPE_CHECKING:
+    from lagrotor.mechanics.running.integration import Array, Engine, Values
+    from lagrotor.mechanics.running.simulation import Run
 
 
 @dataclass(frozen=True)
@@ -35,5 +40,26 @@ class System(Equations):
     linearise = linear_modes.linearise
     same_as = sameness.same_as
     in_coordinates = sameness.in_coordinates
-    consistent = integration.consistent
-    simulate = simulation.simulate
+
+    def consistent(self, values: "Values", q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> "tuple[Array, Array]":
+        """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
+
+        Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
+        """
+        from lagrotor.mechanics.running import integration
+
+        return integration.consistent(self, values, q0, v0, t)
+
+    def simulate(
+        self,
+        values: "Values",
+        q0: ArrayLike,
+        v0: ArrayLike,
+        t: ArrayLike,
+        tol: float = 1e-9,
+        engine: "Engine" = "core",
+    ) -> "Run":
+        """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s: see `running.simulation`."""
+        from lagrotor.mechanics.running import simulation
+
+        return simulation.simulate(self, values, q0, v0, t, tol, engine)

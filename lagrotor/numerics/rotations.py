@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
 from lagrotor.errors import InputError
 
@@ -58,6 +57,8 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
     """
     if len(t) < 2 or times.min() < t[0] or times.max() > t[-1]:
         raise InputError("between_samples: the run needs two times at least, and holds no time outside them")
+    from scipy.interpolate import CubicHermiteSpline
+
     curve = CubicHermiteSpline(t, axes, rates, axis=1)
     r, v = curve(times), curve(times, 1)
     size = np.linalg.norm(r, axis=-1, keepdims=True)

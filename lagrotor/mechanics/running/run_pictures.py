@@ -2,23 +2,26 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import sympy as sp
 
-from lagrotor.drawing.film import frame_times
-from lagrotor.drawing.run_figure import RunFigure, coordinates_figure
-from lagrotor.drawing.skeleton import animate_lines
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.running.integration import Array
 from lagrotor.mechanics.running.motion import Motion
 
+if TYPE_CHECKING:
+    from lagrotor.drawing.run_figure import RunFigure
+
 Point = Sequence[sp.Expr]
 
 
-def plot(run: Motion) -> RunFigure:
+def plot(run: Motion) -> "RunFigure":
     """A figure of the coordinates, the change of the energy and, under constraints, their violation over time."""
+    from lagrotor.drawing.run_figure import coordinates_figure
+
     labels = {f"${sp.latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
     return coordinates_figure(run.t, labels, run.energy, run.drift)
 
@@ -28,6 +31,9 @@ def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = ()
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
     """
+    from lagrotor.drawing.film import frame_times
+    from lagrotor.drawing.skeleton import animate_lines
+
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     if lines:
         drawn = [np.stack([_vectors(frames, point) for point in line], 1) for line in lines]

@@ -6,7 +6,6 @@ from typing import TypeVar
 
 import numpy as np
 import sympy as sp
-from scipy.interpolate import CubicHermiteSpline
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.lagrangian import t
@@ -24,6 +23,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     Sought on a cubic interpolation between the samples, which must therefore resolve the motion; the times are found by
     Newton's method on states integrated to the run's tolerance. There may be none.
     """
+    from scipy.interpolate import CubicHermiteSpline
+
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     section, n = sp.sympify(section), run.q.shape[1]
