@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 
 Array = NDArray[np.float64]
+_ONE = np.eye(3)
 # v @ _LEVI_CIVITA is the cross product matrix of v, row by row.
 _LEVI_CIVITA = np.array(
     [[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], dtype=float
@@ -78,8 +79,8 @@ def _from_upright(axes: Array) -> Array:
 def turn_about(n: Array, angle: Array) -> Array:
     """Rotations by `angle` (…,) about unit vectors n (…, 3): 1 + sin [n]× + (1 − cos)(n nᵀ − 1), (…, 3, 3)."""
     angle = angle[..., None, None]
-    across = n[..., :, None] * n[..., None, :] - np.eye(3)
-    turned: Array = np.eye(3) + np.sin(angle) * cross_matrix(n) + 2 * np.sin(angle / 2) ** 2 * across
+    across = n[..., :, None] * n[..., None, :] - _ONE
+    turned: Array = _ONE + np.sin(angle) * cross_matrix(n) + 2 * np.sin(angle / 2) ** 2 * across
     return turned
 
 

@@ -44,6 +44,7 @@ END = "\\end{document}\n"
 _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
+    "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
     "§": r"$\mathsection$", "é": r"\'e", "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip

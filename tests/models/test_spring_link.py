@@ -18,7 +18,7 @@ from lagrotor.models.spring_link.rigid_body import (
     printed_rotation,
     rotation_between,
 )
-from lagrotor.models.spring_link.run import paper_system, run_solver, run_steps
+from lagrotor.models.spring_link.run import join_bar, paper_bodies, paper_system, run_solver, run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, link_force, printed_link_force, step_limit
 from lagrotor.numerics.rotations import cross_matrix
 
@@ -348,3 +348,20 @@ def test_a_step_beyond_the_limit_says_so():
     system = paper_system(MOVING, 1e4, 250)
     with pytest.raises(IntegrationError, match="longest stable step"):
         run_steps(system, None, np.arange(11) * 0.1, 5e-3)
+
+
+# --- total momenta
+
+
+def test_bodies_without_grounds_keep_their_momenta_and_a_ground_takes_them():
+    free = RigidBodySystem(paper_bodies(MOVING), 1e4, 0.0)
+    join_bar(free)
+    t = np.arange(0, 1.0, 0.05)
+    run = run_steps(free, None, t, 1e-3)
+    start = sum(body.mass * body.velocity for body in paper_bodies(MOVING))
+    assert np.abs(run.momentum - start).max() < 1e-12
+    assert np.ptp(run.angular_momentum, axis=0).max() < 1e-12  # springs alone are central
+    turning = sum(body.momentum + np.cross(body.centre, body.mass * body.velocity) for body in paper_bodies(MOVING))
+    assert run.angular_momentum[0] == pytest.approx(turning)
+    held = run_steps(paper_system(MOVING, 1e4, 0.0), None, t, 1e-3)
+    assert np.ptp(held.momentum, axis=0).max() > 0.1

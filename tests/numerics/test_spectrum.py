@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lagrotor.numerics.spectrum import peak, spectrum, turn_means
+from lagrotor.numerics.spectrum import mean_between, peak, spectrum, turn_means
 
 
 def test_the_peak_of_a_known_sine():
@@ -22,3 +22,12 @@ def test_the_turns_of_two_circles():
     assert np.diff(crossings) == pytest.approx(2 * np.pi / 5, abs=1e-4)
     assert np.abs(means - centres[:, None]).max() < 1e-4
     assert np.abs(means - means.mean()).max() > 0.1  # the twin: not one centre for all
+
+
+def test_the_mean_over_whole_turns_is_the_centre():
+    t = np.linspace(0, 10, 2001)
+    x = np.column_stack([0.3 + 0.2 * np.cos(5 * t), -0.1 + 0.2 * np.sin(5 * t)])
+    turn = 2 * np.pi / 5
+    assert mean_between(t, x, 1.0, 1.0 + 3 * turn) == pytest.approx([0.3, -0.1], abs=1e-4)
+    assert mean_between(t, x[:, 0], 1.0, 1.0 + 3 * turn) == pytest.approx(0.3, abs=1e-4)
+    assert mean_between(t, x[:, 0], 1.0, 1.0 + 3.3 * turn) != pytest.approx(0.3, abs=1e-3)  # the twin

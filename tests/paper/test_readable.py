@@ -2,7 +2,7 @@
 
 import pytest
 
-from lagrotor.paper.readable import readable
+from lagrotor.paper.readable import readable, scientific
 
 
 @pytest.mark.parametrize(
@@ -39,3 +39,11 @@ def test_formulas_are_set(typed: str, read: str) -> None:
 )
 def test_words_are_left_alone(text: str) -> None:
     assert readable(text) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "read"),
+    [(3e-14, 0, "3×10⁻¹⁴"), (-1.57e-162, 1, "−1.6×10⁻¹⁶²"), (2.5e10, 1, "2.5×10¹⁰"), (0, 0, "0"), (1.0, 0, "1×10⁰")],
+)
+def test_a_number_in_powers_of_ten(value: float, digits: int, read: str) -> None:
+    assert scientific(value, digits) == read

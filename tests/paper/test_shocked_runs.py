@@ -10,6 +10,8 @@ from lagrotor import Scene, Shock, simulate
 from lagrotor.errors import InputError
 from lagrotor.pair.examples import SCENES
 from lagrotor.paper.shocked_runs import (
+    after_shock,
+    angle_between,
     centre_numbers,
     centre_off,
     centre_runs,
@@ -17,6 +19,8 @@ from lagrotor.paper.shocked_runs import (
     pulse,
     rate_numbers,
     rate_runs,
+    shocked_scene,
+    turned_about_joint_line,
 )
 
 STRUCK = SCENES["same-spin-shock"].scene
@@ -63,3 +67,29 @@ def test_rates_are_read_off_the_curve_they_name():
     assert numbers["closed form, largest residual (m)"] < numbers["printed rate, largest residual (m)"] / 20
     swapped = rate_numbers(runs | {"printed": runs["corrected"], "corrected": runs["printed"]})  # the twin
     assert swapped["closed form, largest residual (m)"] == numbers["printed rate, largest residual (m)"]
+
+
+def test_a_run_after_its_shock_is_that_of_a_kick():
+    """Without spins a shock along the bar topples the pair in the x-z plane at P R/(2 (a + b))."""
+    scene = shocked_scene((0, 0), (20, 0, 0))
+    assert scene.shock and scene.shock.at == 10 * scene.shock.width
+    run = after_shock(scene, 2.0)
+    assert run.t[0] > scene.shock.at and run.t[-1] == pytest.approx(scene.shock.at + 2)
+    leaning = np.arctan2(run.axes[0, :, 0], run.axes[0, :, 2])
+    rate = scene.shock.impulse[0] / (2 * sum(scene.inertias))
+    assert np.diff(leaning) / np.diff(run.t) == pytest.approx(
+        rate, rel=1e-5
+    )  # it leans a little already during the pulse
+    assert turned_about_joint_line(run.axes) == pytest.approx(0, abs=1e-12)
+    assert angle_between(run.axes) == pytest.approx(0, abs=1e-8)
+    across = after_shock(shocked_scene((0, 0), (0, 20, 0)), 2.0)  # the twin
+    assert abs(turned_about_joint_line(across.axes)[-1]) > 0.3
+    assert angle_between(across.axes).max() > 0.01
+
+
+def test_angles_are_those_that_the_axes_were_given():
+    tilts = np.array([1e-9, 0.1, 0.7])
+    upright = np.broadcast_to([0.0, 0.0, 1.0], (3, 3))
+    across = np.column_stack([0 * tilts, -np.sin(tilts), np.cos(tilts)])
+    assert angle_between(np.array([upright, across])) == pytest.approx(tilts, rel=1e-9)
+    assert turned_about_joint_line(np.array([across, across])) == pytest.approx(tilts)

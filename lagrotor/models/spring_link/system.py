@@ -107,7 +107,7 @@ class RigidBodySystem:
         i, arm = self._end(body, vertex)
         given = finite_array(force, (3,), "push: force")
         self.F[i] += given
-        self.tau[i] += np.cross(self.R[i] @ arm, given)
+        self.tau[i] += cross_matrix(self.R[i] @ arm) @ given
 
     def angular_velocity(self) -> Array:
         """Omega = R I₀⁻¹ Rᵀ L, (n + 1, 3) in rad/s: 3.17 in the right frames, from the stored I₀⁻¹."""
@@ -158,8 +158,8 @@ class RigidBodySystem:
         """Arms of all ends from their centres (2 n_links, 3), gaps and gap rates (n_links, 3), in world components."""
         arm = (self.R[self._of] @ self._arm)[:, :, 0]
         velocity = self.U[self._of] + (cross_matrix(self.Omega)[self._of] @ arm[:, :, None])[:, :, 0]
-        n = len(arm) // 2
-        return arm, self.gaps(self.X, self.R), velocity[:n] - velocity[n:]
+        point, n = self.X[self._of] + arm, len(arm) // 2
+        return arm, point[:n] - point[n:], velocity[:n] - velocity[n:]
 
     def _join(self, first: tuple[int, Array], second: tuple[int, Array]) -> None:
         self._ends[0].append(first)

@@ -74,9 +74,9 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     needs = "equal spins with parallel axes" if abs(equal - OVER_COSINE) < HALF_UNIT else ""
     return Finding(
         (Part(COSINE, all(abs(c - OVER_COSINE) < HALF_UNIT for c in own), needs),),
-        f"The rate is the natural one times 1 + c θ̄², with θ̄ the average inclination; 1/cos θ has c = +0.5. Measured: "
+        f"The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5. Measured: "
         f"{own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change "
-        f"goes as θ̄ to the power {m['order_massless']:.2f}); for equal spins with parallel axes {equal:+.3f}. After a shock "
+        f"goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes {equal:+.3f}. After a shock "
         "along x from rest, which leaves the centres of precession twisted apart, c is "
         f"{shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
     )
