@@ -6,7 +6,7 @@
 # **Assumptions.** The bar of section 4.1 ($m = K = 1$), the shock of section 4.2: 50 N along x on tip 1, width 1/50 s.
 # The paper's two seconds of rest before it are left out but for ten widths.
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/parallel_pair.py`.
+# What is measured, and how it is decided: `lagrotor/paper/claims/parallel_pair.py`.
 
 # %%
 from lagrotor.paper.claims.parallel_pair import C01, C02
@@ -25,7 +25,7 @@ shocked_scene((10, 10), (50, 0, 0))
 C01
 
 # %% [markdown]
-# Beside it stands what (7) gives, $P_x R/(2G)$, and the paper's remark of section 5 that this motion is trivial because the
+# For comparison: what (7) gives, $P_x R/(2G)$, and the paper's remark of section 5 that this motion is trivial because the
 # axes are "necessarily aligned at all times". They are after a shock along the bar; after the same shock across the bar
 # on one tip they are not.
 #

@@ -6,7 +6,7 @@
 # **Assumptions.** Opposite spins ±10. A massless bar where the theory is meant, the bar of 5.2.1 ($m = 0.01$, $K = 0.1$)
 # where the simulation is. $r_0 = 0.204$ is the paper's amplitude (figure 21).
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/`: `freedoms_and_modes.py`, `ansatz.py`,
+# What is measured, and how it is decided: `lagrotor/paper/claims/`: `freedoms_and_modes.py`, `ansatz.py`,
 # `correction.py`.
 
 # %%
@@ -43,7 +43,7 @@ C15
 # The ansatz applied to the exact orbit: azimuths $\pm\phi$ with $\phi$ half the difference of the two, once with $\theta$
 # constant and once with the paper's correction. Printed: from 1 to $\sqrt{1 + 4r_0^2}$. The correction is of order $r_0^2$;
 # it removes the swing to that order if what is left goes with a higher power. With the other sign it doubles the swing. The
-# length that the link then keeps is another matter, and stands beside it.
+# length that the link then keeps is given beside it.
 
 # %%
 C16

@@ -6,7 +6,7 @@
 # **Assumptions.** Opposite spins ±10, the bar of 5.2.1 ($m = 0.01$, $K = 0.1$), the shock of the listing: 40 N along x and
 # −11 N along y, width 1/20 s. $r_0 = 0.204$ is the paper's amplitude (figure 21).
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/confirmation.py`.
+# What is measured, and how it is decided: `lagrotor/paper/claims/confirmation.py`.
 
 # %%
 from lagrotor.paper.claims.confirmation import C18, C19
@@ -31,7 +31,7 @@ C18
 #
 # Then the components along that line, and the formula with amplitude, rate, phase and one common shift fitted; the distance
 # of the centres as printed (5.22) or as corrected ($x_1 + r_0^2$, $x_2 - r_0^2$). What is left is the root of the mean square
-# over the amplitude; the same with the centres free, which compares shapes only. Beside them stands what a plain sine leaves
+# over the amplitude; the same with the centres free, which compares shapes only. They are compared with what a plain sine leaves
 # with its centres free, that is without the second harmonic, which is what the formula has to offer. The formula agrees where
 # it leaves less than the plain sine. Corrected it must also leave less than half of what the printed one does, or the
 # correction is not the cause.

@@ -8,7 +8,7 @@
 # bars it lists elsewhere are $m = K = 1$ (4.1) and $m = 0.01$, $K = 0.1$ (5.2.1); the first mass with the second inertia
 # is measured too. Natural rates are measured after a shock a hundred times smaller.
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/natural_rates.py` and `rate_and_inclination.py`.
+# What is measured, and how it is decided: `lagrotor/paper/claims/natural_rates.py` and `rate_and_inclination.py`.
 
 # %%
 from lagrotor import Scene, natural_rate
@@ -48,7 +48,7 @@ natural_rate(Scene((20, 20), link=HEAVY)) / natural_rate(Scene((20, 20), link=No
 # $10\cdot\frac45\cdot 0.7125 = 5.7$ (printed 0.57), for each bar that the paper lists and for the mixed one, after a
 # shock of 40 N and after a small one. "At least for the first few cycles": for three cycles or more the matched wave is
 # within a quarter of a cycle of the motion, beyond which its peaks fall on the other side of zero. The rate is that over
-# the first three cycles of the wave. A listed bar must do it; the mixed one stands beside them. Last the inertia that a
+# the first three cycles of the wave. A listed bar must do it; the mixed one is given for comparison. Last the inertia that a
 # bar of mass 1 would need: $G^2/((J + m/2)(J + 2K)) = 5.7^2$.
 
 # %%

@@ -7,7 +7,7 @@
 # pair, except where the paper's program is named. Fallen in x: $|x| > 0.5$, 30° from upright. The paper's run lasts 8 s
 # after the shock.
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/stability_in_x.py` and `twist_and_displacement.py`.
+# What is measured, and how it is decided: `lagrotor/paper/claims/stability_in_x.py` and `twist_and_displacement.py`.
 
 # %%
 from lagrotor.paper.claims.stability_in_x import C10, C11

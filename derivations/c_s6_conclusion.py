@@ -6,7 +6,7 @@
 # **Assumptions.** The bar of section 4.1; a shock of 0.5 N along x and 0.3 N along y, so small that its square does not
 # show.
 #
-# What is measured and how it is decided stands in `lagrotor/paper/claims/freedoms_and_modes.py`.
+# What is measured, and how it is decided: `lagrotor/paper/claims/freedoms_and_modes.py`.
 
 # %%
 from lagrotor.paper.claims.freedoms_and_modes import C24

@@ -59,7 +59,7 @@ _longest, _distance = measure().values()
 CAPTION = (
     f"Ansatz: constant inclination with sin theta_0 = r_0 = {R0}, phi_1 = −phi_2. Exact: the periodic orbit of the "
     f"minimal model found by shooting, opposite spins ±10 rad/s, massless bar, ell = R = 1 m, tolerance {TOL:g}, at "
-    f"the same phase. The ansatz asks for a bar of up to {_longest:.4f} m, and its tips lie up to {_distance:.3f} m "
+    f"the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips lie up to {_distance:.3f} m "
     "from the exact ones."
 )
 

@@ -22,7 +22,7 @@ Outcome = Literal["confirmed", "confirmed-if", "refuted"]
 class Part:
     """One part of a claim's sentence, in words, and whether the numbers bear it out.
 
-    only_if: where it does not hold as it stands, the condition under which it does; empty where there is none.
+    only_if: where it does not hold unconditionally, the condition under which it does; empty where there is none.
     """
 
     says: str

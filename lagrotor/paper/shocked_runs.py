@@ -14,8 +14,8 @@ from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
 
 Array = NDArray[np.float64]
-# The paper strikes at 2 s. Its shocks are over by the first of these (s), after which energies are read, and by the
-# second, the wider ones of section 5, after which spectra are.
+# The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
+# ones of section 5 by the second, after which spectra are.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 
 
@@ -63,7 +63,7 @@ def pulse(scene: Scene, t: Array) -> Array:
 
 
 def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
-    """Rotor 1 of the struck scene of `exact`, by the paper's method at t (n,) in s and by `exact` at its own times (k,).
+    """Rotor 1 of the shocked scene of `exact`, by the paper's method at t (n,) in s and by `exact` at its own times (k,).
 
     t; energy (n,) in J, force (n,) in N, centre (n, 3) in m; exact_energy (k,) and exact_centre (k, 3).
     """

@@ -1,4 +1,4 @@
-"""A struck scene by both methods: the pulse, the paper's program, and what is read off the runs."""
+"""A shocked scene by both methods: the pulse, the paper's program, and what is read off the runs."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ from lagrotor.paper.shocked_runs import (
     turned_about_joint_line,
 )
 
-STRUCK = SCENES["same-spin-shock"].scene
+SHOCKED = SCENES["same-spin-shock"].scene
 TIMES = np.arange(601) * 0.005
 
 
@@ -43,12 +43,12 @@ def test_without_a_shock_there_is_none():
 
 def test_the_papers_program_does_the_papers_work():
     """100 to about 100.45 J (section 4.2); left alone, 100 J throughout."""
-    assert paper_run(STRUCK, TIMES).paper_energy[-1] == pytest.approx(100.45, abs=0.01)
-    assert paper_run(replace(STRUCK, shock=None), TIMES).paper_energy[-1] == pytest.approx(100, abs=1e-9)
+    assert paper_run(SHOCKED, TIMES).paper_energy[-1] == pytest.approx(100.45, abs=0.01)
+    assert paper_run(replace(SHOCKED, shock=None), TIMES).paper_energy[-1] == pytest.approx(100, abs=1e-9)
 
 
 def test_the_centre_is_read_where_the_exact_run_ends():
-    exact = simulate(STRUCK, TIMES[:501])
+    exact = simulate(SHOCKED, TIMES[:501])
     runs = centre_runs(TIMES, exact)
     assert runs["exact_centre"][0] == pytest.approx([-0.5, 0, 0.5])
     assert np.abs(runs["centre"][:501] - runs["exact_centre"]).max() < 5e-3

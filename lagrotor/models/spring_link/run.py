@@ -18,7 +18,7 @@ from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.scene import Link, Scene, Shock
 
-TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 stands on the ground
+TIP = 2  # the vertex of a rotor that bears the bar and the shock; vertex 1 is at the ground
 LOST = 1e100  # a state as large as this has blown up; its energies are still finite
 
 
@@ -180,7 +180,7 @@ def run_solver(
         moving.X[:n], moving.U[:n], moving.L[:n] = X.reshape(n, 3), U.reshape(n, 3), L.reshape(n, 3)
         moving.R[:n] = R.reshape(n, 3, 3)
 
-    def rate(s: float, y: Array, acting: Shock | None) -> Array:
+    def rhs(s: float, y: Array, acting: Shock | None) -> Array:
         load(y)
         moving.Omega = moving.angular_velocity()
         moving.compute_forces()
@@ -189,18 +189,19 @@ def run_solver(
         return np.concatenate([part[:n].ravel() for part in parts])
 
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
-    asked = times - at
-    begin, end = -at, float(asked[-1])
+    since_peak = times - at
+    begin, end = -at, float(since_peak[-1])
     y = np.concatenate([part[:n].ravel() for part in (moving.X, moving.U, moving.L, moving.R)])
     states, evaluations = np.empty((len(times), len(y))), 0
-    states[asked == begin] = y
+    states[since_peak == begin] = y
     for left, right, pulsed in segments(begin, end, width):
         if right <= left:
             continue
         options: dict[str, Any] = {"max_step": width} if pulsed else {}
-        inside = (asked > left) & (asked <= right)
+        inside = (since_peak > left) & (since_peak <= right)
+        t_eval, acting = np.union1d(since_peak[inside], [right]), shock if pulsed else None
         found = solve_ivp(
-            rate, (left, right), y, method=method, args=(shock if pulsed else None,), t_eval=np.union1d(asked[inside], [right]),
+            rhs, (left, right), y, method=method, args=(acting,), t_eval=t_eval,
             rtol=max(error, 2.3e-14), atol=error, **options,
         )  # fmt: skip
         if not found.success or not np.isfinite(found.y).all():

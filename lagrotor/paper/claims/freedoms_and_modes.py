@@ -122,6 +122,7 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         (
             Part(TOPPLING, m["steady_turnings"] == 1 and max(map(abs, slopes)) < DIRECTION),
             Part(PRECESSION, m["oscillations"] == 1 and max(map(abs, waves)) < DIRECTION),
+            # One sentence, one outcome: the condition of equation 6.01.
             Part(TWO, complete and m["oscillations"] == 2, TWO_MODES.says if complete else ""),
         ),
         f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
