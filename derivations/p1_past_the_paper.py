@@ -9,7 +9,7 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.symbols import G_1, G_2, G, Omega, P, att, k, nu, p_y, r0, sigma
+from lagrotor.pair.symbols import G, Omega, P, att, k, nu, p_y, r0, sigma
 from lagrotor.paper import scripts
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.theory.drift_after_shock import cancelling_impulse
@@ -39,7 +39,7 @@ stability = equal(power**2, leading_square(r0, sigma, k))
 cancelling = equal(p_y, cancelling_impulse().expressions[0])
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])
-twist = equal(growth, t9["grown"].subs({G_1: G, G_2: G}).replace(sp.Heaviside, lambda *_: sp.Integer(1)))
+twist = equal(growth, t9["unstable"])
 sp.Tuple(frequency, series)
 
 # %% [markdown]

@@ -5,13 +5,11 @@ from math import inf, pi
 
 from lagrotor.errors import LagrotorError
 from lagrotor.models.closed_form import closed_form
-from lagrotor.models.linear import linear_error
+from lagrotor.models.linear import MARGIN, linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
-# The linear motion's error is foreseen to leading order: two per cent off where it is small.
-MARGIN = 1.5
 # An integrated run gathers more than its local errors: what is wanted over what the solver is asked for, for a motion that
 # the linear one resembles to SMALL, and for a wide one, whose neighbours part.
 NEAR, WIDE, SMALL = 10.0, 3e3, 0.01

@@ -25,10 +25,13 @@ from lagrotor.pair.scene import Scene, Shock
 from lagrotor.pair.symbols import G_1, G_2, a, b
 from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.shock_response import pulse_response
+from lagrotor.theory.shock_response import pulse_response, shock_response
 from lagrotor.theory.toppling import toppling_growth
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
+SAFETY = 1.1, 2.5  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02 and 1.93
+FARTHEST_OFF = 0.1  # estimated error of a shock's response beyond which its next order is no estimate
+MARGIN = 1.5  # of the error, estimated to leading order: two per cent off where it is small
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
 
@@ -166,6 +169,26 @@ def linear_error(scene: Scene, t_end: float) -> float:
     off = error @ linear.upright.T
     since = max(0.0, shock.at) if shock else 0.0
     return float(np.hypot(off[:, :1], off[:, 1:]).max()) * _spread(scene, float(np.ptp(states[:, 2])), t_end - since)
+
+
+def shock_response_error(scene: Scene, t_end: float) -> float:
+    """Error of `shock_response(scene).through` up to t_end (s): of (x, y) of either axis, in units of R.
+
+    The linear motion keeps the bar's length and the axes' in curved coordinates; its distance from the response in
+    (x, y_1, y_2) is known exactly, and its own error is about `linear_error`. SAFETY times both is taken; second order.
+    Raises InputError as `shock_response`, DomainError as `linear_error`, or where the error is beyond 0.1.
+    """
+    response = shock_response(scene)
+    t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))
+    axes, seen = linear_run(scene, t).axes, response.through(t)
+    off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
+    error = SAFETY[0] * float(np.linalg.norm(off, axis=-1).max()) + SAFETY[1] * linear_error(scene, t_end)
+    if not error <= FARTHEST_OFF:
+        raise DomainError(
+            f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {FARTHEST_OFF:g}: the response is "
+            "not small; take a smaller shock or a shorter time, or use model='minimal'"
+        )
+    return error
 
 
 def _spread(scene: Scene, angle: float, duration: float) -> float:

@@ -1,7 +1,7 @@
 """The slow motion after a shock, measured on exact runs: mean rates, the force that cancels a drift, times to leave.
 
-What oscillates is wiped out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: a term of n turns within
-it leaves about exp(−sqrt(4 pi n)) of itself.
+Oscillations are averaged out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: of one with n turns within
+it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the window besides, as the rate itself changes.
 """
 
 from collections.abc import Callable
@@ -22,12 +22,20 @@ _SAMPLES = 32  # a turn of the swing
 
 
 def mean_over(t: Array, values: Array) -> float:
-    """Mean of values (n,) at evenly spaced times t (n,), oscillations wiped out. Raises DomainError for n < 8."""
+    """Mean of values (n,) at evenly spaced times t (n,), oscillations averaged out. Raises DomainError for n < 8."""
     if len(t) < 8:
         raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
     u = (t[1:-1] - t[0]) / (t[-1] - t[0])
     weight = np.exp(-1 / (u * (1 - u)))
     return float((weight * values[1:-1]).sum() / weight.sum())
+
+
+def mean_error(values: Array, turns: float) -> float:
+    """What an oscillation of `turns` periods within the window can add to `mean_over`: 12 exp(−sqrt(4 pi turns)) of half the
+    range of the values. The run's own tolerance comes on top. Raises DomainError below 4 turns, where it is no bound."""
+    if turns < 4:
+        raise DomainError(f"mean_error: {turns:g} turns are too few to average over: take 4 or more")
+    return float(12 * np.exp(-np.sqrt(4 * np.pi * turns)) * np.ptp(values) / 2)
 
 
 def turning_rate(run: Trajectory) -> float:
@@ -50,13 +58,16 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
         raise InputError("run_after: the scene needs a shock and a spin")
-    begin = scene.shock.at + 6.5 * scene.shock.width
+    begin = scene.shock.end
     t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, turns * _SAMPLES + 1)
     return simulate(scene, t, "minimal", tol)
 
 
 def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
-    """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes."""
+    """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes.
+
+    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
+    """
     from scipy.optimize import newton
 
     if scene.shock is None:
@@ -71,7 +82,7 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
 
 
 def time_to_lean(scene: Scene, angle: float, longest: float) -> float:
-    """Time (s) from the shock's peak until the mean of both alpha reaches ± `angle` (rad), swings of alpha averaged out.
+    """Time (s) from the shock's peak until the mean of both alpha, averaged over six swings, reaches ± `angle` (rad).
 
     Raises DomainError when it does not within `longest` s.
     """
@@ -79,7 +90,7 @@ def time_to_lean(scene: Scene, angle: float, longest: float) -> float:
 
 
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
-    """Time (s) from the shock's peak until the mean of both x reaches ± `bound`, the swing averaged out.
+    """Time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
     Raises DomainError when it does not within `longest` s.
     """
@@ -91,7 +102,7 @@ def _first_time(scene: Scene, bound: float, longest: float, read: Callable[[Traj
     if scene.shock is None or response.frequency == 0:
         raise InputError("time_to_wander: the scene needs a shock and a spin")
     turn = 2 * np.pi / response.frequency
-    begin = scene.shock.at + 6.5 * scene.shock.width
+    begin = scene.shock.end
     t = np.arange(begin, begin + longest + 6 * turn, turn / _SAMPLES)
     values = read(simulate(scene, t, "minimal", 1e-9)).mean(0)
     u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)

@@ -128,15 +128,18 @@ def _form(
 
 
 def toppling_after_shock(scene: Scene) -> float:
-    """Second-order mean rate alpha' (rad/s) about the joint line after the scene's shock; opposite spins.
+    """Mean rate alpha' (rad/s) about the joint line just after the scene's shock, to second order; opposite spins.
 
-    Raises InputError as `shock_response` does, and unless the spins are opposite.
+    `toppling_error` gives its error. Raises InputError as `shock_response` does, and unless the spins are opposite.
     """
     return float(shock_toppling()(*_arguments(scene, "toppling_after_shock")))  # type: ignore[arg-type]
 
 
 def wander_after_shock(scene: Scene) -> float:
-    """Third-order mean rate of x (1/s, in units of R) after the scene's shock; opposite spins. Raises as above."""
+    """Mean rate of x (1/s, in units of R) just after the scene's shock, to third order; opposite spins.
+
+    `wander_error` gives its error. Raises as `toppling_after_shock`.
+    """
     sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
     first, *others = _arguments(scene, "wander_after_shock")
     # A shock on rotor 2 is the mirror image, x → −x, of one on rotor 1.
@@ -146,6 +149,7 @@ def wander_after_shock(scene: Scene) -> float:
 def cancelling_force(scene: Scene) -> float:
     """F_y (N) which, added to the scene's shock along x, leaves no mean turning about the joint line, to second order.
 
+    The force that does so on exact runs depends on how long one averages; `cancelling_force_error` bounds the distance.
     Raises InputError as `toppling_after_shock`, DomainError where no force does.
     """
     p_x, _, *others = _arguments(scene, "cancelling_force")

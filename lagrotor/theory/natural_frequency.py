@@ -6,11 +6,12 @@ from math import hypot, sqrt
 
 import sympy as sp
 
-from lagrotor.errors import InputError
+from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import LinearSystem
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.symbols import AXES, G_1, G_2, K, a, b, ell, m
+from lagrotor.theory.calibrated import FREQUENCY_SHIFT, LARGEST_SWING
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.single_rotor import free_precession_rate
 
@@ -46,7 +47,8 @@ def natural_frequency() -> ClosedForm:
 def natural_rate(scene: Scene) -> float:
     """Natural angular frequency (rad/s) of a scene: of the coupled pair, or of rotor 1 alone when there is no bar.
 
-    Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Source: 5.28, corrected.
+    Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Exact in the limit of small
+    motion; `natural_rate_error` gives the error at an amplitude. Source: 5.28, corrected.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"natural_rate: {scene!r} must be a Scene")
@@ -54,6 +56,25 @@ def natural_rate(scene: Scene) -> float:
     if scene.link is None:
         return abs(float(free_precession_rate()(0.0, first, scene.rotor.J)))  # type: ignore[arg-type]
     return float(natural_frequency()(*scene.inertias, first, second))  # type: ignore[arg-type]
+
+
+def natural_rate_error(scene: Scene, amplitude: float) -> float:
+    """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
+
+    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated`); one rotor
+    alone precesses at Omega_0 / cos theta exactly. The swing of opposite spins that turns about the joint line at nu is
+    shifted by −(a + b) nu/(k G) of Omega_0 besides. Raises DomainError unless 0 <= r <= 0.4.
+    """
+    rate = natural_rate(scene)
+    if not 0 <= amplitude <= LARGEST_SWING.value:
+        raise DomainError(
+            f"natural_rate_error: amplitude = {amplitude:g} must lie between 0 and {LARGEST_SWING.value:g}, the range that "
+            "was calibrated; use lagrotor.simulate, or precession_orbit for opposite spins"
+        )
+    if scene.link is None:
+        return rate * (1 / sqrt(1 - amplitude**2) - 1)
+    ratio = scene.link.length / scene.rotor.length
+    return FREQUENCY_SHIFT.value * (1 + 1 / ratio**2) * amplitude**2 * rate
 
 
 @dataclass(frozen=True)
