@@ -1,14 +1,25 @@
-"""Writing a file whole or not at all."""
+"""Files: written whole or not at all, and arrays that are checked before they are used."""
 
+import json
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from hashlib import sha256
 from pathlib import Path
 from typing import IO, Any
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.about import __version__
 from lagrotor.errors import InputError
 
 PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4")
+# Bytes of one array and of the description; larger ones are not read.
+_LARGEST, _LARGEST_ABOUT = 2**31, 2**20
+
+Arrays = dict[str, NDArray[Any]]
 
 
 def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
@@ -37,3 +48,59 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
 def write_text(target: Path, text: str) -> Path:
     """Write UTF-8 text whole or not at all."""
     return write_beside(target, lambda file: file.write(text.encode()))
+
+
+def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Path:
+    """Write arrays as .npz with a description: `about`, the version, and a digest of the whole, as JSON."""
+    described = {**about, "lagrotor": __version__}
+    described["digest"] = _digest(described, arrays)
+    return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(described), **arrays))
+
+
+def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
+    """The description and the arrays that `write_arrays` wrote; raise InputError where the file is not whole.
+
+    Sizes and types are checked in the headers before any array is read.
+    """
+    try:
+        with ZipFile(path) as held:
+            entries = {entry.filename.removesuffix(".npy"): entry for entry in held.infolist()}
+            if "about" not in entries:
+                raise InputError(f"{path}: it has no description: give a file that lagrotor wrote")
+            found = {name: _read_array(held, path, name, entry) for name, entry in entries.items()}
+        about = json.loads(str(found.pop("about")))
+        if not isinstance(about, dict) or about.pop("digest", None) != _digest(about, found):
+            raise InputError(f"{path}: its contents do not have the digest that it was written with: make it anew")
+    except InputError:
+        raise
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
+    except Exception as error:  # which one a damaged archive raises depends on the byte that was changed
+        raise InputError(f"{path}: it is damaged or no .npz file ({type(error).__name__}): make it anew") from None
+    return about, found
+
+
+def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> NDArray[Any]:
+    """One array, read once its header has been found to agree with its size."""
+    if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+        raise InputError(f"{path}: {name} is compressed in an unknown way: make it anew")
+    with held.open(entry) as file:
+        version = np.lib.format.read_magic(file)
+        if version != (1, 0):
+            raise InputError(f"{path}: the header of {name} has format {version}, not (1, 0): make it anew")
+        shape, fortran, dtype = np.lib.format.read_array_header_1_0(file)
+        if dtype.kind not in ("U" if name == "about" else "fi") or fortran:
+            raise InputError(f"{path}: {name} holds {dtype}, not plain numbers: make it anew")
+        size = int(np.prod(shape, dtype=object)) * dtype.itemsize
+        if size > (_LARGEST_ABOUT if name == "about" else _LARGEST) or size != entry.file_size - file.tell():
+            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not what it holds")
+        data = file.read(size)
+    return np.frombuffer(data, dtype).reshape(shape).copy()
+
+
+def _digest(about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:
+    whole = sha256(json.dumps(about, sort_keys=True).encode())
+    for name, values in sorted(arrays.items()):
+        whole.update(f"{name} {values.dtype.str} {values.shape}".encode())
+        whole.update(np.ascontiguousarray(values).tobytes())
+    return whole.hexdigest()

@@ -1,20 +1,17 @@
 """What a run leaves: the axes over time and everything read off them, the same for every model."""
 
-import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.about import __version__
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS, PICTURES, write_beside, write_text
+from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
@@ -23,6 +20,9 @@ if TYPE_CHECKING:
     from lagrotor.drawing.film import Motion
 
 Array = NDArray[np.float64]
+
+# How far the length of a stored axis may be off one: what the loosest tolerances leave.
+UNIT_ERROR = 1e-3
 
 UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "link_length": "m", "momenta": "kg m²/s"}
 
@@ -136,15 +136,14 @@ class Trajectory:
     def save(self, path: str | Path) -> Path:
         """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
 
-        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model and version. .csv: a
-        column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError for another ending.
+        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model, version and a digest of it
+        all. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError for another ending.
         """
         target = Path(path)
         if target.suffix == ".npz":
             arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
             about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
-            about["lagrotor"] = __version__
-            return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(about), **arrays))
+            return write_arrays(target, about, arrays)
         if target.suffix == ".csv":
             return write_text(target, self._columns())
         if target.suffix in PICTURES:
@@ -166,19 +165,41 @@ class Trajectory:
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
-        """The run that `save` wrote as `.npz`. Raises InputError where that is not what the file is."""
+        """The run that `save` wrote as `.npz`.
+
+        Raises InputError where that is not what the file is: not whole, or not a motion (times that do not increase, axes
+        that are no unit vectors, numbers that are not finite).
+        """
+        about, held = read_arrays(Path(path))
         try:
-            with np.load(Path(path)) as held:
-                about = json.loads(str(held["about"]))
-                t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
             given = about["scene"]
             parts = {"rotor": Rotor, "link": Link, "shock": Shock}
             given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
-            return Trajectory(
-                Scene(**given), about["model"], about["why"], t, axes, rates, momenta, about["evaluations"]
-            )
-        except (OSError, ValueError, KeyError, TypeError, BadZipFile) as error:
-            raise InputError(f"load: {path} is no run saved as .npz ({error})") from None
+            t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
+            scene, model, why, evaluations = Scene(**given), about["model"], about["why"], about["evaluations"]
+        except (KeyError, TypeError, AttributeError, ValueError) as error:
+            raise InputError(f"load: {path} is no run saved as .npz ({error}): give a file that `save` wrote") from None
+        wrong = _wrong(t, axes, rates, momenta)
+        if not (isinstance(model, str) and isinstance(why, str) and type(evaluations) is int and evaluations >= 0):
+            wrong = "its model or its number of evaluations is none"
+        if wrong:
+            raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
+        return Trajectory(scene, model, why, t, axes, rates, momenta, evaluations)
+
+
+def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
+    """What keeps these from being a motion, in words; None where nothing does."""
+    n = len(t) if t.ndim == 1 else 0
+    wanted = ((t, (n,)), (axes, (2, n, 3)), (rates, (2, n, 3)), (momenta, (2, n)))
+    if not n or any(part.shape != shape for part, shape in wanted):
+        return f"t {t.shape}, axes {axes.shape}, rates {rates.shape}, momenta {momenta.shape} do not fit together"
+    if not all(np.isfinite(part).all() for part, _ in wanted):
+        return "some of its numbers are not finite"
+    if (np.diff(t) <= 0).any():
+        return "its times do not increase"
+    if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > UNIT_ERROR:
+        return "its axes are no unit vectors"
+    return None
 
 
 def ansatz_A(run: Trajectory) -> Array:

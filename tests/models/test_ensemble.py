@@ -8,8 +8,10 @@ import pytest
 
 from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, SingularError
-from lagrotor.models import ensemble
-from lagrotor.models.ensemble import MODELS, run_chunk, started, sweep
+from lagrotor.files import read_arrays, write_arrays
+from lagrotor.models import chunk, ensemble
+from lagrotor.models.chunk import MODELS, run_chunk
+from lagrotor.models.ensemble import started, sweep
 from lagrotor.models.minimal import MODEL
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
@@ -82,7 +84,7 @@ def test_what_nothing_finishes_is_nan(monkeypatch):
     def stopped(*arguments):
         raise IntegrationError("it stops")
 
-    monkeypatch.setattr(ensemble, "simulate", stopped)
+    monkeypatch.setattr(chunk, "simulate", stopped)
     found = sweep([Scene((1.0, 1.0), link=None), *family(1)], [1.0])
     assert [MODELS[m] for m in found.models] == ["none", "minimal"]
     assert np.isnan(found.axes[0]).all()
@@ -197,12 +199,76 @@ def test_beside_a_singular_position_the_fallback_gives_all_it_has():
     assert np.abs(loose.axes - exact.axes).max() > max(10 * off, 1e-5)  # twin: the tolerance asked for would not do
 
 
-def test_a_damaged_chunk_is_run_again(tmp_path):
+def other_shape(name, change):
+    """The chunk with one array changed, its digest right for what it holds."""
+
+    def spoil(file):
+        about, held = read_arrays(file)
+        del about["lagrotor"]
+        write_arrays(file, about, held | {name: change(held[name])})
+
+    return spoil
+
+
+def one_nan(axes):
+    axes[0, 0, 0, 0] = np.nan
+    return axes
+
+
+DAMAGES = {
+    "no archive": lambda file: file.write_bytes(b"PK damaged"),
+    "empty": lambda file: file.write_bytes(b""),
+    "cut short": lambda file: file.write_bytes(file.read_bytes()[:-200]),
+    "without digest": lambda file: np.savez(file, axes=np.zeros((2, 2, 4, 3))),
+    "text": lambda file: np.savez(file, about="{}", axes=np.array([["a"]])),
+    "one row, which would broadcast": other_shape("axes", lambda a: a[:1]),
+    "fewer times": other_shape("rates", lambda a: a[:, :, :1]),
+    "a NaN": other_shape("axes", one_nan),
+    "no unit vectors": other_shape("axes", lambda a: 2 * a),
+    "a model that is none": other_shape("models", lambda a: a + 7),
+    "evaluations below zero": other_shape("evaluations", lambda a: a - 10**9),
+    "evaluations that are no whole numbers": other_shape("evaluations", lambda a: a + 0.5),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_chunk_is_run_again(tmp_path, damage):
     scenes = family(4)
     whole = sweep(scenes, T, chunk=2, folder=tmp_path)
-    (tmp_path / "chunk-000001.npz").write_bytes(b"PK damaged")
+    file, good = tmp_path / "chunk-000001.npz", (tmp_path / "chunk-000001.npz").read_bytes()
+    DAMAGES[damage](file)
     again = sweep(scenes, T, chunk=2, folder=tmp_path)
-    np.testing.assert_array_equal(again.axes, whole.axes)
+    for name in ("axes", "rates", "evaluations", "models"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))
+    assert read_arrays(file)[0] == read_arrays(tmp_path / "chunk-000000.npz")[0] | {"chunk": 1}
+    assert len(file.read_bytes()) == len(good)
+
+
+def test_a_chunk_of_another_sweep_or_place_is_no_result(tmp_path):
+    (tmp_path / "a").mkdir(), (tmp_path / "b").mkdir()
+    first = sweep(family(4), T, chunk=2, folder=tmp_path / "a")
+    sweep(family(4, Scene((9.0, -9.0))), T, chunk=2, folder=tmp_path / "b")
+    (tmp_path / "a" / "chunk-000001.npz").replace(tmp_path / "b" / "chunk-000001.npz")
+    with pytest.raises(InputError, match=r"chunk-000001\.npz belongs to another sweep"):
+        sweep(family(4, Scene((9.0, -9.0))), T, chunk=2, folder=tmp_path / "b")
+    # Another place of the same sweep: it is run again.
+    (tmp_path / "a" / "chunk-000001.npz").write_bytes((tmp_path / "a" / "chunk-000000.npz").read_bytes())
+    np.testing.assert_array_equal(sweep(family(4), T, chunk=2, folder=tmp_path / "a").axes, first.axes)
+
+
+@pytest.mark.parametrize("more", [{"tol": 1e-7}, {"chunk": 3}, {"t": [0.0, 0.4, 1.0, 2.6]}])
+def test_a_sweep_with_other_arguments_does_not_take_the_chunks(tmp_path, more):
+    sweep(family(4), T, 1e-6, chunk=2, folder=tmp_path)
+    given = {"t": T, "tol": 1e-6, "chunk": 2} | more
+    with pytest.raises(InputError, match="another sweep"):
+        sweep(family(4), folder=tmp_path, **given)
+
+
+def test_what_nothing_finished_is_kept_as_such(tmp_path, monkeypatch):
+    falling = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05))
+    found = sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path)
+    monkeypatch.setattr(ensemble, "run_chunk", None)  # it is not run again
+    assert sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path).failed.tolist() == found.failed.tolist() == [0]
 
 
 def test_one_scene_is_no_sequence_of_scenes():

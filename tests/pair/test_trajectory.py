@@ -1,14 +1,19 @@
 """What a run leaves: observables against rigid bodies, and files that are whole or not there."""
 
 import csv
+import random
+import struct
+import zipfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import InputError
-from lagrotor.files import write_beside, write_text
+from lagrotor.files import read_arrays, write_arrays, write_beside, write_text
 from lagrotor.pair.trajectory import UNITS, Trajectory
 
 TIMES = np.linspace(0, 2, 21)
@@ -172,9 +177,109 @@ def test_a_saved_run_is_read_back_with_its_scene(run: Trajectory, tmp_path: Path
 
 def test_what_is_no_saved_run_is_refused(run: Trajectory, tmp_path: Path) -> None:
     np.savez(tmp_path / "other.npz", t=run.t)
-    for path in (run.save(tmp_path / "run.csv"), tmp_path / "other.npz", tmp_path / "none.npz"):
-        with pytest.raises(InputError, match=r"is no run saved as \.npz"):
+    np.savez(tmp_path / "plain.npz", about="{}", t=run.t)
+    (tmp_path / "empty.npz").touch()
+    write_arrays(tmp_path / "chunk.npz", {"sweep": "a chunk's"}, {"axes": run.axes})
+    paths = [
+        run.save(tmp_path / "run.csv"),
+        *(tmp_path / f"{name}.npz" for name in ("other", "plain", "empty", "chunk")),
+    ]
+    for path in (*paths, tmp_path / "none.npz", tmp_path):
+        with pytest.raises(InputError, match=rf"{path.name}(:| is no run)"):
             Trajectory.load(path)
+
+
+def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Trajectory, target: Path) -> Path:
+    """A file of the run with its description and arrays changed, the digest right for what it holds."""
+    about, held = read_arrays(run.save(target))
+    del about["lagrotor"]
+    change(about, held)
+    return write_arrays(target, about, held)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda about, held: held.update(axes=np.ones(5)), "do not fit together"),
+        (lambda about, held: held.update(axes=held["axes"][:, :-1]), "do not fit together"),
+        (lambda about, held: held.update(t=held["t"][:, None]), "do not fit together"),
+        (lambda about, held: held.update(t=np.float64(1.0) * np.ones(())), "do not fit together"),
+        (lambda about, held: held.update(t=held["t"][::-1]), "times do not increase"),
+        (lambda about, held: held.update(rates=held["rates"] * np.nan), "not finite"),
+        (lambda about, held: held.update(momenta=held["momenta"] * np.inf), "not finite"),
+        (lambda about, held: held.update(axes=held["axes"] * 1.01), "no unit vectors"),
+        (lambda about, held: about.update(evaluations=-1), "number of evaluations"),
+        (lambda about, held: about.update(model=None), "its model"),
+        (lambda about, held: about.update(scene=[1, 2]), "no run saved"),
+        (lambda about, held: about["scene"].update(spins=[1]), "no run saved"),
+        (lambda about, held: about["scene"]["rotor"].update(mass="heavy"), "no run saved"),
+        (lambda about, held: about["scene"].update(colour="red"), "no run saved"),
+        (lambda about, held: held.pop("momenta"), "no run saved"),
+    ],
+)
+def test_a_file_that_holds_no_motion_is_refused(
+    change: Callable[[dict[str, Any], dict[str, Any]], object], reason: str, run: Trajectory, tmp_path: Path
+) -> None:
+    assert Trajectory.load(spoiled(lambda about, held: None, run, tmp_path / "run.npz")).scene == run.scene
+    with pytest.raises(InputError, match=reason):
+        Trajectory.load(spoiled(change, run, tmp_path / "run.npz"))
+
+
+def archive(target: Path, header: str, data: bytes, about: str = "{}") -> Path:
+    """An .npz of one array `t` with this header, whatever it declares."""
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, text, content in (
+            (
+                "about.npy",
+                f"{{'descr': '<U{len(about)}', 'fortran_order': False, 'shape': ()}}",
+                about.encode("utf-32-le"),
+            ),
+            ("t.npy", header, data),
+        ):
+            line = text.encode() + b"\n"
+            file.writestr(name, b"\x93NUMPY\x01\x00" + struct.pack("<H", len(line)) + line + content)
+    return target
+
+
+@pytest.mark.parametrize(
+    ("header", "data", "about"),
+    [
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (3000000000000,)}", bytes(80), "{}"),  # 22 TiB
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (-8,)}", bytes(80), "{}"),
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(72), "{}"),
+        ("{'descr': '|O', 'fortran_order': False, 'shape': (10,)}", b"cos\nsystem\n(S'true'\ntR.", "{}"),
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)", bytes(80), "{}"),
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), "[" * 100_000),
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), "[1]"),
+        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), '{"digest": "0"}'),
+    ],
+)
+def test_what_a_header_declares_is_not_trusted(header: str, data: bytes, about: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"run\.npz: .*: (make it anew|give a file)|declares|not plain numbers"):
+        Trajectory.load(archive(tmp_path / "run.npz", header, data, about))
+
+
+def test_a_changed_or_missing_byte_is_seen_or_changes_nothing(run: Trajectory, tmp_path: Path) -> None:
+    """Flips and cuts at random places, seed fixed: an InputError with the file's name, or the very same run."""
+    short = simulate(SCENE, TIMES[:4], "spheres", 1e-6)
+    good = short.save(tmp_path / "run.npz").read_bytes()
+    generator, refused = random.Random(5), list[str]()
+    for _ in range(600):
+        changed = bytearray(good)
+        for _ in range(generator.choice((1, 1, 2, 8))):
+            changed[generator.randrange(len(good))] ^= 1 << generator.randrange(8)
+        cut = generator.randrange(len(good)) if generator.random() < 0.2 else len(good)
+        (tmp_path / "run.npz").write_bytes(bytes(changed[:cut]))
+        try:
+            found = Trajectory.load(tmp_path / "run.npz")
+        except InputError as error:
+            refused.append(str(error))
+        else:
+            assert found.scene == short.scene and found.why == short.why
+            assert all(
+                (getattr(found, name) == getattr(short, name)).all() for name in ("t", "axes", "rates", "momenta")
+            )
+    assert len(refused) > 400 and all("run.npz" in message for message in refused)
 
 
 @pytest.mark.parametrize(
