@@ -114,6 +114,10 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     motion = euler_lagrange(system.L, c) - system.push
     if moving := [str(q) for q, v in zip(c.q, c.v, strict=True) if q in used and still[v] != 0]:
         raise InputError(f"linearise: {', '.join(moving)} moves there and enters the equations: give it no velocity")
+    if system.rolling and any(still[v] != 0 for v in c.v):
+        raise InputError(
+            "linearise: a steady motion under rolling constraints is not linearised here: simulate near it"
+        )
     if any(decide_zero(sp.diff(e, t)).answer != "zero" for e in (*motion, *system.residual)):
         raise InputError("linearise: the motion depends on time explicitly: there is no equilibrium; simulate it")
     force = _value(motion, still, c.q)

@@ -1,0 +1,108 @@
+# %% [markdown]
+# # Double and triple pendulum
+#
+# **Objective.** The equations of two and of three masses below each other, the frequencies of their small motion, and how
+# fast neighbours part in a large one.
+#
+# **Assumptions.** Equal points of mass $m$ on equal rods of length $l$ without mass, in a plane; gravity $g$.
+#
+# **Notation.** $q_i$ the angle of rod $i$ against the one above, $\theta_i=q_1+\dots+q_i$ against the vertical.
+
+# %%
+import numpy as np
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from lagrotor.mechanics import Frame, System, coordinates
+from lagrotor.paper.proof import prove
+
+m, l, g = sp.symbols("m l g", positive=True)
+
+
+def pendulum(n: int) -> System:
+    c = coordinates([f"q_{i + 1}" for i in range(n)])
+    frame, L = Frame(c), 0
+    for angle in c.q:
+        frame = frame.turned("y", angle)
+        bob = frame.body(m, centre=(0, 0, -l))
+        L, frame = L + bob.kinetic - bob.potential((0, 0, -g)), frame.moved(0, 0, -l)
+    return System(c, L)
+
+
+# %% [markdown]
+# ## Two rods
+#
+# In the angles against the vertical it is the Lagrangian of Landau & Lifshitz, §5, problem 1.
+
+# %%
+double, angles = pendulum(2), coordinates("theta_1 theta_2")
+(a, b), (a_v, b_v) = angles.q, angles.v
+absolute = double.in_coordinates(angles, dict(zip(double.c.q, (a, b - a), strict=True)))
+kinetic = m * l**2 * (2 * a_v**2 + b_v**2 + 2 * a_v * b_v * sp.cos(a - b)) / 2
+prove(absolute.L, kinetic + m * g * l * (2 * sp.cos(a) + sp.cos(b)), "the Lagrangian of two rods", names="L")
+
+# %%
+s = sp.Symbol("s")
+small = absolute.linearise({a: 0, b: 0})
+prove(
+    small.characteristic(s) / small.mass.det(),
+    (s**2 + (2 + sp.sqrt(2)) * g / l) * (s**2 + (2 - sp.sqrt(2)) * g / l),
+    "two frequencies, $\\omega^2=(2\\pm\\sqrt2)\\,g/l$",
+    names=r"\det(s^2M+K)/\det M",
+)
+
+# %% [markdown]
+# ## Three rods: the frequencies are the roots of a cubic, in units of $g/l$ those of the Laguerre polynomial $L_3$
+
+# %%
+triple = pendulum(3)
+hanging = triple.linearise(dict.fromkeys(triple.c.q, 0))
+polynomial = hanging.characteristic(s) / hanging.mass.det() * (l / g) ** 3
+prove(polynomial, 6 * sp.laguerre(3, -(s**2) * l / g), "the cubic of three rods")
+
+# %% [markdown]
+# ## Against the textbook's equations in the angles to the vertical, integrated by themselves
+
+# %%
+values, times = {m: 1.0, l: 0.7, g: 9.81}, np.linspace(0, 4, 101)
+twin = {l: 0.701}
+
+
+def textbook(_: float, y: np.ndarray) -> np.ndarray:
+    theta, rate = np.split(y, 2)
+    n = len(theta)
+    below = n - np.maximum.outer(np.arange(n), np.arange(n))
+    apart = theta[:, None] - theta[None, :]
+    force = -(below * np.sin(apart)) @ rate**2 - np.diag(below) * 9.81 / 0.7 * np.sin(theta)
+    return np.concatenate([rate, np.linalg.solve(below * np.cos(apart), force)])
+
+
+def difference(given: dict) -> float:
+    """The largest difference of an angle, both systems."""
+    found = []
+    for system, start in ((double, (0.5, 0.3)), (triple, (0.5, 0.3, -0.2))):
+        run = system.simulate(given, start, np.zeros(len(start)), times, tol=1e-12)
+        y = np.concatenate([np.cumsum(start), np.zeros(len(start))])
+        other = solve_ivp(textbook, (0, 4), y, "DOP853", times, rtol=1e-13, atol=1e-13).y.T
+        found.append(np.abs(np.cumsum(run.q, axis=1) - other[:, : len(start)]).max())
+    return float(max(found))
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %% [markdown]
+# ## How fast neighbours part
+#
+# The largest Lyapunov exponent of a wide swing is above zero by many times its error.
+
+# %%
+wide = double.simulate(values, (2.0, 0.5), (0, 0), np.linspace(0, 60, 601), tol=1e-9)
+chaos = wide.lyapunov()
+assert chaos.exponent > 4 * chaos.error
+chaos.exponent, chaos.error
+
+# %%
+picture = wide.plot()
+picture

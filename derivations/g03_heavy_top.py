@@ -1,0 +1,99 @@
+# %% [markdown]
+# # A heavy symmetric top
+#
+# **Objective.** Its Lagrangian, its effective potential, steady precession, the threshold above which it sleeps upright, and
+# its nutation.
+#
+# **Assumptions.** A body with inertias $I_1, I_1, I_3$ about its centre, the distance $l$ from a fixed tip.
+#
+# **Notation.** $\varphi,\theta,\psi$ Euler's angles, $J=I_1+ml^2$, $p_\varphi, p_\psi$ the momenta.
+
+# %%
+import numpy as np
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from lagrotor.mechanics import Frame, System, coordinates
+from lagrotor.paper.proof import prove
+
+I1, I3, m, g, l = sp.symbols("I_1 I_3 m g l", positive=True)
+c = coordinates("phi theta psi")
+(phi, theta, psi), (phi_v, theta_v, psi_v) = c.q, c.v
+body = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+top = System(c, body.kinetic - m * g * l * sp.cos(theta))
+J = I1 + m * l**2
+
+# %% [markdown]
+# ## The Lagrangian (Goldstein, §5.7)
+
+# %%
+turning = J * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2 + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2
+prove(top.L, turning - m * g * l * sp.cos(theta), "the Lagrangian of the body is the textbook's", names="L")
+
+# %%
+assert top.cyclic == (phi, psi)
+reduced = top.routh("phi psi")
+p_phi, p_psi, p = sp.symbols("p_phi p_psi p", real=True)
+effective = (p_phi - p_psi * sp.cos(theta)) ** 2 / (2 * J * sp.sin(theta) ** 2) + p_psi**2 / (2 * I3)
+prove(reduced.L, J * theta_v**2 / 2 - effective - m * g * l * sp.cos(theta), "the Routhian", names="R")
+
+# %% [markdown]
+# ## Steady precession
+#
+# At any inclination there are two values of $p_\varphi$, where $p_\psi^2 \ge 4 J m g l\cos\theta$:
+
+# %%
+steady = reduced.equilibria("p_phi")
+assert len(steady) == 2 and steady[0].domain == (p_psi**2 - sp.expand(4 * J * m * g * l * sp.cos(theta)) >= 0,)
+slow_plus_fast = steady[0].at[p_phi] + steady[1].at[p_phi]
+prove(
+    slow_plus_fast, p_psi * (1 + sp.cos(theta) ** 2) / sp.cos(theta), "the sum of both", names=r"p_\varphi+p_\varphi'"
+)
+
+# %% [markdown]
+# ## The sleeping top
+#
+# Upright both momenta are equal, and $\theta=0$ is stable if $p^2 > 4 J m g l$:
+
+# %%
+upright = top.routh({"phi": p, "psi": p}).linearise({theta: 0})
+threshold = upright.stable_if.lhs
+prove(threshold, p**2 - 4 * J * m * g * l, "the sleeping top's threshold", names=r"p^2-p_{\min}^2")
+
+# %% [markdown]
+# ## Against Euler's equations of the body and its rotation matrix, integrated by themselves
+
+# %%
+values = {I1: 0.2, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}
+times, twin = np.linspace(0, 4, 401), {I3: 0.501}
+
+
+def euler(_: float, y: np.ndarray) -> np.ndarray:
+    Q, w, inertia = y[:9].reshape(3, 3), y[9:], np.array([0.56, 0.56, 0.5])
+    torque = np.cross([0, 0, 0.6], -9.81 * Q[2])
+    spun = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+    return np.concatenate([(Q @ spun).ravel(), (torque - np.cross(w, inertia * w)) / inertia])
+
+
+def difference(given: dict) -> float:
+    """The largest distance of the ends of the two axes, of length one."""
+    run = top.simulate(given, (0, 0.5, 0), (0, 0, 12), times, tol=1e-12)
+    c_, s_ = np.cos(0.5), np.sin(0.5)
+    start = np.array([[1, 0, 0], [0, c_, -s_], [0, s_, c_]])
+    other = solve_ivp(euler, (0, 4), [*start.ravel(), 0, 0, 12], "DOP853", times, rtol=1e-13, atol=1e-13).y
+    axis = np.stack([run.evaluate(e) for e in body.frame.place((0, 0, 1))])
+    return float(np.abs(axis - other[[2, 5, 8]]).max())
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %% [markdown]
+# ## Nutation: the inclination swings between two turning points
+
+# %%
+run = top.simulate(values, (0, 0.5, 0), (0, 0, 12), times)
+turns = run.crossings(theta_v)
+picture = run.plot()
+picture

@@ -1,0 +1,72 @@
+# %% [markdown]
+# # Foucault's pendulum
+#
+# **Objective.** The turning of the plane of swing, exactly, in the frame of the ground at the latitude $\lambda$.
+#
+# **Assumptions.** Small swings: the bob moves in the horizontal plane under the force $-m(g/l)(x, y)$. The ground turns
+# about its vertical at $\Omega\sin\lambda$; the centrifugal force is kept.
+#
+# **Notation.** $x, y$ on the ground, $n=\Omega\sin\lambda$.
+
+# %%
+import numpy as np
+import sympy as sp
+
+from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.paper.proof import prove
+
+m, l, g, Omega, latitude = sp.symbols("m l g Omega lambda", positive=True)
+n = Omega * sp.sin(latitude)
+c = coordinates("x y")
+(x, y), (x_v, y_v) = c.q, c.v
+bob = Frame(c).turned("z", n * t).moved(x, y).body(m)
+pendulum = System(c, bob.kinetic - m * g * (x**2 + y**2) / (2 * l))
+
+# %% [markdown]
+# ## Coriolis' force is in the kinetic energy
+
+# %%
+turning = m * (x_v**2 + y_v**2) / 2 + m * n * (x * y_v - y * x_v) + m * n**2 * (x**2 + y**2) / 2
+prove(pendulum.L, turning - m * g * (x**2 + y**2) / (2 * l), "seen from the ground", names="L")
+
+# %% [markdown]
+# ## Two circular motions
+#
+# The frequencies are $\sqrt{g/l}\pm n$: the characteristic polynomial is $(s^2 + (\omega_0+n)^2)(s^2+(\omega_0-n)^2)$. Their
+# difference $2n$ turns the plane of swing at the rate $-\Omega\sin\lambda$.
+
+# %%
+s, w0 = sp.Symbol("s"), sp.sqrt(g / l)
+small = pendulum.linearise({x: 0, y: 0})
+both = sp.expand((s**2 + (w0 + n) ** 2) * (s**2 + (w0 - n) ** 2))
+prove(small.characteristic(s) / m**2, both, "two circular motions", names=r"\det(s^2M+sC+K)/m^2")
+
+# %%
+spin = pendulum.noether((-y, x)).expression
+prove(spin, m * (x * y_v - y * x_v) + m * n * (x**2 + y**2), "the angular momentum in space", names="p")
+
+# %% [markdown]
+# ## Against the closed solution
+#
+# An ellipse in space: $\zeta = x+iy = e^{-int}\,(\zeta_0\cos\omega_0 t + (\dot\zeta_0+in\zeta_0)\sin(\omega_0t)/\omega_0)$.
+
+# %%
+values = {m: 28.0, l: 67.0, g: 9.81, Omega: 0.02, latitude: 0.85}
+times, twin = np.linspace(0, 120, 601), {Omega: 0.0201}
+
+
+def difference(given: dict) -> float:
+    """The largest distance of the two, m."""
+    run = pendulum.simulate(given, (3.0, 0), (0, 0), times, tol=1e-12)
+    rate, frequency = 0.02 * np.sin(0.85), np.sqrt(9.81 / 67)
+    in_space = 3 * np.cos(frequency * times) + 3j * rate * np.sin(frequency * times) / frequency
+    return float(np.abs(run.q[:, 0] + 1j * run.q[:, 1] - np.exp(-1j * rate * times) * in_space).max())
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %%
+picture = pendulum.simulate(values, (3.0, 0), (0, 0), times).plot()
+picture

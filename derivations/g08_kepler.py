@@ -1,0 +1,83 @@
+# %% [markdown]
+# # Kepler's problem
+#
+# **Objective.** Angular momentum and the Laplace–Runge–Lenz vector in Cartesian coordinates, decided; the ellipse they give.
+#
+# **Assumptions.** A mass $m$ attracted by $-k/r$ from a fixed centre, in a plane.
+#
+# **Notation.** $r=\sqrt{x^2+y^2}$, $\ell$ the angular momentum, $A=(A_x, A_y)$ the Laplace–Runge–Lenz vector.
+
+# %%
+import numpy as np
+import sympy as sp
+
+from lagrotor.mechanics import Frame, System, accelerations, coordinates, total_derivative
+from lagrotor.paper.proof import prove
+
+m, k = sp.symbols("m k", positive=True)
+c = coordinates("x y")
+(x, y), (x_v, y_v) = c.q, c.v
+r = sp.sqrt(x**2 + y**2)
+planet = Frame(c).moved(x, y).body(m)
+kepler = System(c, planet.kinetic + k / r)
+
+# %% [markdown]
+# ## Two symmetries
+#
+# Turning the plane gives the angular momentum. The other one moves no point by itself: the field depends on the velocity,
+# $\xi = m\,(-y\dot y,\; 2x\dot y-\dot x y)$, and changes $L$ by the time derivative of a gauge function (Lévy-Leblond 1971).
+
+# %%
+spin = kepler.noether((-y, x)).expression
+prove(spin, m * (x * y_v - y * x_v), "turning the plane", names=r"\ell")
+
+# %%
+A = m * y_v * spin - m * k * x / r, -m * x_v * spin - m * k * y / r
+field = m * (x * y_v - y * x_v) * sp.Matrix([0, 1]) + m * y_v * sp.Matrix([-y, x])
+along_y = kepler.noether(list(field), gauge=m**2 * y_v * (x * y_v - y * x_v) + m * k * x / r)
+prove(along_y.expression, A[0], "the Laplace–Runge–Lenz vector by Noether", names="A_x")
+
+# %% [markdown]
+# ## Conserved, as the equations of motion have it, and what it says
+#
+# $|A|^2 = m^2k^2 + 2mE\ell^2$, and $A\cdot r = \ell^2 - mkr$: the orbit $r = \ell^2/(mk + |A|\cos\varphi)$, an ellipse for $E<0$.
+
+# %%
+moved = dict(zip(c.a, accelerations(kepler.L, c), strict=True))
+prove([total_derivative(e, c).subs(moved) for e in A], (0, 0), "the vector stays", names=(r"\dot A_x", r"\dot A_y"))
+
+# %%
+assert all(kepler.conserved(e).answer == "zero" for e in (*A, spin, kepler.energy))
+assert kepler.conserved(A[0] + k * x).answer == "nonzero"
+prove(A[0] ** 2 + A[1] ** 2, m**2 * k**2 + 2 * m * kepler.energy * spin**2, "its length", names="|A|^2")
+
+# %%
+prove(A[0] * x + A[1] * y, spin**2 - m * k * r, "the equation of the orbit", names=r"A\cdot r")
+
+# %% [markdown]
+# ## Against Kepler's equation, $t\,n = u - e\sin u$
+
+# %%
+values, times, twin = {m: 2.0, k: 2.0}, np.linspace(0, 20, 201), {k: 2.001}
+eccentricity = 0.6
+
+
+def difference(given: dict) -> float:
+    """The largest distance of the two, for a semi-major axis of one."""
+    run = kepler.simulate(
+        given, (1 - eccentricity, 0), (0, np.sqrt((1 + eccentricity) / (1 - eccentricity))), times, 1e-12
+    )
+    u = times.copy()
+    for _ in range(60):
+        u -= (u - eccentricity * np.sin(u) - times) / (1 - eccentricity * np.cos(u))
+    other = np.stack([np.cos(u) - eccentricity, np.sqrt(1 - eccentricity**2) * np.sin(u)], 1)
+    return float(np.abs(run.q - other).max())
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %%
+picture = kepler.simulate(values, (1 - eccentricity, 0), (0, 2.0), times).plot()
+picture

@@ -1,0 +1,91 @@
+# %% [markdown]
+# # A gyroscope in gimbals
+#
+# **Objective.** The Lagrangian of rotor, inner and outer gimbal, the frequency of its nutation, and the walk of the outer
+# gimbal that a finite nutation causes.
+#
+# **Assumptions.** All centres of mass at the centre; no friction.
+#
+# **Notation.** $\alpha$ turns the outer gimbal about $z$, $\beta$ the inner about its $x$, $\gamma$ the rotor about its own axis
+# $y$; at $\beta=0$ the three axes are at right angles. $H$ the rotor's axial momentum.
+
+# %%
+import numpy as np
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from lagrotor.mechanics import Frame, System, coordinates
+from lagrotor.paper.proof import prove
+
+Ao, A, Bi, Ci, I1, I3 = sp.symbols("A_o A_i B_i C_i I_1 I_3", positive=True)
+H = sp.Symbol("H", real=True)
+c = coordinates("alpha beta gamma")
+(alpha, beta, gamma), (alpha_v, beta_v, gamma_v) = c.q, c.v
+outer = Frame(c).turned("z", alpha)
+inner = outer.turned("x", beta)
+rotor = inner.turned("y", gamma).body(1, (I1, I3, I1))
+gimbals = System(c, outer.body(1, (0, 0, Ao)).kinetic + inner.body(1, (Bi, Ci, A)).kinetic + rotor.kinetic)
+
+# %% [markdown]
+# ## The Lagrangian (Arnold & Maunder, Gyrodynamics, ch. 6)
+
+# %%
+about = Ao + (A + I1) * sp.cos(beta) ** 2 + Ci * sp.sin(beta) ** 2
+textbook = (about * alpha_v**2 + (Bi + I1) * beta_v**2 + I3 * (gamma_v + alpha_v * sp.sin(beta)) ** 2) / 2
+prove(gimbals.L, textbook, "three bodies", names="L")
+
+# %% [markdown]
+# ## Nutation
+#
+# With the axial momentum $H=I_3(\dot\gamma+\dot\alpha\sin\beta)$ the two gimbals swing at $H/\sqrt{(A_o+A_i+I_1)(B_i+I_1)}$.
+
+# %%
+assert gimbals.cyclic == (alpha, gamma)
+reduced = gimbals.routh({"gamma": H})
+nutation = reduced.linearise({alpha: 0, beta: 0})
+s = sp.Symbol("s")
+frequency = H**2 / ((Ao + A + I1) * (Bi + I1))
+prove(
+    nutation.characteristic(s) / nutation.mass.det(),
+    s**2 * (s**2 + frequency),
+    "nutation",
+    names=r"\det(s^2M+sC)/\det M",
+)
+
+# %% [markdown]
+# ## Against the two momenta put into the equation of $\beta$ by hand
+
+# %%
+values = {Ao: 0.3, A: 0.1, Bi: 0.2, Ci: 0.15, I1: 0.4, I3: 0.6}
+times, twin = np.linspace(0, 5, 301), {Ci: 0.16}
+
+
+def by_hand(_: float, y: np.ndarray) -> list[float]:
+    """y = (alpha, beta, beta'); H = 6, the outer momentum p = 0.3."""
+    sine, cosine = np.sin(y[1]), np.cos(y[1])
+    inertia = 0.3 + 0.5 * cosine**2 + 0.15 * sine**2
+    rate = (0.3 + 6 * np.sin(0.4) - 6 * sine) / inertia
+    return [rate, y[2], ((0.15 - 0.5) * sine * cosine * rate**2 + 6 * cosine * rate) / 0.6]
+
+
+def difference(given: dict) -> float:
+    """The largest difference of the gimbals' angles."""
+    inertia = 0.3 + 0.5 * np.cos(0.4) ** 2 + 0.15 * np.sin(0.4) ** 2
+    rate = 0.3 / inertia
+    run = gimbals.simulate(given, (0, 0.4, 0), (rate, 0, 10 - rate * np.sin(0.4)), times, tol=1e-12)
+    other = solve_ivp(by_hand, (0, 5), [0, 0.4, 0], "DOP853", times, rtol=1e-13, atol=1e-13).y[:2].T
+    return float(np.abs(run.q[:, :2] - other).max())
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %% [markdown]
+# ## The gimbals' walk: about a mean inclination that is not zero the outer gimbal drifts
+
+# %%
+run = gimbals.simulate(values, (0, 0.4, 0), (0.5, 0, 10), np.linspace(0, 20, 801))
+turned_by = float(run.q[-1, 0])
+picture = run.plot()
+picture
