@@ -176,17 +176,18 @@ def run_solver(
     moving, n = deepcopy(system), len(system.vertices)
 
     def load(y: Array) -> None:
-        X, U, L, R = np.split(y, [3 * n, 6 * n, 9 * n])
-        moving.X[:n], moving.U[:n], moving.L[:n] = X.reshape(n, 3), U.reshape(n, 3), L.reshape(n, 3)
-        moving.R[:n] = R.reshape(n, 3, 3)
+        moving.X[:n], moving.U[:n], moving.L[:n] = y[: 9 * n].reshape(3, n, 3)
+        moving.R[:n] = y[9 * n :].reshape(n, 3, 3)
 
     def rhs(s: float, y: Array, acting: Shock | None) -> Array:
         load(y)
         moving.Omega = moving.angular_velocity()
         moving.compute_forces()
         _shake(moving, acting, s)
-        parts = moving.U, moving.F * moving.inverse_mass, moving.tau, cross_matrix(moving.Omega) @ moving.R
-        return np.concatenate([part[:n].ravel() for part in parts])
+        changes = np.empty_like(y)
+        changes[: 9 * n].reshape(3, n, 3)[:] = moving.U[:n], moving.F[:n] * moving.inverse_mass[:n], moving.tau[:n]
+        changes[9 * n :] = (cross_matrix(moving.Omega[:n]) @ moving.R[:n]).ravel()
+        return changes
 
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     since_peak = times - at
