@@ -1,165 +1,196 @@
 # %% [markdown]
-# # The parallel pair's bar (2.12, 2.13)
+# # Can the bar keep the axes parallel?
 #
-# **Objective.** The rate that the parallel pair's premises give, then the premise itself: for which spins can a bar
-# between two points keep the axes parallel at all, and how do they drift when it does not?
+# **Objective.** The paper's first theory takes both axes to be parallel. The exact pair, linearised about rest, shows for
+# which spins and forces a bar can keep them so, and how they drift where it cannot.
 #
-# **Assumptions.** No gravity, ideal joints, small angles from rest: the exact pair linearised. A force acts on the tip of
-# rotor 1. The paper's $I$ is the axial inertia, so that $G_i = I\omega_i$.
+# **Assumptions.** No gravity, ideal joints, small tilts from rest. A force acts on the tip of rotor 1. Nothing is assumed of
+# the spins or of the bar.
 #
-# **Notation.** $r_i = (x_i, y_i, 1)$; $\varepsilon$: the size of what is linearised; $a$, $b$: inertias of the axes with
-# their share of the bar.
+# **Notation.** $r_i = (x_i, y_i, 1)$ the axes; $a$, $b$ the inertias of the axes with their share of the bar;
+# $G_i = I_3\omega_i$; $\varepsilon$ the size of what is linearised.
 
 # %%
 import sympy as sp
 
-from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, I, Omega, R, a, b, k, omega, omega_1, omega_2, t
-from lagrotor.paper import scripts
-from lagrotor.paper.ledger import chain
-from lagrotor.paper.legacy import stated
-from lagrotor.paper.notebook import Formula, Judged
+from lagrotor.pair.symbols import AXES, G_1, G_2, I3, Omega, R, a, b, k, omega_1, omega_2, t
+from lagrotor.paper.letters import vector
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.proof import Formula, prove
 
 eps = sp.Symbol("epsilon", positive=True)
-premises = scripts.run("derivations", "s2a_parallel_pair")
-F, r, w = (premises[name] for name in ("F", "r", "w"))  # w: the axes' rate by (3) and (4), solved there
+F = vector("F")
 
 # %% [markdown]
-# ## Can the bar keep the axes parallel?
+# ## Linear equations
 #
-# The exact pair linearised about rest, $r_i = (x_i, y_i, 1)$: the bar ties $x_1 = x_2 = X$ and pulls along $x$ only.
-# The force acts on the tip of rotor 1. What is left is
-# $2(a+b)X'' = -G_1y_1' - G_2y_2' + RF_x$, $\;ay_1''+by_2'' = G_1X' + RF_y$, $\;ay_2''+by_1'' = G_2X'$.
+# Lagrange's equations of the exact pair with multipliers $\lambda_1$, $\lambda_2$ (unit lengths) and $N$ (the bar), each
+# scaled by $\varepsilon$ about rest, where every tilt and every force is small.
 
 # %%
 system = axes_pair()
 pull = sp.Matrix(sp.symbols("lambda_1 lambda_2 N", real=True))
 tip_force = sp.Matrix([F[0], F[1], 0, 0, 0, 0]) * R
 balance = euler_lagrange(system.L, AXES) - system.push - system.rows.T * pull - tip_force
+
 x1, y1, z1, x2, y2, z2 = AXES.q
 upright = {z1: 1, z2: 1, **dict.fromkeys((AXES.v[2], AXES.v[5], AXES.a[2], AXES.a[5]), 0)}
 tilts = [s for row in (AXES.q, AXES.v, AXES.a) for s in row if s not in upright]
 scaled = upright | {s: eps * s for s in [*tilts, *pull, F[0], F[1]]}
-linear = balance.subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
-tie = system.constraints[2].subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
-assert decide_zero(tie - k * (x2 - x1)).answer == "zero"
+
+
+def linearised(expression):
+    """The part of first order in the tilts and the forces."""
+    return expression.subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
+
+
+linear = linearised(balance)
+prove(linearised(system.constraints[2]), k * (x2 - x1), "the bar's length, to first order: both tips have the same x")
+
+# %% [markdown]
+# With the common tilt $X = x_1 = x_2$, whose two equations are added so that the bar's pull $N$ drops out, three equations
+# remain.
+
+# %%
 X, X_v, X_a = sp.symbols("X X_dot X_ddot", real=True)
 common = {x1: X, x2: X, AXES.v[0]: X_v, AXES.v[3]: X_v, AXES.a[0]: X_a, AXES.a[3]: X_a}
 y1_v, y2_v, y1_a, y2_a = AXES.v[1], AXES.v[4], AXES.a[1], AXES.a[4]
-reduced = sp.Matrix([linear[0] + linear[3], linear[1], linear[4]]).subs(common)  # the pull N drops out of the sum
-expected = (
-    2 * (a + b) * X_a + G_1 * y1_v + G_2 * y2_v - R * F[0],
-    a * y1_a + b * y2_a - G_1 * X_v - R * F[1],
-    a * y2_a + b * y1_a - G_2 * X_v,
+reduced = tuple(e.subs(common) for e in (linear[0] + linear[3], linear[1], linear[4]))
+prove(
+    reduced,
+    (
+        2 * (a + b) * X_a + G_1 * y1_v + G_2 * y2_v - R * F[0],
+        a * y1_a + b * y2_a - G_1 * X_v - R * F[1],
+        a * y2_a + b * y1_a - G_2 * X_v,
+    ),
+    "the equations of motion along the bar and across it, each equal to zero",
 )
-assert decide_equal(reduced, sp.Matrix(expected)).answer == "zero"
-
-# With y_1 = y_2 the last two equations differ by what a force across the bar would have to supply.
-twisting = sp.expand((reduced[2] - reduced[1]).subs({y2_v: y1_v, y2_a: y1_a}))
-assert decide_zero(twisting - (G_1 - G_2) * X_v - R * F[1]).answer == "zero"
-Formula(sp.Eq(twisting, 0))
 
 # %% [markdown]
-# ## Linear response to a force on one tip, any two spins
+# ## Parallel axes
 #
-# The last two equations integrate to $A y' = G X + R F_y t\,e_1$, $A = \begin{pmatrix}a&b\\b&a\end{pmatrix}$; the first
-# is then an oscillator of frequency $\Omega^2 = D/(2(a+b)(a^2-b^2))$, $D = a(G_1^2+G_2^2) - 2bG_1G_2$, about a drift
-# linear in time. The same with an impulse $P$ at $t = 0$.
+# Were the axes parallel, $y_1 = y_2$, the last two equations would differ by what no force along the bar can supply. From
+# rest the axes therefore stay parallel only if the spins are equal and the force acts along the bar.
 
 # %%
-A = sp.Matrix([[a, b], [b, a]])
-G = sp.Matrix([G_1, G_2])
-D = a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
-X_0, X_1 = sp.symbols("X_0 X_1", real=True)
-y_rates = A.adjugate() / A.det() * (G * (X_0 + X_1 * t) + sp.Matrix([R * F[1] * t, 0]))
-held = sp.Poly(sp.together(-G.dot(y_rates) + R * F[0]).as_numer_denom()[0], t).all_coeffs()
-drift = sp.solve(held, [X_0, X_1], dict=True)[0]
-y_drift = (y_rates.subs(drift)).applyfunc(sp.cancel)
-spins = {G_1: I * omega_1, G_2: I * omega_2}
-mean_drift = sp.Matrix([drift[X_1], (y_drift[0] + y_drift[1]) / 2]).subs(spins)
-corrected_x = -R * (a * G_1 - b * G_2) * F[1] / D
-corrected_y = R * (a - b) * (G_1 + G_2) * F[0] / (2 * D) + R * G_2 * (G_2 - G_1) * F[1] * t / (2 * D)
-corrected_drift = sp.Matrix([corrected_x, corrected_y]).subs(spins)
-
-# After an impulse P: X and y_i in closed form; checked against the linear equations for any inertia of X.
-P_x, P_y = sp.symbols("P_x P_y", real=True)
-inertia_X = sp.Symbol("m_X", positive=True)  # 2 (a + b)
-X_c = -R * P_y * (a * G_1 - b * G_2) / D
-X_response = X_c * (1 - sp.cos(Omega * t)) + R * P_x / (inertia_X * Omega) * sp.sin(Omega * t)
-X_area = X_c * (t - sp.sin(Omega * t) / Omega) + R * P_x / (inertia_X * Omega**2) * (1 - sp.cos(Omega * t))
-y_response = sp.Matrix(
-    [(a * G_1 - b * G_2) * X_area + a * R * P_y * t, (a * G_2 - b * G_1) * X_area - b * R * P_y * t]
-) / (a**2 - b**2)
-Omega_squared = D / (2 * (a + b) * (a**2 - b**2))
-in_Omega = {inertia_X: D / ((a**2 - b**2) * Omega**2)}
-free = (
-    inertia_X * X_response.diff(t, 2) + G.dot(y_response.diff(t)),
-    *(A * y_response.diff(t, 2) - G * X_response.diff(t)),
-    *(A * y_response.diff(t) - sp.Matrix([R * P_y, 0])).subs(t, 0),
-    (inertia_X * X_response.diff(t) - R * P_x).subs(t, 0),
-)
-assert all(decide_zero(e.subs(in_Omega)).answer == "zero" for e in free)
-impulse_response = tuple(e.subs(inertia_X, 2 * (a + b)) for e in (X_response, *y_response))
-sp.Eq(Omega**2, Omega_squared)
+twisting = (reduced[2] - reduced[1]).subs({y2_v: y1_v, y2_a: y1_a})
+prove(twisting, (G_1 - G_2) * X_v + R * F[1], "what must vanish for the axes to stay parallel")
 
 # %% [markdown]
-# ## What the paper prints
+# ## Drift under a steady force
+#
+# From rest the last two equations integrate to $A\,\dot y = G X + (R F_y t, 0)$ with $A = \begin{pmatrix}a&b\\b&a\end{pmatrix}$.
+# The drift is the solution without nutation, $X = X_0 + X_1 t$:
 
 # %%
-lever = R * sp.Matrix([0, 0, 1])
-printed_drift = lever.cross(F)[:2, :] / ((omega_1 + omega_2) * I)
-printed_half = lever.cross(F / 2)[:2, :] / (omega * I)
-equal = {omega_1: omega, omega_2: omega}
-own_drift = [sp.Matrix([drift[X_1], rate]).subs(spins).subs(equal) for rate in y_drift]
+X_0, X_1 = sp.symbols("X_0 X_1", real=True)
+once = {y1_a: y1_v, y2_a: y2_v, X_v: X_0 + X_1 * t, F[1]: F[1] * t}
+turning = sp.solve([e.subs(once, simultaneous=True) for e in reduced[1:]], [y1_v, y2_v], dict=True)[0]
+y_rates = sp.Matrix([turning[y1_v], turning[y2_v]])
+inertia, G = sp.Matrix([[a, b], [b, a]]), sp.Matrix([G_1, G_2])
+prove(inertia * y_rates, G * (X_0 + X_1 * t) + sp.Matrix([R * F[1] * t, 0]), "the integrated equations across the bar")
+
+# %% [markdown]
+# The equation along the bar holds at all times for one choice of $X_0$ and $X_1$.
+
+# %%
+along_bar = sp.Poly(sp.together(reduced[0].subs(X_a, 0).subs(turning)).as_numer_denom()[0], t).all_coeffs()
+drift = sp.solve(along_bar, [X_0, X_1], dict=True)[0]
+y_drift = y_rates.subs(drift).applyfunc(sp.cancel)
+D = a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
+prove(drift[X_1], -R * (a * G_1 - b * G_2) * F[1] / D, "the common drift along the bar")
+
+# %% [markdown]
+# Across the bar the two axes drift by themselves; their mean is
+
+# %%
+mean_drift_y = R * (a - b) * (G_1 + G_2) * F[0] / (2 * D) + R * G_2 * (G_2 - G_1) * F[1] * t / (2 * D)
+prove((y_drift[0] + y_drift[1]) / 2, mean_drift_y, "the drift of the mean axis across the bar")
+
+# %% [markdown]
+# With $G_i = I_3\omega_i$ these are the drifts of the two axes as vectors, for any spins, any bar and any force.
+
+# %%
+written_out = {G_1: I3 * omega_1, G_2: I3 * omega_2}
+drift_1, drift_2 = (sp.Matrix([drift[X_1], rate, 0]).subs(written_out) for rate in y_drift)
+mean_drift = (drift_1 + drift_2) / 2
+Formula(sp.Matrix([drift_1[1], drift_2[1]]), r"\langle(\dot y_1, \dot y_2)\rangle")
+
+# %% [markdown]
+# Under a force along a massless bar the shares of the force are as the squares of the spins, not as the spins:
+
+# %%
+shares = (G_1 * y_drift[0] / (G_2 * y_drift[1])).subs({b: 0, F[1]: 0})
+prove(shares, G_1**2 / G_2**2, "the torque on rotor 1 over that on rotor 2")
+
+# %% [markdown]
+# The paper's rate (2.12) for such a force is $F_xR/(I(\omega_1 + \omega_2))$. The mean axis drifts less:
 
 
-def off(ratio: sp.Rational) -> sp.Expr:
+# %%
+def off(ratio: sp.Expr) -> sp.Expr:
     """Mean drift over the paper's, for a force along a massless bar and omega_2 = ratio omega_1."""
-    exact, printed = (e[1].diff(F[0]).subs({b: 0, omega_2: ratio * omega_1}) for e in (mean_drift, printed_drift))
-    return sp.cancel(exact / printed)
+    paper = R / (I3 * (omega_1 + omega_2))
+    return sp.cancel((mean_drift[1].diff(F[0]) / paper).subs({b: 0, omega_2: ratio * omega_1}))
 
 
-halved, third = sp.Rational(1, 2), sp.Rational(1, 3)
-table = ", ".join(f"{float(off(ratio)):.3g} at {ratio}" for ratio in (sp.S.One, halved, third, sp.S.Zero, -halved))
-opposite = [sp.cancel(e.diff(F[0]).subs(spins).subs({b: 0, omega_2: -omega_1})) for e in y_drift]
-shares = sp.factor((G_1 * y_drift[0] / (G_2 * y_drift[1])).subs({b: 0, F[1]: 0}))
+rho = sp.Symbol("rho", real=True)
+prove(off(rho), (1 + rho) ** 2 / (2 * (1 + rho**2)), "the drift of the mean axis over the paper's, ρ = ω₂/ω₁")
 
-statements = [
-    stated(
-        "2.12",
-        (*chain(w, r.cross(F) / ((omega_1 + omega_2) * I)), *chain(mean_drift, printed_drift)),
-        given={omega_2: omega_1},
-        condition="drift of the mean axis of the linearised pair under a steady force on one tip",
-        correction=chain(mean_drift, corrected_drift),
-        depends_on=("2.11", "2.04", "2.05"),
-        evidence=(
-            "From the premises it follows for any spins. The premise of parallel axes does not: they stay parallel "
-            f"only if {sp.factor(twisting)} = 0, since the bar pulls along itself alone; at rest that is along x. "
-            "A force along the bar leaves them parallel if omega_1 = omega_2, a force across it on one tip, "
-            "from rest, never: for equal spins the mean axis still follows (7), while the axes twist apart.",
-            f"Mean drift under a steady force along a massless bar, over the paper's, by omega_2/omega_1: {table}. "
-            f"The bar shares the force as {shares}, squares of the spins, not as the spins.",
-            f"After an impulse the pair rings about the drift at Omega^2 = {Omega_squared}.",
-            f"For omega_2 = -omega_1 the paper's rate has no bound; the axes drift at {opposite[0]} and {opposite[1]} "
-            "per unit of force.",
-        ),
-        steps=(
-            "linearise the pair about rest: x_1 = x_2 = X",
-            "integrate the y equations; X = X_0 + X_1 t is the drift, Omega the nutation about it",
-        ),
-    ),
-    stated(
-        "2.13",
-        tuple(r for each in own_drift for r in chain(each, printed_half, printed_drift.subs(equal))),
-        given={F[1]: sp.Integer(0)},
-        condition="force along the bar; drift of each axis of the linearised pair",
-        depends_on=("2.12",),
-        evidence=(
-            "Each axis by itself drifts so for a force along the bar, which is shared in halves. A force across it "
-            f"on one tip twists the pair: y_1' - y_2' grows as {sp.factor((y_drift[0] - y_drift[1]).subs(G_2, G_1))}.",
-        ),
-    ),
-]
-Judged(statements)
+# %%
+half, third = sp.Rational(1, 2), sp.Rational(1, 3)
+table = ", ".join(f"{float(off(ratio)):.3g} at {ratio}" for ratio in (sp.S.One, half, third, sp.S.Zero, -half))
+opposite = [sp.cancel(e[1].diff(F[0]).subs({b: 0, omega_2: -omega_1})) for e in (drift_1, drift_2)]
+apart = sp.cancel(opposite[1] / opposite[0])  # of the drifts of the two axes
+twist_rate = sp.factor((y_drift[0] - y_drift[1]).subs(G_2, G_1))
+Remark(
+    "How far the paper's drift is off",
+    f"Mean drift of the axes under a steady force along a massless bar, over the paper's rate, by ω₂/ω₁: {table}. For "
+    f"opposite spins the paper's rate has no bound; the axes drift at {opposite[0]} and {opposite[1]} per unit of force. A "
+    f"force across the bar on one tip twists a pair of equal spins: y₁′ − y₂′ grows as {twist_rate}.",
+)
+
+# %% [markdown]
+# ## Response to an impulse
+#
+# After an impulse $P$ on tip 1 the equations across the bar integrate to $A\,\dot y = G X + (R P_y, 0)$. Put into the
+# equation along it, $2(a+b)\ddot X + G\cdot\dot y = 0$, they make an oscillator about a new centre.
+
+# %%
+P_x, P_y = sp.symbols("P_x P_y", real=True)
+y_after = inertia.adjugate() / inertia.det() * (G * X + sp.Matrix([R * P_y, 0]))
+centre = -R * P_y * (a * G_1 - b * G_2) / D
+prove(G.dot(y_after), D / (a**2 - b**2) * (X - centre), "the force that drives X back to its centre")
+
+# %%
+Omega_squared = D / (2 * (a + b) * (a**2 - b**2))
+Formula(Omega_squared, r"\Omega^2")
+
+# %% [markdown]
+# It starts at rest with the momentum $RP_x$ along the bar; $X_c$ is the centre.
+
+# %%
+X_c = sp.Symbol("X_c", real=True)
+X_t = X_c * (1 - sp.cos(Omega * t)) + R * P_x / (2 * (a + b) * Omega) * sp.sin(Omega * t)
+prove(
+    (X_t.diff(t, 2), X_t.subs(t, 0), 2 * (a + b) * X_t.diff(t).subs(t, 0)),
+    (-(Omega**2) * (X_t - X_c), 0, R * P_x),
+    "the oscillation about the centre, from rest with the impulse",
+)
+
+# %% [markdown]
+# Across the bar the axes follow $\int X\,dt$.
+
+# %%
+X_area = X_c * (t - sp.sin(Omega * t) / Omega) + R * P_x / (2 * (a + b) * Omega**2) * (1 - sp.cos(Omega * t))
+prove((X_area.diff(t), X_area.subs(t, 0)), (X_t, 0), "the area under X")
+
+# %%
+y_t = inertia.adjugate() / inertia.det() * (G * X_area + sp.Matrix([R * P_y * t, 0]))
+prove(tuple(y_t.diff(t)), tuple(y_after.subs(X, X_t)), "the rates of the axes across the bar")
+
+# %%
+impulse_response = tuple(e.subs(X_c, centre) for e in (X_t, *y_t))
+Formula(sp.Matrix(impulse_response), "(X, y_1, y_2)")

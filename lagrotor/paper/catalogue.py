@@ -61,31 +61,39 @@ class Equation:
     refers: Mapping[str, str] = field(default_factory=dict)
     measured: bool = False
 
+    @property
+    def declared(self) -> dict[str, Any]:
+        """The letters that the equation's section has besides the glossary's, by name."""
+        from lagrotor.paper.letters import declared
+
+        return declared(_letters(self.section))
+
     @cached_property
     def lines(self) -> tuple[Line, ...]:
         """The printed lines as expressions. Raises InputError where one cannot be read."""
-        from lagrotor.paper.letters import declared, read
+        from lagrotor.paper.letters import read
 
-        names = declared(_letters(self.section))
+        names = self.declared
         for letter, meaning in self.letters.items():
             names[letter] = read(meaning, names, f"equation {self.id}, letter {letter}")
         return tuple(_line(row, names, f"equation {self.id}") for row in self.line)
 
 
 def _line(row: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
-    from lagrotor.paper.letters import read
+    from lagrotor.paper.letters import components, read
 
     def read_off(digits: str) -> Any:
         number = read(digits, {}, where)
         return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
 
+    scene = [(read(name, names, where), read(value, names, where)) for name, value in row.get("scene", {}).items()]
     return Line(
         quantity=row["quantity"],
         members=tuple(read(member, names, where) for member in row.get("members", ())),
         order=row.get("order", 0),
         small=read(row["small"], names, where) if "small" in row else None,
         within=read_off(row["read_off"]) if "read_off" in row else None,
-        scene={read(name, names, where): read(value, names, where) for name, value in row.get("scene", {}).items()},
+        scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
         names=row.get("names", False),
     )
 

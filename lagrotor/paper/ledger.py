@@ -15,8 +15,8 @@ import sympy as sp
 from lagrotor.algebra import Decision, agreement_order, decide_equal
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.pair.symbols import GLOSSARY
-from lagrotor.paper.catalogue import Line, equation
-from lagrotor.paper.letters import scalars
+from lagrotor.paper.catalogue import Equation, Line, equation
+from lagrotor.paper.letters import components, scalars
 from lagrotor.paper.premises import Premise, in_parameters, subsets
 from lagrotor.paper.tables import Cell, Table
 
@@ -109,7 +109,7 @@ def verdict(
     if names and quantities:
         raise InputError(f"verdict: {identifier} only introduces a letter, and nothing can be held against it")
     uses = tuple(uses)
-    meanings = _defined_elsewhere(identifier, entry.refers, uses)
+    meanings = _defined_elsewhere(entry, uses)
     relations = [
         r for line in entry.lines if not line.names for r in _relations(identifier, line, quantities, meanings)
     ]
@@ -126,15 +126,16 @@ def verdict(
     )
 
 
-def _defined_elsewhere(
-    identifier: str, refers: Mapping[str, str], uses: tuple["str | Statement", ...]
-) -> dict[sp.Symbol, Side]:
-    """Letters of a line that another equation defines → what was derived for that one."""
+def _defined_elsewhere(entry: Equation, uses: tuple["str | Statement", ...]) -> dict[sp.Symbol, Side]:
+    """Letters of a line that another equation defines → what was derived for that one; of vectors, every component."""
     stated = {used.id: used.relations[0].derived for used in uses if isinstance(used, Statement)}
-    for letter, other in refers.items():
+    names = {**scalars(), **entry.declared}
+    meanings: dict[sp.Symbol, Side] = {}
+    for letter, other in entry.refers.items():
         if other not in stated:
-            raise InputError(f"verdict: {identifier}: {letter} is defined in {other}: give its statement among `uses`")
-    return {scalars()[letter]: stated[other] for letter, other in refers.items()}
+            raise InputError(f"verdict: {entry.id}: {letter} is defined in {other}: give its statement among `uses`")
+        meanings |= zip(components([names[letter]]), components([stated[other]]), strict=True)
+    return meanings
 
 
 def _by_quantity(given: Side | Mapping[str, Side], lines: tuple[Line, ...]) -> dict[str, Side]:
@@ -174,8 +175,8 @@ def _corrected(
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was decided of one equation. premises: the fewest under which it holds; `order`, `small`: of a series;
-    `domain`: factors that must not vanish.
+    """What was decided of one equation. premises: the fewest under which it holds, or, of a refuted one, under which its
+    correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
 
     `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: nothing to ask).
     """
@@ -230,20 +231,15 @@ _AGREES = ("holds", "holds-to-order")
 
 
 def judge(statement: Statement) -> Verdict:
-    """Decide a statement; the correction, where there is one, by the same rules and without any premise."""
+    """Decide a statement; the correction, where there is one, by the same rules."""
     began = time.perf_counter()
-    finding, used = (_Finding("definition"), ()) if statement.names else _fewest_premises(statement)
-    answer = finding.answer
-    if (
-        finding.answer in _AGREES
-        and finding.small is not None
-        and all(premise.small != finding.small for premise in used)
-    ):
-        used = (*used, _smallness(finding.small))
-    if answer == "holds" and used:
-        answer = "holds-if"
+    answer, finding, used = _decided(statement.relations, statement)
     if statement.measured and finding.answer in _AGREES:
         answer = "measured"
+    corrected: Answer | None = None
+    if statement.correction:
+        corrected, _, granted = _decided(statement.correction, statement)
+        used = granted if answer == "refuted" else used
     return Verdict(
         statement=statement,
         verdict=answer,
@@ -251,10 +247,22 @@ def judge(statement: Statement) -> Verdict:
         order=finding.order,
         small=finding.small,
         domain=finding.domain,
-        correction_verdict=_find(statement.correction).answer if statement.correction else None,
+        correction_verdict=corrected,
         evidence=(*statement.evidence, *finding.reasons),
         seconds=time.perf_counter() - began,
     )
+
+
+def _decided(relations: tuple[Relation, ...], statement: Statement) -> tuple[Answer, _Finding, tuple[Premise, ...]]:
+    """What is decided of relations under the statement's premises, and the fewest of these that it needs."""
+    if statement.names:
+        return "definition", _Finding("definition"), ()
+    finding, used = _fewest_premises(relations, statement.premises)
+    if finding.answer not in _AGREES:
+        return finding.answer, finding, ()
+    if finding.small is not None and all(premise.small != finding.small for premise in used):
+        used = (*used, _smallness(finding.small))
+    return ("holds-if" if finding.answer == "holds" and used else finding.answer), finding, used
 
 
 def _smallness(small: sp.Symbol) -> Premise:
@@ -263,16 +271,18 @@ def _smallness(small: sp.Symbol) -> Premise:
     return Premise(f"small {what} {small}", small=small)
 
 
-def _fewest_premises(statement: Statement) -> tuple[_Finding, tuple[Premise, ...]]:
+def _fewest_premises(
+    relations: tuple[Relation, ...], assumed: tuple[Premise, ...]
+) -> tuple[_Finding, tuple[Premise, ...]]:
     """The finding under the fewest premises that suffice.
 
     Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted tells
     most about what is wrong.
     """
     failed: tuple[Premise, ...] = ()
-    for premises in subsets(statement.premises):
+    for premises in subsets(assumed):
         found: list[_Finding] = []
-        for relation in statement.relations:
+        for relation in relations:
             found.append(_single(relation.under(premises)))
             if found[-1].answer == "refuted":
                 break
@@ -280,7 +290,7 @@ def _fewest_premises(statement: Statement) -> tuple[_Finding, tuple[Premise, ...
             return _weakest(found), premises
         if found[-1].answer == "refuted":
             failed = premises
-    return _find(relation.under(failed) for relation in statement.relations), ()
+    return _find(relation.under(failed) for relation in relations), ()
 
 
 def _find(relations: Iterable[Relation]) -> _Finding:
@@ -304,6 +314,9 @@ def _single(relation: Relation) -> _Finding:
         ratio = _constant(relation.printed / relation.derived)
         near = ratio is not None and bool(abs(ratio - 1) <= relation.within)
         return _Finding("holds" if near else "refuted")
+    if isinstance(relation.printed, sp.MatrixBase) != isinstance(relation.derived, sp.MatrixBase):
+        kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
+        return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
     exact: Decision = decide_equal(relation.printed, relation.derived)
     domain = tuple(f for f in exact.domain if not (f.is_positive or f.is_number))
     if exact.answer == "zero":

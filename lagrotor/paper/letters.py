@@ -1,6 +1,6 @@
 """The letters of the paper: what each name in a printed line stands for, as sympy symbols, vectors and functions."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from typing import Any
 
@@ -8,12 +8,18 @@ import sympy as sp
 from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
 from lagrotor.errors import InputError
+from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import GLOSSARY
 
 
 def vector(name: str) -> sp.Matrix:
     """A vector of three real components name_x, name_y, name_z, (3, 1)."""
     return sp.Matrix(sp.symbols(f"{name}_x {name}_y {name}_z", real=True))
+
+
+def symmetric(name: str) -> sp.Matrix:
+    """A symmetric matrix of six real components name_xx, name_xy, …, (3, 3)."""
+    return sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"{name}_{'xyz'[min(i, j)]}{'xyz'[max(i, j)]}", real=True))
 
 
 def rotation(phi: sp.Expr, theta: sp.Expr, psi: sp.Expr) -> sp.Matrix:
@@ -41,6 +47,24 @@ def norm(u: sp.Matrix) -> sp.Expr:
     return sp.sqrt(u.dot(u))
 
 
+def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> Any:
+    """d/dt of an expression or a matrix: `moving` are symbols or vectors, `velocities` their rates in the same order."""
+    flow = list(zip(components(moving), components(velocities), strict=True))
+    if isinstance(expression, sp.MatrixBase):
+        return expression.applyfunc(lambda entry: sum(sp.diff(entry, x) * v for x, v in flow))
+    return sum(sp.diff(expression, x) * v for x, v in flow)
+
+
+def components(row: Iterable[Any]) -> list[Any]:
+    """Symbols and the components of vectors, in a row."""
+    return [entry for item in row for entry in (item if isinstance(item, sp.MatrixBase) else [item])]
+
+
+def inverse(matrix: sp.Matrix) -> sp.Matrix:
+    """The inverse of a square matrix, its adjugate over its determinant."""
+    return matrix.adjugate() / matrix.det()
+
+
 def column(*entries: sp.Expr) -> sp.Matrix:
     """A vector of the given components."""
     return sp.Matrix(entries)
@@ -48,7 +72,7 @@ def column(*entries: sp.Expr) -> sp.Matrix:
 
 # What a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, column)},
+    **{f.__name__: f for f in (axis, rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
     **{
         name: getattr(sp, name)
         for name in ("sin", "cos", "tan", "exp", "sqrt", "eye", "diag", "zeros", "diff", "integrate")
@@ -75,9 +99,7 @@ def declared(letters: Mapping[str, str]) -> dict[str, Any]:
             if kind == "vector":
                 found[name] = vector(name)
             elif kind == "symmetric":
-                found[name] = sp.Matrix(
-                    3, 3, lambda i, j, n=name: sp.Symbol(f"{n}_{'xyz'[min(i, j)]}{'xyz'[max(i, j)]}", real=True)
-                )
+                found[name] = symmetric(name)
             elif kind in ("real", "positive", "nonnegative"):
                 found[name] = sp.Symbol(name, **{kind: True})
             else:

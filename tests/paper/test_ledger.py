@@ -5,6 +5,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.symbols import I1, I3, ROTOR, J, r0
+from lagrotor.paper import letters
 from lagrotor.paper.audit import record
 from lagrotor.paper.catalogue import claims, equations, figures
 from lagrotor.paper.ledger import Relation, Statement, chain, judge, verdict
@@ -120,11 +121,38 @@ def test_a_printed_quantity_must_be_derived_and_a_corrected_one_too() -> None:
 
 
 def test_a_line_that_another_equation_defines_needs_its_statement() -> None:
-    referring = next((e for e in equations().values() if e.refers), None)
-    if referring is None:
-        pytest.skip("no line refers to another yet")
-    with pytest.raises(InputError, match="give its statement"):
-        verdict(referring.id, {line.quantity: x for line in referring.lines})
+    centre = letters.vector("X")
+    with pytest.raises(InputError, match=r"3\.03: M is defined in 3\.01: give its statement"):
+        verdict("3.03", centre)
+    with pytest.raises(InputError, match=r"X_cm is defined in 3\.03"):
+        verdict("3.05", centre, uses=["3.03"])
+
+
+def test_what_another_equation_defines_may_be_a_vector() -> None:
+    mass = verdict("3.01", n)
+    centre = verdict("3.03", letters.column(x, y, 1), uses=[mass])
+    (relation,) = verdict("3.06", letters.column(0, 0, 0), uses=[centre]).relations
+    assert not {s.name for s in relation.printed.free_symbols} & {"X_cm_x", "X_cm_y", "X_cm_z"}
+    assert {x, y} <= relation.printed.free_symbols
+
+
+def test_a_number_that_is_set_equal_to_a_vector_is_refuted() -> None:
+    decided = verdict_of(x, letters.column(x, 0, 0))
+    assert (decided.verdict, decided.evidence) == (
+        "refuted",
+        ("the left side is a vector, the printed right side a number",),
+    )
+    assert verdict_of(letters.column(x, 0, 0), letters.column(x, 0, 0)).verdict == "holds"
+
+
+def test_a_correction_may_rest_on_premises_and_they_are_reported() -> None:
+    idle, needed = Premise("y = 0", {y: 0}), Premise("n = 1", {n: 1})
+    wrong = verdict_of(-x, n * x, premises=(idle, needed), correction=chain(n * x, x))
+    assert (wrong.verdict, wrong.correction_verdict, wrong.premises) == ("refuted", "holds-if", (needed,))
+    bare = verdict_of(-x, n * x, premises=(idle, needed), correction=chain(n * x, x * n))
+    assert (bare.verdict, bare.correction_verdict, bare.premises) == ("refuted", "holds", ())
+    kept = verdict_of(x, n * x, premises=(idle, needed), correction=chain(n * x, x * n))
+    assert (kept.verdict, kept.correction_verdict, kept.premises) == ("holds-if", "holds", (needed,))
 
 
 def test_errors_are_followed_to_the_results() -> None:

@@ -1,0 +1,228 @@
+# %% [markdown]
+# # How the rotors share the force (2.06 to 2.13)
+#
+# **Objective.** The paper's lines from the torques on the two rotors to the rate of the parallel pair, each from its
+# premises; then the rate that the exact pair has.
+#
+# **Assumptions.** No gravity, ideal joints. Of the axes, of the link and of the spins nothing is assumed beforehand: what the
+# paper assumes of them are the premises of its lines.
+#
+# **Notation.** $\vec r$, $\vec r_2$ the levers of the two rotors, $\hat r_i$ their axes; $\vec A$ the acceleration of the
+# link's centre; $\vec a_i = \ddot{\hat r}_i$; $\rho = \omega_1/\omega_2$.
+
+# %%
+import sympy as sp
+
+from lagrotor.pair.symbols import I3, J, R, m, omega_1, omega_2
+from lagrotor.paper import scripts
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.letters import cross, vector
+from lagrotor.paper.premises import EQUAL_SPINS, Premise
+from lagrotor.paper.proof import Formula, prove
+
+rotors = scripts.run("derivations", "s2a_angular_momentum")
+pair = scripts.run("derivations", "s2b_linear_pair")
+F, A, shared, massless_link = (rotors[name] for name in ("F", "A", "shared", "massless_link"))
+
+# %% [markdown]
+# ## Half the difference
+#
+# With $\vec f = \frac12(\vec F_A - \vec F_B)$ the two forces follow from their sum $\vec F - m\vec A$.
+
+# %%
+f = vector("f")
+F_A, F_B = shared / 2 + f, shared / 2 - f
+prove((F_A - F_B) / 2, f, "f is half the difference of the forces on the rotors")
+
+# %%
+verdict(
+    "2.06",
+    {r"\vec F_A + \vec F_B": shared, r"\vec F_A": F_A, r"\vec F_B": F_B},
+    premises=[massless_link],
+    uses=["2.01"],
+    evidence=["The source is garbled by scanning (F_1 to F_4, a sixth); what 2.07 uses of it is what is judged."],
+)
+
+# %% [markdown]
+# ## The rate of each axis
+#
+# The torque on a rotor is $\vec r\times\vec F = I_3\omega\,\dot{\hat r} + J\,\hat r\times\ddot{\hat r}$ (2.04), with
+# $\hat r = \vec r/R$. Solved for the rate of the axis:
+
+# %%
+r, r_2, a_1, a_2 = (vector(name) for name in ("r", "r_2", "a_1", "a_2"))
+
+
+def torque_along_spin(lever: sp.Matrix, force: sp.Matrix, acceleration: sp.Matrix) -> sp.Matrix:
+    """I_3 omega r': the torque less what accelerates the axis."""
+    return cross(lever, force) - J * cross(lever / R, acceleration)
+
+
+spinning_1, spinning_2 = torque_along_spin(r, F_A, a_1), torque_along_spin(r_2, F_B, a_2)
+rate_1, rate_2 = spinning_1 / (I3 * omega_1), spinning_2 / (I3 * omega_2)
+Formula(rate_1, r"\dot{\hat r}_1")
+
+# %% [markdown]
+# ## What parallel axes ask of the forces
+#
+# With $\vec r_2 = \vec r$ at all times the accelerations are the same too, and the rates differ by
+
+# %%
+together = dict(zip([*r_2, *a_2], [*r, *a_1], strict=True))
+asked = (omega_1 + omega_2) * f - (omega_1 - omega_2) * (shared / 2 - J / R * a_1)
+prove(
+    I3 * omega_1 * omega_2 * (rate_1 - rate_2).subs(together),
+    cross(r, asked),
+    "the difference of the rates of two parallel axes",
+)
+
+# %% [markdown]
+# They stay parallel if this vanishes: what stands beside $\vec r$ in the product then lies along $\vec r$. This fixes
+# $\vec f$ but for a part along $\vec r$.
+
+# %%
+along_r = sp.Symbol("lambda_r", real=True)
+f_parallel = (omega_1 - omega_2) / (omega_1 + omega_2) * (shared / 2 - J / R * a_1) + along_r * r
+prove(
+    (rate_1 - rate_2).subs(dict(zip(f, f_parallel, strict=True))).subs(together),
+    sp.zeros(3, 1),
+    "with this f both axes turn alike",
+)
+
+# %% [markdown]
+# These are the premises of the paper's lines. The exact pair does not keep the first for any but equal spins.
+
+# %%
+parallel = Premise(
+    "the axes are parallel at all times, r̂₁ = r̂₂",
+    {**dict(zip(f, f_parallel, strict=True)), **together},
+    broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
+)
+slow = Premise(
+    "the axes turn slowly against the spins, J r̂ × r̂″ is left out as in (3) and (4)",
+    dict.fromkeys(a_1, sp.S.Zero),
+    broken=rotors["slow_force"](omega_1).broken,
+)
+premises = [parallel, slow, massless_link]
+
+# %%
+verdict("2.07", spinning_1, premises=premises, uses=["2.04", "2.05", "2.06"])
+
+# %% [markdown]
+# ## Solved for $\vec r\times\vec f$
+#
+# Under the premises the faster rotor takes more of the force, $\vec f = \frac{\rho - 1}{2(1 + \rho)}\vec F$ but for a part
+# along $\vec r$. The paper collects the terms with the opposite sign.
+
+# %%
+rho = omega_1 / omega_2
+prove(
+    cross(r, f_parallel).subs({m: 0, **dict.fromkeys(a_1, 0)}),
+    (rho - 1) / (2 * (1 + rho)) * cross(r, F),
+    "r × f under the premises",
+)
+
+# %%
+verdict(
+    "2.08",
+    (1 + rho) * cross(r, f),
+    premises=premises,
+    correction=(rho - 1) * cross(r, F / 2),
+    wrong="The left side has the wrong sign.",
+    uses=["2.07"],
+    evidence=["Collecting 2.07 gives rho r x F/2 - r x F/2, rho = omega_1/omega_2."],
+)
+
+# %%
+verdict(
+    "2.09",
+    cross(r, f),
+    premises=premises,
+    correction=(rho - 1) / (2 * (1 + rho)) * cross(r, F),
+    wrong="The sign of 2.08 is carried on.",
+    uses=["2.08"],
+    evidence=["It inherits the sign of 2.08: the faster rotor takes more of the force, not less."],
+)
+
+# %%
+verdict(
+    "2.10",
+    spinning_1,
+    premises=premises,
+    correction=cross(r, F / 2) + (rho - 1) / (2 * (1 + rho)) * cross(r, F),
+    wrong="The sign of 2.08 is carried on.",
+    uses=["2.09", "2.04"],
+)
+
+# %% [markdown]
+# ## The rate of the parallel pair
+#
+# As printed, (6) is not the rate that the premises give, and (7) does not follow from it:
+
+# %%
+right_6 = cross(r, (1 + rho + rho - 1) / (1 + rho) * F / 2) / (omega_1 * I3)
+verdict(
+    "2.11",
+    rate_1,
+    premises=premises,
+    correction=right_6,
+    wrong="The sign of 2.08 makes the factor 2/(1 + rho) where the premises give 2 rho/(1 + rho), rho = omega_1/omega_2.",
+    uses=["2.10"],
+    evidence=["(7) is what the premises give: the sign lost in 2.08 is made good between (6) and (7)."],
+)
+
+# %% [markdown]
+# From the premises (7) follows for any spins. The premise of parallel axes does not: linearised, the exact pair has another
+# drift of its mean axis, which is the paper's only for equal spins.
+
+# %%
+a, b, t = (pair[name] for name in ("a", "b", "t"))
+inertia_twist = I3 * (a * (omega_1**2 + omega_2**2) - 2 * b * omega_1 * omega_2)
+drift_x = -R * (a * omega_1 - b * omega_2) * F[1] / inertia_twist
+drift_y = R * (a - b) * (omega_1 + omega_2) * F[0] / (2 * inertia_twist)
+drift_y += R * I3 * omega_2 * (omega_2 - omega_1) * F[1] * t / (2 * inertia_twist)
+mean_axis = r"\tfrac12\langle\dot{\hat r}_1 + \dot{\hat r}_2\rangle"
+
+# %%
+verdict(
+    "2.12",
+    {r"\dot{\hat r}": rate_1, mean_axis: pair["mean_drift"]},
+    premises=premises,
+    correction={mean_axis: sp.Matrix([drift_x, drift_y, 0])},
+    uses=["2.11", "2.04", "2.05"],
+    evidence=[
+        f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, since the bar pulls along itself alone. A "
+        "force along the bar leaves them parallel if omega_1 = omega_2, a force across it on one tip, from rest, never: for "
+        "equal spins the mean axis still follows (7), while the axes twist apart.",
+        f"Mean drift under a steady force along a massless bar, over the paper's, by omega_2/omega_1: {pair['table']}. The "
+        f"bar shares the force as {pair['shares']}, squares of the spins, not as the spins.",
+        f"After an impulse the pair rings about the drift at Omega^2 = {pair['Omega_squared']}.",
+        f"For omega_2 = -omega_1 the paper's rate has no bound; the axes drift at {pair['opposite'][0]} and "
+        f"{pair['opposite'][1]} per unit of force.",
+    ],
+)
+
+# %% [markdown]
+# ## Equal spins
+#
+# The drifts of the two axes under a steady force on one tip, for any spins and any bar, come from the linearised exact pair;
+# that small tilts are meant is a premise here. The lever is then $R$ along the vertical.
+
+# %%
+eps = pair["eps"]
+small_tilts = Premise(
+    "small tilts from rest under a small, steady force",
+    {**dict(zip(r, (eps * r[0], eps * r[1], R), strict=True)), **{part: eps * part for part in F}},
+    small=eps,
+)
+along_bar = Premise("the force acts along the bar", {F[1]: sp.S.Zero})
+verdict(
+    "2.13",
+    {r"\langle\dot{\hat r}_1\rangle": pair["drift_1"], r"\langle\dot{\hat r}_2\rangle": pair["drift_2"]},
+    premises=[small_tilts, EQUAL_SPINS, along_bar],
+    uses=["2.12"],
+    evidence=[
+        "Each axis by itself drifts so for a force along the bar, which is shared in halves, whatever the bar. A force "
+        f"across it on one tip twists the pair: y_1' - y_2' grows as {pair['twist_rate']}.",
+    ],
+)

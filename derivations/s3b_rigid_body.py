@@ -1,0 +1,165 @@
+# %% [markdown]
+# # Rigid bodies (3.09 to 3.12)
+#
+# **Objective.** The velocity field of a rigid body, its angular momentum by the inertia tensor, and how the tensor turns with
+# the body.
+#
+# **Assumptions.** A body of three particles, as in the script before; of the tensor, any body. That it is rigid is a premise
+# of what rests on it.
+#
+# **Notation.** $Q = R_z(\phi)R_x(\theta)R_z(\psi)$ carries the body's frame; $\vec d_i = \vec X_i - \vec X_{cm}$, in the
+# body's frame $\vec d = Q^T\vec d_i$; $\vec\Omega$ the angular velocity in the ground's frame; $\mathbb 1(\vec d)^2$ is read
+# as $|\vec d|^2\,\mathbb 1$.
+
+# %%
+import sympy as sp
+
+from lagrotor.mechanics import total_derivative
+from lagrotor.pair.symbols import ROTOR
+from lagrotor.paper import scripts
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.letters import cross, rotation, symmetric, vector
+from lagrotor.paper.premises import Premise
+from lagrotor.paper.proof import Formula, prove
+
+particles = scripts.run("derivations", "s3a_particles")
+masses, places, velocities, arms, L = (particles[name] for name in ("masses", "places", "velocities", "arms", "L"))
+centre_of_mass = particles["centre_of_mass"]
+theta, phi, psi = ROTOR.q
+
+
+def rate(expression: sp.Matrix) -> sp.Matrix:
+    """d/dt in the Euler angles of the body."""
+    return expression.applyfunc(lambda entry: total_derivative(entry, ROTOR))
+
+
+# %% [markdown]
+# ## Angular velocity
+#
+# $Q$ is orthogonal, so $\dot Q Q^T$ is skew: it is the matrix of $\vec\Omega\times$.
+
+# %%
+Q = rotation(phi, theta, psi)
+prove(Q * Q.T, sp.eye(3), "Q is a rotation")
+
+# %%
+skew = rate(Q) * Q.T
+prove(skew, -skew.T, "the rate of a rotation is skew")
+
+# %%
+theta_v, phi_v, psi_v = ROTOR.v
+Omega_turn = sp.Matrix([skew[2, 1], skew[0, 2], skew[1, 0]])
+prove(
+    Omega_turn,
+    sp.Matrix(
+        [
+            theta_v * sp.cos(phi) + psi_v * sp.sin(theta) * sp.sin(phi),
+            theta_v * sp.sin(phi) - psi_v * sp.sin(theta) * sp.cos(phi),
+            phi_v + psi_v * sp.cos(theta),
+        ]
+    ),
+    "the angular velocity in Euler angles",
+)
+
+# %% [markdown]
+# ## Velocity field
+#
+# A particle of any body lies at $\vec X_i = \vec X_{cm} + Q\vec d$ and moves with $\vec U_{cm} + \dot Q\vec d + Q\dot{\vec d}$.
+# The last part vanishes for a rigid body.
+
+# %%
+U_cm, d, d_v = vector("U_cm"), vector("d"), vector("d_dot")
+field = U_cm + rate(Q) * d + Q * d_v
+rigid = Premise("the body is rigid, its particles rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
+verdict("3.09", field, premises=[rigid])
+
+# %% [markdown]
+# ## Angular momentum
+#
+# With this field the velocities of the particles are $\vec U_i = \vec U_{cm} + \vec\Omega\times\vec d_i$. As a premise on the
+# angular momentum (3.05) of any system of particles:
+
+# %%
+Omega = vector("Omega")
+put_rigid = {}
+for U, arm in zip(velocities, arms, strict=True):
+    put_rigid |= dict(zip(U, U_cm + cross(Omega, arm), strict=True))
+turning_rigidly = Premise("the body is rigid, U_i = U_cm + Ω × (X_i − X_cm)", put_rigid)
+verdict(
+    "3.10",
+    L,
+    premises=[turning_rigidly],
+    uses=["3.05", "3.09", centre_of_mass],
+    evidence=["1(X)^2 is read as |X|^2 times the unit matrix, (X)(X)^T as the outer product."],
+)
+
+# %% [markdown]
+# ## Inertia tensor
+#
+# What multiplies $\vec\Omega$ is also the matrix of the kinetic energy of turning, $\frac12\vec\Omega\cdot I\,\vec\Omega$,
+# which is what the name means:
+
+# %%
+turning = sum(m * cross(Omega, arm).dot(cross(Omega, arm)) / 2 for m, arm in zip(masses, arms, strict=True))
+inertia = sp.hessian(turning, list(Omega))
+prove(turning, (Omega.T * inertia * Omega)[0] / 2, "the energy of turning")
+
+# %%
+verdict("3.11", inertia, uses=["3.10", centre_of_mass])
+
+# %% [markdown]
+# ## The tensor of the turned body
+#
+# A body is known to its tensor through the second moments $C = \int \vec d\,\vec d^T\,dm$ alone,
+# $I = \mathrm{tr}\,C\;\mathbb 1 - C$.
+
+# %%
+C = symmetric("C")
+prove(
+    sp.eye(3) * d.dot(d) - d * d.T,
+    (sp.eye(3) * C.trace() - C).subs(dict(zip(C, d * d.T, strict=True))),
+    "the tensor of one particle by its second moments",
+)
+
+# %% [markdown]
+# Solved for the moments of the first orientation, $C = \frac12\mathrm{tr}\,I_0\;\mathbb 1 - I_0$. As $\vec d$ turns to
+# $R\vec d$, $C$ turns to $R\,C R^T$; here $R$ is any rotation $Q$.
+
+# %%
+I_0 = symmetric("I_0")
+C_0 = sp.eye(3) * I_0.trace() / 2 - I_0
+C_turned = Q * C_0 * Q.T
+I_turned = sp.eye(3) * C_turned.trace() - C_turned
+prove(sp.eye(3) * C_0.trace() - C_0, I_0, "these moments have the tensor I_0")
+
+# %% [markdown]
+# The paper has the transpose on the wrong side. A body with the principal inertias $1, 2, 3$ shows it in a quarter turn about
+# $x$ and then one about $z$:
+
+# %%
+unequal, quarter = sp.diag(1, 2, 3), {phi: sp.pi / 2, theta: sp.pi / 2, psi: 0}
+right, wrong = ((turn * unequal * turn.T).subs(quarter) for turn in (Q, Q.T))
+Formula(right, "R I_0 R^T"), Formula(wrong, "R^T I_0 R")
+
+# %% [markdown]
+# With equal inertias there is nothing to see:
+
+# %%
+isotropic = sp.Symbol("I", positive=True) * sp.eye(3)
+prove(Q * isotropic * Q.T, Q.T * isotropic * Q, "with equal principal inertias both are the same")
+
+# %%
+verdict(
+    "3.12",
+    I_turned,
+    correction=Q * I_0 * Q.T,
+    wrong="R and its transpose have changed places.",
+    uses=["3.11"],
+    evidence=[
+        "With X_r(t) = R X_r(0), as the update X_r -> dR X_r, R -> dR R demands, the tensor is R I_0 R^T. The listing "
+        "X*R' + X_cm says the same of R.",
+        f"Principal inertias (1, 2, 3), a quarter turn about x and then one about z: along the diagonal "
+        f"{tuple(right.diagonal())}, as printed {tuple(wrong.diagonal())}. With equal inertias, as in all the paper's runs, "
+        "both are the same: no run of the paper can tell.",
+    ],
+)

@@ -1,0 +1,177 @@
+# %% [markdown]
+# # The rotation of a body in a step (3.14 to 3.18)
+#
+# **Objective.** How the paper's program turns the vertices of a body in one step, and how it finds the angular velocity
+# without inverting a matrix, in columns and in the rows of the code.
+#
+# **Assumptions.** The angular velocity is constant during a step. Vectors are columns; the program stores them as rows, which
+# are written here as transposes.
+#
+# **Notation.** $\Omega_\times$ the matrix of $\vec\Omega\times$; $n$ the unit vector along $\vec\Omega$ with inclination
+# $\theta$ and azimuth $\phi$; $\Omega = |\vec\Omega|$; $Q$ any rotation, in Euler angles; $I_x, I_y, I_z$ the principal
+# inertias.
+
+# %%
+import sympy as sp
+
+from lagrotor.pair.lagrangians import axis
+from lagrotor.pair.symbols import PAIR, ROTOR
+from lagrotor.paper import scripts
+from lagrotor.paper.ledger import verdict
+from lagrotor.paper.letters import cross, cross_matrix, inverse, rotation, vector
+from lagrotor.paper.premises import Premise
+from lagrotor.paper.proof import Formula, prove
+
+body = scripts.run("derivations", "s3b_rigid_body")
+theta, phi, _ = ROTOR.q
+dt = sp.Symbol("Delta_t", positive=True)
+Omega, L, X_r = map(vector, ("Omega", "L", "X_r"))
+
+# %% [markdown]
+# ## A vertex
+#
+# A vertex at $\vec X_r = Q\vec d$ from the centre moves with $\dot Q\vec d + Q\dot{\vec d}$, the field of 3.09. The paper has
+# the factors of the cross product in the other order:
+
+# %%
+Q, d, d_v = (body[name] for name in ("Q", "d", "d_v"))
+vertex_rate = body["rate"](Q) * d + Q * d_v
+stretch = (sp.eye(3) + dt * cross_matrix(Omega)).T * (sp.eye(3) + dt * cross_matrix(Omega))
+SPIN = 10  # rad/s, the paper's
+stretched = sp.expand(stretch[0, 0].subs(dict(zip(Omega, (0, 0, SPIN), strict=True))))
+Formula(stretch[0, 0], r"\left((1 + \Delta t\,\Omega_\times)^T(1 + \Delta t\,\Omega_\times)\right)_{xx}")
+
+# %%
+verdict(
+    "3.14",
+    vertex_rate,
+    premises=[body["rigid"]],
+    correction=cross(body["Omega_turn"], Q * d),
+    wrong="The two factors of the cross product have changed places.",
+    uses=["3.09"],
+    evidence=[
+        "The sign is that of 3.09 turned round; rows instead of columns do not change it. The next sentence, "
+        "(1 + dt Omega_x) X_r, and 3.15 have the right one. That sentence also holds: 1 + dt Omega_x is not a rotation, it "
+        f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
+    ],
+)
+
+# %% [markdown]
+# ## The projection
+#
+# The projector on $n$ keeps what lies along $n$ and takes away what $n_\times$ turns: $P = 1 + n_\times^2$.
+
+# %%
+n = axis(theta, phi)
+N = cross_matrix(n)
+P = sp.eye(3) + N**2
+prove((P * P, P * n), (P, n), "P is a projector, and n stays")
+
+# %% [markdown]
+# The paper's product lacks the norm of $\vec\Omega$:
+
+# %%
+w = sp.Symbol("Omega_norm", positive=True)
+prove((w * n) * (w * n).T, w**2 * P, "the outer product of Ω with itself")
+
+# %%
+projection = verdict(
+    "3.16",
+    P,
+    correction=(w * n) * (w * n).T / w**2,
+    wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
+    evidence=[
+        "For a column Omega^T Omega is the number |Omega|^2; for a row, as the program stores it, the outer product without "
+        f"its norm: {SPIN**2} times too large at the paper's spin. The paper's remark on NaN shows that the program "
+        "divides by |Omega|^2."
+    ],
+)
+projection
+
+# %% [markdown]
+# ## The finite rotation
+#
+# With a constant $\vec\Omega$ the rotation over the step is the exponential of $\Delta t\,\Omega_\times$: it solves
+# $dR' = \Omega_\times dR$ from $dR = 1$. As $n_\times^3 = -n_\times$, its power series closes.
+
+# %%
+prove(N**3, -N, "the cube of the cross matrix of a unit vector")
+
+# %%
+angle = w * dt
+exact_dR = sp.eye(3) + sp.sin(angle) * N + (1 - sp.cos(angle)) * N**2
+prove(
+    (exact_dR.diff(dt), exact_dR.subs(dt, 0)),
+    (w * N * exact_dR, sp.eye(3)),
+    "the equation of the rotation, and its start",
+)
+
+# %% [markdown]
+# The print has $\sin(\|\Delta t\|\Omega)$, the sine of a vector; the bars belong to $\Omega$.
+
+# %%
+sine = sp.Symbol("Omega_in_sine", real=True)
+bars = Premise("the bars in the sine belong to Ω: sin(‖Ω‖ Δt)", {sine: w})
+verdict(
+    "3.15",
+    exact_dR,
+    premises=[bars],
+    uses=["3.14", projection],
+    evidence=[
+        "As printed the sine is taken of a vector. P is the projector on Omega, not the product printed in 3.16. The matrix is "
+        "the exponential of dt Omega_x: it solves dR' = Omega_x dR from 1."
+    ],
+)
+
+# %% [markdown]
+# ## The angular velocity without a matrix inversion
+#
+# In the body's frame the tensor is always $I_0$, diagonal if the ground's frame lies along the principal axes in the first
+# orientation, and the angular momentum is $R^T\vec L$. Its angular velocity there, carried back to the ground's frame:
+
+# %%
+R = Q
+principal = sp.diag(*sp.symbols("I_x I_y I_z", positive=True))
+stored = inverse(principal)  # the program keeps it as I
+in_body = stored * (R.T * L)
+Omega_of_L = R * in_body
+Formula(in_body, r"R^T\vec\Omega")
+
+# %% [markdown]
+# It belongs to $\vec L$ by the tensor of the turned body (3.12 corrected), so that only $I_0$ was inverted:
+
+# %%
+prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω")
+
+# %%
+verdict(
+    "3.17",
+    Omega_of_L,
+    correction=R * stored * R.T * L,
+    wrong="R and its transpose have changed places, as in 3.12.",
+    uses=["3.12"],
+    evidence=["It follows from 3.12 as printed and falls with it; with equal inertias the two agree."],
+)
+
+# %% [markdown]
+# ## Rows
+#
+# A row is the transpose of a column, and $(AB)' = B'A'$. The paper transposes rightly, also in the update of the vertices:
+
+# %%
+prove((R.T * stored * R * L).T, L.T * R.T * stored * R, "the transposition of 3.17 as printed")
+
+# %%
+theta_1, phi_1, psi_1 = PAIR.q[:3]
+dR = rotation(phi_1, theta_1, psi_1)  # any rotation
+verdict(
+    "3.18",
+    {"O": Omega_of_L.T, r"X_r(t + \Delta t)'": (dR * X_r).T},
+    correction={"O": L.T * R * stored * R.T},
+    wrong="R and its transpose have changed places, as in 3.12.",
+    uses=["3.17"],
+    evidence=[
+        "The transposition itself is right, with I the stored inverse of the symmetric I_0, and so is X_r*dR'; what is "
+        "transposed is 3.17."
+    ],
+)
