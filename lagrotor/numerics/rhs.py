@@ -35,13 +35,31 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
         return super()._print_Pow(expr, rational=rational)
 
 
-def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products) -> list[str]:
+def _quick(e: sp.Expr, show: _Products) -> str:
+    """What `show` prints of a sum of products, without the search for the finest order of its terms."""
+    if e.is_Symbol:
+        return show.names.get(e) or e.name
+    if e.is_Add:
+        parts = sorted((_quick(term, show) for term in e.args), key=lambda text: text[0] == "-")
+        return "".join([parts[0], *(part if part[0] == "-" else f"+{part}" for part in parts[1:])])
+    if e.is_Mul and e.args[0] == -1:
+        return f"-{'*'.join(_factor(f, show) for f in e.args[1:])}"
+    if e.is_Mul:
+        return "*".join(_factor(f, show) for f in e.args)
+    return str(show.doprint(e))
+
+
+def _factor(e: sp.Expr, show: _Products) -> str:
+    return _quick(e, show) if e.is_Symbol or e.is_Integer else f"({_quick(e, show)})"
+
+
+def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: bool) -> list[str]:
     """The stages as assignments to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
     last = {s: i for i, (_, e) in enumerate(stages) for s in e.free_symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
     free, lines, used = list[str](), list[str](), 0
     for i, (name, expression) in enumerate(stages):
-        right = show.doprint(expression)
+        right = _quick(expression, show) if quick else show.doprint(expression)
         free += [show.names[s] for s in sorted(expression.free_symbols & passing, key=str) if last[s] == i]
         if not free:
             free, used = [f"_{used}"], used + 1
@@ -66,7 +84,7 @@ def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
             fixed.append(f"{name} = {show.doprint(expression)}")
         else:
             moving.append((name, expression))
-    lines = _lines(moving, outputs, show)
+    lines = _lines(moving, outputs, show, program.shared)
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
         *lines,

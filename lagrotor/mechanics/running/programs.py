@@ -4,9 +4,11 @@ The state is (q, v), with t as a last component where time enters explicitly. Th
 constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from keyword import iskeyword
 from typing import Any
 
 import sympy as sp
@@ -48,7 +50,7 @@ def motion_program(system: Equations) -> Generated:
 def generated(
     system: Equations, stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """A program of the system's state and parameters, its symbols renamed to plain identifiers.
+    """A program of the system's state and parameters, its symbols renamed where a language would not take their names.
 
     moving: t' = 1 is its last output where time enters.
     """
@@ -64,17 +66,18 @@ def generated(
             f"simulate: two different symbols are called {', '.join(doubles)} (they differ in their assumptions): use the "
             "coordinates' own, c.q and c.v, and t of lagrotor.mechanics"
         )
-    plain = {s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate(states)}
-    plain |= {s: sp.Symbol(f"p{i}_", real=True) for i, s in enumerate(parameters)}
-    plain |= {s: sp.Symbol(f"w{i}_", real=True) for i, (s, _) in enumerate(stages)}
-    numbers: dict[Any, Any] = {
-        c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)
+    rename: dict[Any, Any] = {
+        s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate((*states, *parameters)) if not _is_plain(str(s))
     }
-    rename = plain | numbers
+    rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
+
+    def named(e: sp.Expr) -> sp.Expr:
+        return e.xreplace(rename) if rename else e
+
     program = Program(
-        tuple(plain[s] for s in (*states, *parameters)),
-        tuple((plain[name], e.xreplace(rename)) for name, e in stages),
-        tuple(e.xreplace(rename) for e in outputs),
+        tuple(rename.get(s, s) for s in (*states, *parameters)),
+        tuple((name, named(e)) for name, e in stages),
+        tuple(named(e) for e in outputs),
         shared=len(stages) > MANY,
     )
     return Generated(program, states, parameters)
@@ -89,6 +92,11 @@ def energy_program(system: Equations) -> Generated:
     keep = Stages()
     energy = tree_energy(tree, joints(tree, system.c, keep), keep)
     return generated(system, keep.made, [energy])
+
+
+def _is_plain(name: str) -> bool:
+    """Whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
+    return name.isidentifier() and not (iskeyword(name) or name in vars(math) or name[0] == "_" or len(name) == 1)
 
 
 def depends_on_time(system: Equations) -> bool:
