@@ -29,7 +29,8 @@ def folder(name: str) -> Path:
 def names(kind: str, prefix: str = "") -> list[str]:
     """Stems of the scripts in a folder, in order, t2 before t10.
 
-    Derivations: s… sections, c… claims, m… tables, t… theory past the paper, p… the table of it.
+    Derivations: s… sections, c… claims, m… tables, t… theory past the paper, p… the table of it, g… the gallery of
+    textbook systems.
     """
     found = (path.stem for path in folder(kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
     return sorted(found, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])

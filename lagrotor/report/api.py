@@ -23,6 +23,10 @@ _BESIDE = {
     "ClosedForm": "lagrotor.theory.closed_form",
     "corrected_trajectories": "lagrotor.theory.paired_precession.closed_forms",
     "paired_frequency": "lagrotor.theory.paired_precession.closed_forms",
+    "Frame": "lagrotor.mechanics",
+    "System": "lagrotor.mechanics",
+    "coordinates": "lagrotor.mechanics",
+    "Run": "lagrotor.mechanics.running.simulation",
 }
 
 
