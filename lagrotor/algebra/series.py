@@ -171,10 +171,10 @@ def _check_cut(node: sp.Expr, inner: _Series) -> None:
     u0, *tail = inner.terms
     if isinstance(node, _CUT):
         off = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
-        on_line = u0.is_imaginary and all(_is_real(sp.expand(sp.I * term)) for term in tail)
+        on_line = all(_is_real(sp.expand(sp.I * term)) for term in tail)
     else:
         off = u0.is_positive or u0.is_extended_real is False
-        on_line = _is_real(u0) and all(map(_is_real, tail))
+        on_line = all(map(_is_real, tail))
     if not (off or on_line):
         raise NotExactError(
             f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"

@@ -119,6 +119,7 @@ def test_a_series_from_a_branch_cut_is_refused(expression: sp.Expr) -> None:
         atan(3 + 2 * i * e),
         atan(1 + 2 * i + e),
         asinh(1 + i * e),
+        sqrt(2 * exp(i * sp.pi / 7) + e),
     ],
 )
 def test_off_a_cut_or_along_it_a_series_is_near_its_function_on_both_sides(expression: sp.Expr) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, consistent_scene, simulate
+from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models import chunk, ensemble
@@ -62,6 +62,25 @@ def test_evaluations_are_those_of_an_order_of_eight():
     spent = [sweep(scenes, [3.0], tol).evaluations.mean() for tol in (1e-6, 1e-10)]
     assert spent[0] < 900  # about 70 a radian of the natural rate in 3 s
     assert 10 ** (4 / 8) * 0.7 < spent[1] / spent[0] < 10 ** (4 / 8) * 1.3
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        Scene((30.0, -2.0), rates=((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))),
+        Scene((-2.0, 30.0), rates=((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))),
+        Scene((0.0, 0.0), rates=((0.0, 8.0, 0.0), (0.0, 1.0, 0.0))),
+        Scene((0.0, 0.0), rates=((0.0, 1.0, 0.0), (0.0, 8.0, 0.0))),
+        Scene((0.1, 0.1), Rotor(length=0.5), Link(0.5), shock=Shock((0.0, 30.0, 0.0), 0.5, 0.1)),
+    ],
+)
+def test_the_estimated_rate_is_that_of_the_motion(scene):
+    """Spins, start or shock alone: the spectrum or the largest rate, whichever is faster, within a factor of three."""
+    t = np.linspace(0, 2, 801)
+    run = simulate(scene, t, "minimal", 1e-9)
+    turning = np.abs(np.gradient(run.rates, t, axis=1)).max() / np.abs(run.rates).max()
+    seen = max(np.linalg.norm(run.rates, axis=-1).max(), turning)
+    assert seen / 3 < chunk._fastest(scene) < 3 * seen
 
 
 def test_a_short_shock_late_in_the_run_is_not_missed():

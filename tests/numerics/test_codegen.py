@@ -12,7 +12,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.numerics.codegen import Program, compile_program, javascript, operations, reduce_common, solve_symmetric
+from lagrotor.numerics.codegen import (
+    Program,
+    compile_program,
+    in_blocks,
+    javascript,
+    operations,
+    reduce_common,
+    solve_symmetric,
+)
 
 x, y, z = sp.symbols("x y z", real=True)
 s, t = sp.symbols("s t", real=True)
@@ -173,3 +181,19 @@ def test_a_pivot_that_is_zero_is_refused() -> None:
         solve_symmetric(sp.Matrix([[0, 1], [1, x]]), sp.Matrix([1, 1]), "q")
     with pytest.raises(SingularError, match="pivot 1 is zero"):
         solve_symmetric(sp.Matrix([[x, 0], [0, 0]]), sp.Matrix([1, 1]), "q")
+
+
+@pytest.mark.parametrize("outputs", [1, 3])
+def test_a_program_with_another_number_of_outputs_is_not_taken(outputs: int) -> None:
+    def two(values: np.ndarray) -> list[np.ndarray]:
+        return [values, 2 * values]
+
+    n = 20_000  # more than two blocks, the last one shorter
+    assert in_blocks(two, [np.arange(float(n))], 2, n)[1].tolist() == (2 * np.arange(n)).tolist()
+    with pytest.raises(ValueError, match="zip"):
+        in_blocks(two, [np.arange(float(n))], outputs, n)
+
+
+def test_numbers_and_arrays_are_arguments_alike() -> None:
+    found = in_blocks(lambda a, b: [a * b], [3.0, np.arange(10_000.0)], 1, 10_000)
+    assert found[0].tolist() == (3 * np.arange(10_000)).tolist()
