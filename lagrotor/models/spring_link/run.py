@@ -174,21 +174,7 @@ def run_solver(
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     moving, n = deepcopy(system), len(system.vertices)
-
-    def load(y: Array) -> None:
-        moving.X[:n], moving.U[:n], moving.L[:n] = y[: 9 * n].reshape(3, n, 3)
-        moving.R[:n] = y[9 * n :].reshape(n, 3, 3)
-
-    def rhs(s: float, y: Array, acting: Shock | None) -> Array:
-        load(y)
-        moving.Omega = moving.angular_velocity()
-        moving.compute_forces()
-        _shake(moving, acting, s)
-        changes = np.empty_like(y)
-        changes[: 9 * n].reshape(3, n, 3)[:] = moving.U[:n], moving.F[:n] * moving.inverse_mass[:n], moving.tau[:n]
-        changes[9 * n :] = (cross_matrix(moving.Omega[:n]) @ moving.R[:n]).ravel()
-        return changes
-
+    load, rhs = _right_hand_side(moving)
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     since_peak = times - at
     begin, end = -at, float(since_peak[-1])
@@ -219,6 +205,27 @@ def run_solver(
             kept.append(getattr(moving, name).copy())
     X, U, R, L = (np.array(kept) for kept in history.values())
     return _read(system, times, X, U, R, L, evaluations)
+
+
+def _right_hand_side(moving: RigidBodySystem) -> tuple[Callable[[Array], None], Callable[..., Array]]:
+    """Putting a state y (18 n,) of X, U, L, R of n bodies into `moving`; and y' at s after a shock's peak, under that shock."""
+    n = len(moving.vertices)
+
+    def load(y: Array) -> None:
+        moving.X[:n], moving.U[:n], moving.L[:n] = y[: 9 * n].reshape(3, n, 3)
+        moving.R[:n] = y[9 * n :].reshape(n, 3, 3)
+
+    def rhs(s: float, y: Array, acting: Shock | None) -> Array:
+        load(y)
+        moving.Omega = moving.angular_velocity()
+        moving.compute_forces()
+        _shake(moving, acting, s)
+        changes = np.empty_like(y)
+        changes[: 9 * n].reshape(3, n, 3)[:] = moving.U[:n], moving.F[:n] * moving.inverse_mass[:n], moving.tau[:n]
+        changes[9 * n :] = (cross_matrix(moving.Omega[:n]) @ moving.R[:n]).ravel()
+        return changes
+
+    return load, rhs
 
 
 def _shake(system: RigidBodySystem, shock: Shock | None, s: float) -> None:
