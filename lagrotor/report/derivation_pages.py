@@ -1,11 +1,14 @@
 """A derivation as part of the page: its prose, the steps that it proves, the verdicts where they are reached."""
 
+from base64 import b64encode
 from collections.abc import Mapping
 from html import escape
+from io import BytesIO
 from typing import Any
 
 import sympy as sp
 
+from lagrotor.drawing.run_figure import RunFigure
 from lagrotor.paper import scripts
 from lagrotor.paper.ledger import Statement
 from lagrotor.paper.notebook import Remark
@@ -67,7 +70,17 @@ def _shown(value: Any, answers: Mapping[str, str]) -> str:
         return rows(value.head, (tuple(_cell(cell) for cell in row) for row in value.rows))
     if isinstance(value, sp.Basic | sp.MatrixBase):
         return typeset(Formula(value).tex)
+    if isinstance(value, RunFigure):
+        labels = ", ".join(axes.get_ylabel().strip("$") for axes in value.axes)
+        return f'<img src="{_png(value)}" alt="Over time: {escape(labels)}">'
     return ""
+
+
+def _png(figure: RunFigure) -> str:
+    """The figure as an address that holds it; coarse, as many are on a page."""
+    with BytesIO() as file:
+        figure.savefig(file, format="png", dpi=72)
+        return "data:image/png;base64," + b64encode(file.getvalue()).decode()
 
 
 def _cell(cell: Any) -> str:

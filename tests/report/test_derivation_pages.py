@@ -1,0 +1,24 @@
+"""A derivation on the page: its prose, what it proves, and the picture of a run."""
+
+import re
+from base64 import b64decode
+
+import pytest
+
+from lagrotor.report.derivation_pages import derivation_html, title
+
+PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
+
+
+def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
+    pytest.importorskip("markdown_it")
+    html = derivation_html("g07_wilberforce", {})
+    assert title("g07_wilberforce") == "Wilberforce's pendulum"
+    assert "<p><small>Proved: the split.</small></p>" in html
+    ((data, labels),) = re.findall(PICTURE, html)
+    assert b64decode(data).startswith(b"\x89PNG") and len(data) < 80_000
+    assert labels.startswith("z, \\vartheta")
+
+
+def test_a_script_without_a_run_has_no_picture() -> None:
+    assert not re.findall(PICTURE, derivation_html("s6_conclusion", {}))
