@@ -14,11 +14,11 @@ LOWEST_ROOMS := algebra mechanics numerics pair theory models
 test-lowest: .venv-lowest/.installed
 	.venv-lowest/bin/python -m pytest $(LOWEST_ROOMS:%=tests/%)
 
-# sympy>=1.13 becomes sympy==1.13.*: the lowest of each, written beside the environment as pip's constraints.
+# sympy>=1.13.0 becomes sympy==1.13.0: the lowest of each, written beside the environment as pip's constraints.
 .venv-lowest/.installed: pyproject.toml
 	$(PYTHON) -m venv .venv-lowest
 	sed -n 's/^dependencies = \[\(.*\)\]/\1/p' pyproject.toml | tr -d '" ' | tr ',' '\n' \
-		| sed 's/>=\(.*\)/==\1.*/' > .venv-lowest/constraints.txt
+		| sed 's/>=/==/' > .venv-lowest/constraints.txt
 	.venv-lowest/bin/python -m pip install --quiet --disable-pip-version-check \
 		--constraint .venv-lowest/constraints.txt --editable '.[test]'
 	@touch $@

@@ -4,7 +4,7 @@ A chunk is one call of `run_chunk`, which needs nothing but its arguments: any e
 it, on this machine or on others.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -66,16 +66,15 @@ def sweep(
 ) -> Ensemble:
     """Run every scene from t = 0 and read it at the times `t` (m,) in s.
 
-    tol: local relative and absolute error, as of `simulate` with a model by name; what gathers over the run is more, by
-    about ten for small motions. Look at `failed` of the result: rows of what no model could finish are NaN.
+    tol: local relative and absolute error, as of `simulate` with a model by name; the global error is larger, about ten
+    times for small motions. Look at `failed` of the result: rows that no model could finish are NaN.
 
     engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
-    time. executor: where chunks run; here, one after another, when None. folder: an existing
-    folder into which each finished chunk is written whole; called again with the same arguments, the sweep takes what
-    is there and goes on. progress: called with the trajectories done and how many there are, after each chunk.
+    time. executor: where chunks run; here, one after another, when None. folder: an existing folder for the finished
+    chunks; a later sweep with the same arguments runs only those that are missing or damaged. progress: called with the
+    number of trajectories done and of all, after each chunk. A step ends at each of the times: a thousand are costly.
 
-    A step ends at each asked time: a few times cost little, a thousand a good deal.
-    Raises InputError for bad arguments, no scene, or a folder that holds another sweep.
+    Raises InputError for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
     times, tolerance = check_times(t), check_tolerance(tol)
     members = _checked(scenes, chunk, engine)
@@ -94,16 +93,16 @@ def sweep(
         if progress is not None:
             progress(done, len(members))
 
-    stored = {i: target.read(i, (len(part), *shape[1:])) for i, part in enumerate(parts)} if target else {}
-    for number, found in stored.items():
-        if found is not None:
-            keep(number, found)
-    tasks = [number for number in range(len(parts)) if stored.get(number) is None]
-    work = [([members[i] for i in parts[number]], times, tolerance, engine) for number in tasks]
-    for place, found in _run(work, executor):
-        if target is not None:
-            target.write(tasks[place], found)
-        keep(tasks[place], found)
+    work: dict[int, tuple[list[Scene], Array, float, str]] = {}
+    for number, part in enumerate(parts):
+        if target and (stored := target.read(number, (len(part), *shape[1:]))):
+            keep(number, stored)
+        else:
+            work[number] = [members[i] for i in part], times, tolerance, engine
+    for number, found in _run(work, executor):
+        if target:
+            target.write(number, found)
+        keep(number, found)
     return whole
 
 
@@ -120,13 +119,13 @@ def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, .
     return members
 
 
-def _run(work: Sequence[tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Chunk]]:
-    """Chunks as they are finished, each with its place; here, one after another, without an executor."""
+def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Chunk]]:
+    """Chunks with their numbers, as they are finished; here, one after another, without an executor."""
     if executor is None:
-        for place, arguments in enumerate(work):
-            yield place, run_chunk(*arguments)
+        for number, arguments in work.items():
+            yield number, run_chunk(*arguments)
         return
-    futures = {executor.submit(run_chunk, *arguments): place for place, arguments in enumerate(work)}
+    futures = {executor.submit(run_chunk, *arguments): number for number, arguments in work.items()}
     try:
         for future in as_completed(futures):
             yield futures[future], future.result()

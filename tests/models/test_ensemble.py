@@ -286,7 +286,7 @@ def test_a_sweep_with_other_arguments_does_not_take_the_chunks(tmp_path, more):
 def test_what_nothing_finished_is_kept_as_such(tmp_path, monkeypatch):
     falling = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05))
     found = sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path)
-    monkeypatch.setattr(ensemble, "run_chunk", None)  # it is not run again
+    monkeypatch.setattr(ensemble, "run_chunk", None)  # nothing is run again
     assert sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path).failed.tolist() == found.failed.tolist() == [0]
 
 
