@@ -5,7 +5,7 @@
 # the same pair; how many trajectories and closed-form points a second gives.
 #
 # **Assumptions.** Seconds differ from machine to machine and from run to run, so they are read off a record, made in one
-# run by `python -m lagrotor.report.record speed`: medians of processor time over samples of at least 10 ms, methods in
+# run by `python -m lagrotor.report.renew_record speed`: medians of processor time over samples of at least 10 ms, methods in
 # turn. What every reader gets alike, errors and evaluations, is in b1_chart.
 
 # %%

@@ -1,5 +1,5 @@
 """Seconds on record: what one machine took for the displaced pair and for ensembles, so that a report can tell them and
-still be the same bytes everywhere. Renewed by `python -m lagrotor.report.record speed`.
+still be the same bytes everywhere. Renewed by `python -m lagrotor.report.renew_record speed`.
 """
 
 import json

@@ -3,12 +3,16 @@
 import argparse
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+
+# Adds a command: its name, what runs it, what it does, an example.
+Command = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 
 
 class Parser(argparse.ArgumentParser):

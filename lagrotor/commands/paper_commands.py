@@ -1,18 +1,47 @@
-"""The commands that judge the paper: reproduce, audit, claims. Exit status 1 when a verdict is not as recorded."""
+"""The commands about the paper: reproduce, audit, claims, figure. Exit status 1 when a verdict is not as recorded."""
 
 import argparse
 from collections import Counter
 from collections.abc import Collection
+from pathlib import Path
 
+from lagrotor.commands.options import Command, check_folder
 from lagrotor.commands.terminal import progress, say, table, wrapped
 from lagrotor.errors import InputError
+
+
+def add_paper_commands(command: Command) -> None:
+    """reproduce, audit, claims, figure."""
+    added = command(
+        "reproduce",
+        reproduce_command,
+        "judge every equation, draw every figure, write the report",
+        "lagrotor reproduce --out report",
+    )
+    added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
+    added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
+
+    added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
+    added.description = "Judge the paper's equations. For single ids only their own derivations run."
+    added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+
+    added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
+    added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
+
+    added = command("figure", figure_command, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
+    added.add_argument(
+        "keys", nargs="+", metavar="N", help="the paper's figure number, or the name of another: t1 to t10, b1, m1"
+    )
+    added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
 
 def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.record import recorded
     from lagrotor.report.content import counted
     from lagrotor.report.formulas.mathml_latex import converter
-    from lagrotor.report.reproduce import reproduce
+    from lagrotor.report.job.reproduce import reproduce
 
     made = reproduce(given.out, progress, given.jobs)
     page = given.out / "index.html"
@@ -81,6 +110,19 @@ def claims_command(given: argparse.Namespace) -> int:
             print(wrapped(f"     {word(finding.outcome)}: {finding.explanation}", 5), end="\n\n")
     on_record = recorded()
     return _compared(changes({r.test.id: r.finding.outcome for r in results}, on_record, wanted), bool(on_record))
+
+
+def figure_command(given: argparse.Namespace) -> int:
+    from lagrotor.pictures.figures import check_keys, draw
+
+    check_folder(given.out)
+    keys = check_keys(given.keys)
+    with progress(len(keys)) as step:
+        for key in keys:
+            step(f"figure {key}")
+            picture = draw(key, given.out)
+            print(picture.svg, picture.png, sep="\n")
+    return 0
 
 
 def _compared(changes: list[str], on_record: bool) -> int:

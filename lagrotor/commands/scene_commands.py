@@ -6,17 +6,80 @@ import math
 from pathlib import Path
 from typing import Any
 
-from lagrotor.commands.options import check_file, check_folder, scene_of, shock_of
+from lagrotor.commands.options import (
+    Command,
+    add_pair,
+    add_shock,
+    add_start,
+    check_file,
+    check_folder,
+    scene_of,
+    shock_of,
+)
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS
+from lagrotor.pair.examples import SCENES
 
 _MOST_SAMPLES = 10_000_000
+
+
+def add_scene_commands(command: Command) -> None:
+    """simulate, animate, rate."""
+    _add_simulate(
+        command(
+            "simulate",
+            simulate_command,
+            "run a rotor pair and keep or show its motion",
+            "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
+        )
+    )
+    added = command(
+        "animate",
+        animate_command,
+        "write a ready scene's motion as GIF or MP4",
+        "lagrotor animate free-precession --out pair.gif",
+    )
+    says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
+    added.epilog = f"scenes:\n{says}\n\n{added.epilog}"
+    added.add_argument("scene", choices=SCENES, metavar="SCENE", help="one of the scenes below")
+    added.add_argument(
+        "--out", type=Path, metavar="FILE", help="a .gif, or an .mp4 by ffmpeg (default: SCENE.gif here)"
+    )
+    added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
+    added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
+
+    added = command(
+        "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
+    )
+    add_pair(added)
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+
+
+def _add_simulate(added: argparse.ArgumentParser) -> None:
+    add_pair(added)
+    add_start(added)
+    add_shock(added)
+    added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
+    added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
+    says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
+    added.add_argument("--model", default="auto", help=says)
+    added.add_argument(
+        "--tol", type=float, default=1e-9, help="error of the axes, or the solver's of a named model (default: 1e-9)"
+    )
+    says = "core, or fast where lagrotor[fast] is installed (default: core)"
+    added.add_argument("--engine", default="core", help=says)
+    added.add_argument(
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif, .mp4); a line, no table",
+    )
+    added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
 
 def animate_command(given: argparse.Namespace) -> int:
     from lagrotor.commands.terminal import progress
     from lagrotor.drawing.film import check_film
-    from lagrotor.pair.examples import SCENES
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
     t_end = ready.duration if given.t_end is None else given.t_end

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import lagrotor
-from lagrotor.report.page_pieces import code, prose
+from lagrotor.report.page.page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
@@ -101,7 +101,7 @@ def _words(text: str) -> str:
 
 def api_page() -> str:
     """The page as HTML, in the report's style."""
-    style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
+    style = (Path(__file__).with_name("page") / "page.css").read_text(encoding="utf-8")
     blocks = []
     for entry in entries():
         text = "".join(f"<p>{_words(part)}</p>" for part in entry.text.split("\n\n"))

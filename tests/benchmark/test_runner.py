@@ -12,7 +12,7 @@ from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
 from lagrotor.benchmark.runner import Course, Failure, Method, Point, chart, front, listed, seconds_at
 from lagrotor.benchmark.scenes_and_methods import METHODS, courses
-from lagrotor.commands.chart_command import as_data, in_words
+from lagrotor.commands.benchmark_commands import as_data, in_words
 from lagrotor.errors import LagrotorError
 
 

@@ -13,11 +13,11 @@ from lagrotor.benchmark import scenes_and_methods as module
 from lagrotor.benchmark.reference import reference
 from lagrotor.benchmark.runner import TOLERANCES, Course, Failure, Point, chart
 from lagrotor.benchmark.scenes_and_methods import METHODS, courses, ratios
-from lagrotor.commands.chart_command import draw
 from lagrotor.commands.command_line import main
 from lagrotor.drawing.style import paper_style
 from lagrotor.errors import InputError
 from lagrotor.models.closed_form import closed_form
+from lagrotor.pictures.speed_chart import speed_chart as draw
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())
 TIMES = np.array([0.0, *STORED["times"]])

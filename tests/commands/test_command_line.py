@@ -24,9 +24,9 @@ from lagrotor.paper import record as paper_record
 from lagrotor.paper.catalogue import claims
 from lagrotor.paper.ledger import Relation, Statement, judge
 from lagrotor.pictures import figures
-from lagrotor.report import folder, reproduce
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.interactive import interactive
+from lagrotor.report.job import folder, reproduce
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SINGLE_ROTOR = ("5.01", "5.02", "5.03", "5.04", "5.05", "5.06")
@@ -580,7 +580,7 @@ def test_a_second_run_into_the_same_folder_is_refused(small_paper: Path, capsys:
 def test_a_terminated_run_leaves_nothing_behind(small_paper: Path) -> None:
     program = (
         "import sys, time\nfrom pathlib import Path\nfrom lagrotor.commands.command_line import main\n"
-        "from lagrotor.report import reproduce\n"
+        "from lagrotor.report.job import reproduce\n"
         "def wait(*a, **k):\n    print('running', flush=True)\n    time.sleep(60)\n"
         "reproduce._make = wait\nsys.exit(main(['reproduce', '--jobs', '1']))"
     )

@@ -1,5 +1,5 @@
-"""Renew what is on record: `python -m lagrotor.report.record` the verdicts that `reproduce`, `audit` and `claims` compare
-with, `python -m lagrotor.report.record speed` the timings that the report shows.
+"""Renew what is on record: `python -m lagrotor.report.renew_record` the verdicts that `reproduce`, `audit` and `claims` compare
+with, `python -m lagrotor.report.renew_record speed` the timings that the report shows.
 """
 
 import sys
@@ -19,5 +19,5 @@ def renew() -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["speed"]):
-        sys.exit("usage: python -m lagrotor.report.record [speed]")
+        sys.exit("usage: python -m lagrotor.report.renew_record [speed]")
     renew_speed() if sys.argv[1:] else renew()

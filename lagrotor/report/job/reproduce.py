@@ -19,18 +19,18 @@ from lagrotor.paper.audit import with_reach
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.record import OnRecord, changes, recorded
 from lagrotor.paper.scripts import beside
-from lagrotor.report import reach
 from lagrotor.report.api import api_page
 from lagrotor.report.content import Report
 from lagrotor.report.errata import latex_document
-from lagrotor.report.folder import TIMES, check_target, replaced
 from lagrotor.report.formulas.mathml_latex import converter
-from lagrotor.report.kept import Kept
+from lagrotor.report.job import reach
+from lagrotor.report.job.folder import TIMES, check_target, replaced
+from lagrotor.report.job.kept import Kept
+from lagrotor.report.job.processes import cores, results
+from lagrotor.report.job.reach import digest
+from lagrotor.report.job.steps import Derived, Step, steps
 from lagrotor.report.markdown import errata_blocks, markdown
-from lagrotor.report.page import page
-from lagrotor.report.processes import cores, results
-from lagrotor.report.reach import digest
-from lagrotor.report.steps import Derived, Step, steps
+from lagrotor.report.page.whole_page import page
 from lagrotor.report.supplement import supplement
 
 Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]

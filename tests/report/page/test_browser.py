@@ -23,7 +23,7 @@ from lagrotor.report.content import Report, sides
 from lagrotor.report.formulas.font import FAMILY, font_face
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
-from lagrotor.report.page import page
+from lagrotor.report.page.whole_page import page
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")

@@ -15,7 +15,7 @@ from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, Step
 from lagrotor.paper.tables import Table
 from lagrotor.report.content import Report, anchor
-from lagrotor.report.page_pieces import badge, link, prose, rows, typeset
+from lagrotor.report.page.page_pieces import badge, link, prose, rows, typeset
 
 
 def derivation_html(stem: str, answers: Mapping[str, str]) -> str:

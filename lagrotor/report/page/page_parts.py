@@ -7,10 +7,10 @@ from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
-from lagrotor.report.derivation_pages import reached_in
-from lagrotor.report.embed import embedded, size
 from lagrotor.report.errata import Erratum
-from lagrotor.report.page_pieces import (
+from lagrotor.report.page.derivation_pages import reached_in
+from lagrotor.report.page.embed import embedded, size
+from lagrotor.report.page.page_pieces import (
     badge,
     code,
     equations,

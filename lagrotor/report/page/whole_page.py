@@ -23,7 +23,7 @@ from lagrotor.report.content import (
 from lagrotor.report.errata import errata
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.formulas.mathml import mathml
-from lagrotor.report.page_parts import (
+from lagrotor.report.page.page_parts import (
     claim_entry,
     count_entry,
     derivation_entry,
@@ -33,7 +33,7 @@ from lagrotor.report.page_parts import (
     headline_entry,
     picture_entry,
 )
-from lagrotor.report.page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
+from lagrotor.report.page.page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
 from lagrotor.report.results import balance, headlines
 
 _HERE = Path(__file__).parent

@@ -7,8 +7,8 @@ import pytest
 
 import lagrotor
 from lagrotor.paper import scripts
-from lagrotor.report import reach
-from lagrotor.report.reach import digest, imports, made_from, reached
+from lagrotor.report.job import reach
+from lagrotor.report.job.reach import digest, imports, made_from, reached
 
 PACKAGE = Path(lagrotor.__file__).parent
 
@@ -68,7 +68,7 @@ def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> Non
         ("pair/lagrangians.py", True),
         ("paper/equations.toml", True),
         ("models/simulate.py", False),
-        ("report/page.css", False),
+        ("report/page/page.css", False),
     ],
 )
 def test_a_product_is_made_from_what_is_reached_only(

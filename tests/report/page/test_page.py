@@ -20,12 +20,12 @@ from lagrotor.paper.claim_tests import Finding, Part, Result
 from lagrotor.paper.ledger import Relation, Statement, chain, judge
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
-from lagrotor.report import page_pieces
 from lagrotor.report.content import Report, contents
-from lagrotor.report.folder import CONTENTS
 from lagrotor.report.formulas.mathml import mathml
+from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.markdown import markdown
-from lagrotor.report.page import page
+from lagrotor.report.page import page_pieces
+from lagrotor.report.page.whole_page import page
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}

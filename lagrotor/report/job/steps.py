@@ -11,9 +11,9 @@ from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.pictures import figures
-from lagrotor.report.derivation_pages import derivation_html, title
 from lagrotor.report.interactive import interactive as interactive_module
-from lagrotor.report.reach import made_from
+from lagrotor.report.job.reach import made_from
+from lagrotor.report.page.derivation_pages import derivation_html, title
 
 
 @dataclass(frozen=True)

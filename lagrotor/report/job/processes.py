@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 Task = TypeVar("Task")
 # Loaded once, before the processes part.
-_HEAVY = ["lagrotor.report.steps", "matplotlib.figure", "scipy.integrate"]
+_HEAVY = ["lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate"]
 
 
 def cores() -> int:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.report.folder import CONTENTS, MADE, PRODUCTS, TIMES
+from lagrotor.report.job.folder import CONTENTS, MADE, PRODUCTS, TIMES
 
 ROOT = Path(lagrotor.__file__).parent.parent
 LARGEST = 5_000_000  # bytes of the page
@@ -21,7 +21,9 @@ from pathlib import Path
 from lagrotor.paper import scripts
 from lagrotor.commands import terminal
 from lagrotor.pictures import figures
-from lagrotor.report import content, page, reach, reproduce, results
+from lagrotor.report import content, results
+from lagrotor.report.job import reach, reproduce
+from lagrotor.report.page import whole_page as page
 from lagrotor.report.interactive import interactive
 kept = {"s5_2e_bar_length", "s5_3a_equal_spins", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
 names = scripts.names

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from lagrotor.report.folder import MADE, PRODUCTS
-from lagrotor.report.kept import Kept
+from lagrotor.report.job.folder import MADE, PRODUCTS
+from lagrotor.report.job.kept import Kept
 
 VALUE = {"slope": 1.25, "formula": sp.Symbol("x", positive=True) ** 2}
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from lagrotor.about import __version__
 from lagrotor.paper import scripts
 
-_PACKAGE = Path(__file__).resolve().parent.parent
+_PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff"}

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from lagrotor.report.processes import cores, results
+from lagrotor.report.job.processes import cores, results
 
 
 def square(n: int) -> tuple[int, int]:

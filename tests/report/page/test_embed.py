@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from lagrotor.pictures.figures import Picture, draw
-from lagrotor.report import embed
-from lagrotor.report.embed import embedded, lean_svg, size
+from lagrotor.report.page import embed
+from lagrotor.report.page.embed import embedded, lean_svg, size
 
 # With 39 figures of this size the page would still be under 5 MB; most are half of it.
 LARGEST = 100_000

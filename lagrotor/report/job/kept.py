@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.files import write_beside, write_text
-from lagrotor.report.folder import MADE, PRODUCTS
-from lagrotor.report.reach import digest
+from lagrotor.report.job.folder import MADE, PRODUCTS
+from lagrotor.report.job.reach import digest
 
 # What a product may be made of: a pickle that names anything else is not read.
 _TRUSTED = (

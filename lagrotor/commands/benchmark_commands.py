@@ -1,0 +1,158 @@
+"""The commands that measure: chart (speed against accuracy) and stability (where methods fail)."""
+
+import argparse
+import json
+import os
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lagrotor.commands.options import Command, check_folder
+from lagrotor.commands.terminal import progress, table
+
+if TYPE_CHECKING:
+    from lagrotor.benchmark.limits.threshold import Limit
+    from lagrotor.benchmark.runner import Chart
+    from lagrotor.benchmark.throughput import Throughput
+
+LIMIT_HEAD = ("regime", "what", "predicted", "found", "ratio", "what the tool does")
+THROUGHPUT_HEAD = ("what", "a second", "share", "of")
+
+
+def add_benchmark_commands(command: Command) -> None:
+    """chart, stability."""
+    added = command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out .")
+    added.add_argument(
+        "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
+    )
+    added.add_argument("--json", action="store_true", help="print the points as a JSON object")
+    added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
+
+    added = command(
+        "stability",
+        stability_command,
+        "where methods fail, predicted and found; how much runs in a second",
+        "lagrotor stability --quick --out .",
+    )
+    added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+    added.add_argument("--out", type=Path, metavar="DIR", help="existing folder for stability.svg, .png and .json")
+
+
+def chart_command(given: argparse.Namespace) -> int:
+    """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
+    from lagrotor.benchmark.scenes_and_methods import charts
+    from lagrotor.drawing.style import paper_style
+    from lagrotor.files import write_beside, write_text
+    from lagrotor.pictures.speed_chart import speed_chart
+
+    check_folder(given.out)
+    with progress(4) as step:
+        found = charts(given.quick, step)
+    data = as_data(found)
+    text = json.dumps(data, indent=1, ensure_ascii=False)
+    written = [write_text(given.out / "chart.json", text)]
+    for one in found:
+        with paper_style():
+            figure = speed_chart(one)
+            for form in ("svg", "png"):
+                target = given.out / f"chart-{one.scene}.{form}"
+                written.append(write_beside(target, partial(figure.savefig, format=form)))
+    if given.json:
+        print(text)
+    else:
+        print(in_words(found), *written, sep="\n")
+    return 0
+
+
+def as_data(found: "list[Chart]") -> dict[str, Any]:
+    """The charts and the ratios of the displaced scene, for JSON."""
+    from lagrotor.benchmark.scenes_and_methods import ratios
+
+    return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0])}
+
+
+def in_words(found: "list[Chart]") -> str:
+    """The front of each scene, set-up, what failed, and the ratios, as tables."""
+    from lagrotor.benchmark.runner import front, listed
+    from lagrotor.benchmark.scenes_and_methods import LADDERS, ratios
+
+    parts = []
+    for one in found:
+        rows = [
+            (p.method, f"{p.knob:g}", f"{p.error:.1e}", f"{p.evaluations}", f"{1e3 * p.seconds:.3g}")
+            for p in front(one.points)
+        ]
+        parts += [f"{one.scene}: {one.says}; the reference's two formulations agree to {one.floor:.1e} m"]
+        parts += [table(("front", "tol", "error (m)", "evaluations", "ms"), rows)]
+        slow = sorted(((s, name) for name, s in one.setup.items() if s > 0.2), reverse=True)
+        parts += [f"  to get ready: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
+        parts += [f"  not there: {failure}" for failure in listed(one.failures)]
+        parts += [""]
+    compared = [
+        (error, name, f"{1e3 * value:.3g} ms" if name in LADDERS else f"{value:.3g}")
+        for error, row in ratios(found[0]).items()
+        for name, value in row.items()
+        if value is not None
+    ]
+    return "\n".join([*parts, table(("error (m)", "at equal error, displaced", "time or ratio"), compared)])
+
+
+def stability_command(given: argparse.Namespace) -> int:
+    if given.out:
+        check_folder(given.out)
+
+    import numpy as np
+
+    from lagrotor.benchmark.limits.step_size import LIMITS, limits
+    from lagrotor.benchmark.throughput import throughput
+    from lagrotor.files import write_text
+
+    with progress(len(LIMITS) + 1 + bool(given.out)) as step:
+        found = limits(given.quick, step)
+        step("throughput")
+        rates = _throughput(throughput, given.quick)
+        content: dict[str, Any] = {
+            "quick": given.quick,
+            "limits": [asdict(limit) | {"ratio": limit.ratio} for limit in found],
+            "throughput": [asdict(rate) for rate in rates],
+        }
+        if given.out:
+            from lagrotor.benchmark.limits.error_map import usefulness
+            from lagrotor.pictures.stability_figure import draw_stability
+
+            step("figure")
+            n, m = (8, 9) if given.quick else (24, 40)
+            useful = usefulness(np.geomspace(0.01, 0.5, n), np.geomspace(1e-6, 1.0, m))
+            content["usefulness"] = {name: np.asarray(value).tolist() for name, value in vars(useful).items()}
+    text = json.dumps(content, indent=1, ensure_ascii=False)
+    if given.json:
+        print(text)
+    else:
+        print(table(LIMIT_HEAD, limit_rows(found)), table(THROUGHPUT_HEAD, throughput_rows(rates)), sep="\n\n")
+    if given.out:
+        written = [*draw_stability(useful, given.out), write_text(given.out / "stability.json", text + "\n")]
+        if not given.json:
+            print(*written, sep="\n")
+    return 0
+
+
+def limit_rows(found: "Sequence[Limit]") -> list[tuple[str, ...]]:
+    """The limits as rows under LIMIT_HEAD."""
+    return [(x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in found]
+
+
+def throughput_rows(rates: "Sequence[Throughput]") -> list[tuple[str, ...]]:
+    """The rates as rows under THROUGHPUT_HEAD."""
+    return [(x.what, f"{x.rate:.3g} {x.unit}", f"{x.share:.2g}", x.against) for x in rates]
+
+
+def _throughput(measure: Any, quick: bool) -> "list[Throughput]":
+    """In one process a core; here, when quick, as starting them costs more than the run."""
+    if quick:
+        return list(measure(256))
+    with ProcessPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None) as executor:
+        return list(measure(8192, executor))
