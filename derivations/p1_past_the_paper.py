@@ -9,12 +9,12 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.symbols import G, Omega, P, att, k, nu, p_y, r0, sigma
+from lagrotor.pair.symbols import G, Omega, P, att, nu, p_y, r0
 from lagrotor.paper import scripts
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.theory.drift_after_shock import cancelling_impulse
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.paired_precession.closed_forms import leading_square
+from lagrotor.theory.paired_precession.stability import growth_squared
 from lagrotor.theory.toppling import toppling_threshold
 
 _stems = scripts.names("derivations", "t")
@@ -35,7 +35,7 @@ frequency = equal(Omega_0, natural_frequency().expressions[0])
 gained = equal(energy, t2["equal_x"] * att**2)
 series = equal(Omega / Omega_0, t3["frequency"])
 momentum = equal(P / G, t3["second"] * r0**2)
-stability = equal(power**2, leading_square(r0, sigma, k))
+stability = equal(power**2, growth_squared().expressions[0])
 cancelling = equal(p_y, cancelling_impulse().expressions[0])
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])

@@ -19,7 +19,7 @@ from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import SWING, G, a, b
 from lagrotor.paper.notebook import findings_table
 from lagrotor.theory.averaging import slow_rates, slow_stiffness
-from lagrotor.theory.paired_precession.closed_forms import leading_square
+from lagrotor.theory.paired_precession.stability import growth_squared
 
 statements: list = []
 findings: list[tuple[str, str]] = []
@@ -52,13 +52,12 @@ BARS = {
 def measure(link: Link, amplitudes: tuple[float, ...]) -> tuple[str, float, float]:
     """(kind, slope of |mu + 1/mu − 2|, its coefficient over the one of `leading_square` extrapolated to r_0 = 0)."""
     scene = Scene(spins=(10, -10), link=link)
-    inertia_a, inertia_b = scene.inertias
-    shape = (inertia_a + inertia_b) / (inertia_a - inertia_b) if inertia_b else 1.0
+    law = growth_squared(8, dumbbell=True) if scene.sigma == 1 else growth_squared()
     found = [floquet(scene, r0) for r0 in amplitudes]
     excess = np.array([f.pair_sum - 2 for f in found])
     squares = np.array([float(np.arccosh(complex(1 + e / 2)).real ** 2) for e in excess])
     squares = np.where(excess > 0, squares, -(np.arccos(np.clip(1 + excess / 2, -1, 1)) ** 2)) / (4 * np.pi**2)
-    ratio = squares / [leading_square(r0, shape, link.length) for r0 in amplitudes]
+    ratio = squares / [float(law(r0, scene.sigma, scene.k)) for r0 in amplitudes]
     (near, far), (r, q) = ratio[:2], amplitudes[:2]
     return found[0].kind, measured_order(amplitudes, np.abs(excess)), float(near + (near - far) * r**2 / (q**2 - r**2))
 

@@ -60,9 +60,7 @@ def data() -> dict[str, np.ndarray]:
         np.hypot(*(np.array([wave[0], wave[i]]) @ direction for wave in (answer.cosine, answer.sine))) for i in (1, 2)
     ]
     size = float(np.mean(swings))
-    a, b = SCENE.inertias
-    shape = (a + b) / (a - b)
-    rate = answer.frequency * float(paired_frequency(3)(size, shape, 1.0))
+    rate = answer.frequency * float(paired_frequency(3)(size, SCENE.sigma, 1.0))
     half, sign = np.array([[-0.5], [0.5]]), np.array([[1.0], [-1.0]])
 
     def paper(phase: float) -> np.ndarray:
@@ -70,7 +68,7 @@ def data() -> dict[str, np.ndarray]:
         return half + c * (size - sign * size**2 * c)
 
     def corrected(phase: float) -> np.ndarray:
-        series = corrected_trajectories(3)(size, rate * t + phase, shape, 1.0)
+        series = corrected_trajectories(3)(size, rate * t + phase, SCENE.sigma, 1.0)
         return half + np.array([series[0], series[3]])
 
     return {

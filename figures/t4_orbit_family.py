@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
 from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
+from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 BARS = {
     "massless, ell = R": Link(1, 0, 0),
@@ -42,8 +42,8 @@ def data() -> dict[str, np.ndarray]:
     found = {"r0": r0, "exact_at": EXACT_AT, "paper": 1 / np.sqrt(1 - r0**2)}
     for i, name in enumerate(BARS):
         for order in (3, 9):
-            series = paired_series(order, *shape_of(scene(name))).frequency
-            found[f"order {order}, {i}"] = np.array([evaluate(series, r, 0.0) for r in r0])
+            series = paired_series(order, *shape_of(scene(name)))
+            found[f"order {order}, {i}"] = np.array([series.relative_frequency(r) for r in r0])
         found[f"exact, {i}"] = orbit_family(scene(name), EXACT_AT).frequencies / natural_rate(scene(name))
     return found
 

@@ -9,13 +9,13 @@ from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 if TYPE_CHECKING:
     from lagrotor.models.orbits.continuation import orbit_family
     from lagrotor.models.orbits.floquet import floquet
+    from lagrotor.models.orbits.precession import paired_scene, precession_orbit
     from lagrotor.models.simulate import simulate
     from lagrotor.pair.initial_conditions import consistent_scene
     from lagrotor.paper.audit import audit
     from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
     from lagrotor.theory.natural_frequency import natural_rate
-    from lagrotor.theory.paired_precession.closed_forms import paired_momentum, paired_scene
-    from lagrotor.theory.paired_precession.evaluate import precession_orbit
+    from lagrotor.theory.paired_precession.closed_forms import paired_momentum
     from lagrotor.theory.shock_response import shock_response
 
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
@@ -27,8 +27,8 @@ _LATER = {
     "natural_rate": "lagrotor.theory.natural_frequency",
     "orbit_family": "lagrotor.models.orbits.continuation",
     "paired_momentum": "lagrotor.theory.paired_precession.closed_forms",
-    "paired_scene": "lagrotor.theory.paired_precession.closed_forms",
-    "precession_orbit": "lagrotor.theory.paired_precession.evaluate",
+    "paired_scene": "lagrotor.models.orbits.precession",
+    "precession_orbit": "lagrotor.models.orbits.precession",
     "shock_response": "lagrotor.theory.shock_response",
     "simulate": "lagrotor.models.simulate",
     "toppling_after_shock": "lagrotor.theory.drift_after_shock",

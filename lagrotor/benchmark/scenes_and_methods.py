@@ -30,7 +30,7 @@ from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.closed_forms import paired_scene
+from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ QUICK_PATIENCE = 0.2
 
 def courses(quick: bool = False) -> dict[str, Course]:
     """The four scenes; quick: fewer repeats, and 100 turns for 1,000."""
-    opposite, heavy = (paired_scene(Scene((10, -10), link=bar), AMPLITUDE, ORDER) for bar in (Link(), HEAVY))
+    opposite, heavy = (series_orbit(Scene((10, -10), link=bar), AMPLITUDE, ORDER).start for bar in (Link(), HEAVY))
     ten, repeats, turns = np.linspace(0, 10, 1001), 1 if quick else 2, 100 if quick else 1000
     period = 2 * np.pi / natural_rate(opposite)
     shocked = SCENES["free-precession"].scene

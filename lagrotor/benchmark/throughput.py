@@ -14,7 +14,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
-from lagrotor.theory.paired_precession.evaluate import precession_orbit
+from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
 _RUN = 10.0  # s
 _BIG = 1_000_000  # doubles: 8 MB an array, past the caches that a core has to itself
@@ -57,7 +57,7 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     phases, source, target = np.linspace(0, 2 * np.pi, _BIG), np.ones(_BIG), np.empty(_BIG)
     copied = _BIG / _best(partial(np.copyto, target, source), 5)
     rows.append(Throughput("an array copied", "numbers/s", copied, 1.0, "itself"))
-    amplitudes, orbit = np.linspace(0.01, 0.3, _BIG), precession_orbit(Scene((10.0, -10.0)), 0.204, 9)
+    amplitudes, orbit = np.linspace(0.01, 0.3, _BIG), series_orbit(Scene((10.0, -10.0)), 0.204, 9)
     for name, outputs, work in (
         ("paired_frequency, order 3", 1, partial(paired_frequency(3), amplitudes, 1.0, 1.0)),
         ("corrected_trajectories, order 3", 6, partial(corrected_trajectories(3), 0.204, phases, 1.0, 1.0)),

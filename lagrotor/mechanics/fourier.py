@@ -12,6 +12,7 @@ from typing import Any
 
 Key = tuple[int, int]  # (power of eps, harmonic): cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
 Coefficient = Any  # an element of the field
+Series = Any  # a FourierSeries, or what is added, multiplied and differentiated like one
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,10 @@ class FourierSeries:
     def half_period_later(self) -> "FourierSeries":
         """f(Phi + pi)."""
         return FourierSeries({(n, h): -v if h % 2 else v for (n, h), v in self.terms.items()}, self.order)
+
+    def constant(self, value: Coefficient) -> "FourierSeries":
+        """The constant `value`, through the same order."""
+        return constant(value, self.order)
 
     def through(self, order: int) -> "FourierSeries":
         """The same series truncated at, or meant through, another order."""

@@ -7,9 +7,9 @@ from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, constant
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
 
-Residual = Callable[[Sequence[FourierSeries], FourierSeries], list[FourierSeries]]
+Residual = Callable[[Sequence[Series], Series], list[Series]]
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def lindstedt_poincare(
             wanted = {(i, key): -v for i, r in enumerate(now) for key, v in r.harmonics(n).items() if abs(key) == h}
             extra = drift if h == 1 else None
             fixed = (amplitude, -at_zero) if h == 1 else None
-            values, shift = _solve(operators[h], wanted, extra, fixed, field)
+            values, shift = solve_harmonic(operators[h], wanted, extra, fixed, field)
             for j, value in enumerate(values):
                 if value:
                     unknowns[j] += FourierSeries({(n, -h if sines[j] else h): value}, order)
@@ -97,7 +97,7 @@ def _frequency_column(
     return column
 
 
-def _solve(
+def solve_harmonic(
     columns: list[dict[tuple[int, int], Coefficient]],
     wanted: dict[tuple[int, int], Coefficient],
     extra: dict[tuple[int, int], Coefficient] | None,

@@ -21,8 +21,8 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.model import Array, Observed, constant_momenta
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.closed_forms import most_growth
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
+from lagrotor.theory.paired_precession.stability import most_growth
 
 Waves = NDArray[np.complex128]
 ORDERS = (3, 5, 7, 9, 11, 13, 15)
@@ -228,8 +228,7 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
     the `best` is asked for.
     """
-    own, shared = scene.inertias
-    width, natural = sqrt((own + shared) / (own - shared)), natural_rate(scene)
+    width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural
     turned, velocity = natural * t_end, rates / signed
     guess = _guess(axes, velocity, width)

@@ -235,6 +235,19 @@ class Scene:
         whole, twist = self.link.mass * R**2 / 4, self.link.inertia * (R / self.link.length) ** 2
         return J + whole + twist, whole - twist
 
+    @property
+    def sigma(self) -> float:
+        """(a + b)/(a − b): 1 without a bar, for a massless bar and for a dumbbell."""
+        own, shared = self.inertias
+        return (own + shared) / (own - shared)
+
+    @property
+    def k(self) -> float:
+        """ell/R, the bar's length in lengths of an axis. Raises InputError without a bar."""
+        if self.link is None:
+            raise InputError("Scene: k = ell/R needs a bar; give the scene a link")
+        return self.link.length / self.rotor.length
+
     def summary(self) -> dict[str, str]:
         """Spins, rotors, bar and shock, name → words."""
         rotor, bar, shock = self.rotor, self.link, self.shock

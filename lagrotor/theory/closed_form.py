@@ -15,13 +15,18 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.codegen import Program, compile_program, in_blocks
 from lagrotor.pair.symbols import GLOSSARY
 
+Array = NDArray[np.float64]
+# From the arguments, each (n,): estimated bounds of the errors, (outputs, n) or what broadcasts to it.
+Bound = Callable[..., Array]
+
 
 @dataclass(frozen=True)
 class ClosedForm:
     """Expressions of `arguments`, valid under `assumptions` where every condition of `domain` holds.
 
     `order`: through which power of `small` a series is right; None for an exact form. `source`: the paper's equation.
-    Called with numbers or arrays in the order of `arguments` it returns the expressions' values, broadcast.
+    Called with numbers or arrays in the order of `arguments` it returns the expressions' values, broadcast; `error` takes
+    the same arguments. `bound`: of a series, the errors' bounds for arguments (n,) each.
     """
 
     name: str
@@ -33,6 +38,7 @@ class ClosedForm:
     source: str
     order: int | None = None
     small: sp.Symbol | None = None
+    bound: Bound | None = None
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
@@ -48,11 +54,38 @@ class ClosedForm:
         lines = r" \\ ".join(f"{name} &= {expression}" for name, expression in named)
         return rf"$\displaystyle \begin{{aligned}} {lines} \end{{aligned}}$"
 
-    def __call__(self, *values: ArrayLike) -> NDArray[np.float64] | tuple[NDArray[np.float64], ...]:
+    def __call__(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
         """The outputs at these argument values: one array, or a tuple where there are several outputs.
 
         Raises InputError for a wrong number of arguments, DomainError where a value is outside the domain.
         """
+        flat, shape = self._checked(values)
+        rows = in_blocks(self._functions[0], flat, len(self.outputs), prod(shape))
+        return self._shaped(rows, shape)
+
+    def error(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
+        """Bounds of the outputs' errors at these argument values, in the form of the outputs; rounding is not counted.
+
+        Zero for an exact form (order None), under its assumptions. Raises as a call does, InputError for a series of
+        which no bound is known, and DomainError where the series is beyond its range.
+        """
+        flat, shape = self._checked(values)
+        if self.order is None:
+            bounds = np.zeros(1)
+        elif self.bound is None:
+            raise InputError(
+                f"{self.name}: no bound of this series' error is known; compare it with a simulated motion"
+            )
+        else:
+            bounds = self.bound(*(np.broadcast_to(v, prod(shape)) for v in flat))
+        return self._shaped(np.broadcast_to(bounds, (len(self.outputs), prod(shape))).copy(), shape)
+
+    def _shaped(self, rows: Array, shape: tuple[int, ...]) -> Array | tuple[Array, ...]:
+        results = tuple(row.reshape(shape) for row in rows)
+        return results if len(results) > 1 else results[0]
+
+    def _checked(self, values: tuple[ArrayLike, ...]) -> tuple[list[float | Array], tuple[int, ...]]:
+        """The arguments as numbers or rows, and the shape that they broadcast to; refused outside the domain."""
         if len(values) != len(self.arguments):
             raise InputError(
                 f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
@@ -66,8 +99,7 @@ class ClosedForm:
                 raise DomainError(f"{self.name}: {argument} = {array.min():g} must be greater than zero")
         # One value for all stays one number.
         flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in given]
-        function, conditions = self._functions
-        for relation, condition in zip(self.domain, conditions, strict=True):
+        for relation, condition in zip(self.domain, self._functions[1], strict=True):
             inside = np.broadcast_to(condition(*flat), prod(shape))
             if not inside.all():
                 where = int(np.argmin(inside))
@@ -76,8 +108,7 @@ class ClosedForm:
                     for s, v in zip(self.arguments, flat, strict=True)
                 )
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
-        results = tuple(row.reshape(shape) for row in in_blocks(function, flat, len(self.outputs), prod(shape)))
-        return results if len(results) > 1 else results[0]
+        return flat, shape
 
 
 def _is_multiple(e: sp.Expr) -> bool:

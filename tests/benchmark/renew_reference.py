@@ -11,10 +11,11 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
-from lagrotor import Scene, paired_scene
+from lagrotor import Scene
 from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, ORDER
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
 TARGET = Path(__file__).with_name("reference.json")
 COLUMNS, STEPS_A_SECOND = 13, 20
@@ -51,7 +52,7 @@ def states(module: Any, scene: Scene, seconds: int) -> list[list[Any]]:
 
 def renew() -> None:
     mp.mp.dps = 30
-    scene = paired_scene(Scene((10, -10)), AMPLITUDE, ORDER)
+    scene = series_orbit(Scene((10, -10)), AMPLITUDE, ORDER).start
     one = states(minimal, scene, 10)
     axes = minimal.MODEL.observe(scene, np.array(one, dtype=float)).axes
     other = np.array(states(spheres, scene, 10), dtype=float)

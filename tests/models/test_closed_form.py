@@ -10,6 +10,7 @@ from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import DomainError
 from lagrotor.models.closed_form import closed_form
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.theory.paired_precession.series_orbit import series_orbit
 from lagrotor.theory.parallel_precession import parallel_scene
 
 T = np.linspace(0, 5, 101)
@@ -76,7 +77,7 @@ def test_paired_precession_from_any_phase_and_azimuth(link: Link, sign: int) -> 
 
 
 def test_the_order_follows_the_tolerance() -> None:
-    scene = paired_scene(Scene((10, -10), link=Link(1, 0.01, 0.1)), 0.1, order=13)
+    scene = series_orbit(Scene((10, -10), link=Link(1, 0.01, 0.1)), 0.1, 13).start
     says = [closed_form(scene, 5.0, tol) for tol in (1e-2, 1e-5, 1e-8)]
     assert [answer.error <= tol for answer, tol in zip(says, (1e-2, 1e-5, 1e-8), strict=True)] == [True] * 3
     orders = [int(answer.reason.rsplit("^", 1)[1]) for answer in says]
@@ -84,14 +85,14 @@ def test_the_order_follows_the_tolerance() -> None:
 
 
 def test_a_start_off_the_orbit_is_in_the_error() -> None:
-    scene = paired_scene(Scene((10, -10)), 0.2, order=5)
+    scene = series_orbit(Scene((10, -10)), 0.2, 5).start
     assert check(scene, 1e-2) > 1e-5
 
 
 @pytest.mark.parametrize(("r0", "t_end"), [(0.4, 200.0), (0.45, 200.0), (0.4, 2000.0), (0.48, 400.0)])
 def test_where_the_orbit_is_hyperbolic_what_is_foreseen_grows(r0: float, t_end: float) -> None:
     """Over hundreds of turns a start that is off by the series' last terms parts from the orbit."""
-    scene, times = paired_scene(Scene((-5.1, 5.1), link=Link(1.3, 0.5, 0.2)), r0, 15), np.linspace(0, t_end, 60)
+    scene, times = series_orbit(Scene((-5.1, 5.1), link=Link(1.3, 0.5, 0.2)), r0, 15).start, np.linspace(0, t_end, 60)
     exact = simulate(scene, times, "minimal", 1e-12).axes
     for best in (False, True):
         told = closed_form(scene, t_end, 1e-4, best)
@@ -133,6 +134,6 @@ def test_asked_for_by_name_the_series_goes_on_to_order_21() -> None:
 
 
 def test_a_closed_form_asked_for_by_name_says_how_far_off_it_may_be() -> None:
-    off = simulate(paired_scene(Scene((10, -10)), 0.204), T, "closed_form", 1e-9)
+    off = simulate(series_orbit(Scene((10, -10)), 0.204, 9).start, T, "closed_form", 1e-9)
     assert off.why.startswith("asked for; on its paired precession") and off.why.endswith("more than tol")
     assert "more than tol" not in simulate(paired_scene(Scene((10, -10)), 0.204), T, "closed_form", 1e-3).why

@@ -1,18 +1,14 @@
-"""The paired precession: series against exact orbits of bars not used elsewhere, family, multipliers, momentum."""
+"""The coefficients of the paired precession's series against exact orbits of bars not used elsewhere; its momentum."""
 
 import numpy as np
 import pytest
 import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, natural_rate
-from lagrotor.errors import DomainError, InputError
-from lagrotor.models.orbits.continuation import orbit_family, trace_family
-from lagrotor.models.orbits.floquet import floquet
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.orbits.variational import flow
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.paired_precession.closed_forms import leading_square, most_growth, paired_momentum
+from lagrotor.theory.paired_precession.closed_forms import paired_momentum
 from lagrotor.theory.paired_precession.series import paired_series
 
 # sigma = 5/9, 7/5 and 11/8, with k = 13/10, 4/5 and 1.
@@ -91,92 +87,10 @@ def test_errors_fall_with_the_order(order):
 
 
 def test_momentum_is_constant_and_right():
-    form = paired_momentum(4, sp.Rational(5, 9), sp.Rational(13, 10))
+    form = paired_momentum(4)
     scene = scene_of(*BARS["sigma 5/9, k 1.3"])
     off = []
     for r in (0.05, 0.1, 0.2):
         run = simulate(exact_orbit(scene, r).scene, np.array([0.0, 0.3]), "minimal", 1e-13)
         off.append(abs(float(form(r, 5 / 9, 1.3)) - run.joint_line_momentum[1] / 10))
     assert measured_order((0.05, 0.1, 0.2), off) == pytest.approx(6, abs=0.3)
-
-
-def test_slope_of_the_flow_is_the_derivative():
-    scene = scene_of(*BARS["sigma 7/5, k 0.8"])
-    through, state = flow(scene), np.array([0.1, 0.2, 0.3, -0.4, 0.5, 0.2])
-    slope = through(state, 0.7).slope
-    step = 1e-5 * np.eye(6)
-    differences = np.column_stack([(through(state + s, 0.7).end - through(state - s, 0.7).end) / 2e-5 for s in step])
-    assert np.abs(slope - differences).max() < 1e-7
-
-
-@pytest.mark.parametrize(
-    ("link", "kind", "amplitude"),
-    [
-        (Link(1, 0, 0), "hyperbolic", 0.15),
-        (Link(1.3, 0.1, 0.2), "hyperbolic", 0.08),
-        (Link(1, 0.8, 0.1), "elliptic", 0.08),
-    ],
-)
-def test_multipliers(link, kind, amplitude):
-    scene = Scene(spins=(10, -10), link=link)
-    found = floquet(scene, amplitude)
-    assert found.kind == kind
-    assert np.prod(found.multipliers).real == pytest.approx(1, abs=1e-10)
-    assert np.linalg.det(found.monodromy) == pytest.approx(1, abs=1e-8)
-    a, b = scene.inertias
-    square = leading_square(amplitude, (a + b) / (a - b), link.length)
-    measured = (found.growth**2 - found.turning**2) / (4 * np.pi**2)
-    assert measured == pytest.approx(square, rel=0.1)
-
-
-@pytest.mark.parametrize("link", [
-    Link(1), Link(0.6), Link(1.6), Link(1, 1, 1), Link(1, 0.01, 0.1), Link(1.3, 0.5, 0.2), Link(1, 1, 0.3), Link(1, 1, 0.2),
-    Link(0.7, 1, 0.02), Link(1, 0.1, 0.02),
-])  # fmt: skip
-def test_no_orbit_grows_faster_than_both_laws_together(link):
-    scene, bounded = Scene(spins=(10, -10), link=link), []
-    a, b = scene.inertias
-    for amplitude in (0.2, 0.5):
-        growth = floquet(scene, amplitude).growth / (2 * np.pi)
-        bound = most_growth(amplitude, (a + b) / (a - b), link.length)
-        assert growth <= bound
-        bounded.append(growth > bound / 3)
-    assert any(bounded)  # twin: a third of the bound is none
-
-
-def test_elliptic_turns_hyperbolic_where_the_leading_terms_balance():
-    scene = Scene(spins=(10, -10), link=Link(1, 0.02, 0))
-    a, b = scene.inertias
-    shape = (a + b) / (a - b)
-    edge = shape * np.sqrt(2 * (shape - 1) / 3)
-    assert floquet(scene, 0.93 * edge).kind == "elliptic"
-    assert floquet(scene, 1.03 * edge).kind == "hyperbolic"
-
-
-def test_family_agrees_with_shooting():
-    scene = Scene(spins=(10, -10), link=Link(1, 0.01, 0.1))
-    family = orbit_family(scene, [0.1, 0.4])
-    for i, r0 in enumerate((0.1, 0.4)):
-        assert family.frequencies[i] == pytest.approx(exact_orbit(scene, r0).frequency, rel=1e-10)
-    end = simulate(family.orbit(1).scene, np.array([2 * np.pi / family.frequencies[1]]), "minimal", 1e-13)
-    assert np.abs(end.axes[:, 0] - np.array(family.orbit(1).scene.axes)).max() < 1e-9
-
-
-def test_refused():
-    with pytest.raises(InputError, match="opposite"):
-        orbit_family(Scene(spins=(10, 10)), [0.1])
-    with pytest.raises(DomainError, match="increase"):
-        orbit_family(Scene(spins=(10, -10)), [0.3, 0.2])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("link", [Link(1, 0, 0), Link(0.6, 0, 0), Link(1.6, 0, 0)])
-def test_family_reaches_the_joint_line_without_a_turn(link):
-    family = trace_family(Scene(spins=(10, -10), link=link))
-    assert family.turns == ()
-    assert family.amplitudes[-1] > 0.98
-    falls = np.diff(family.frequencies) < 0
-    # A long bar's frequency only rises; the others fall to a least value and rise from there.
-    assert falls.any() != (link.length > 1)
-    assert not falls[-1]
-    assert (np.diff(falls.astype(int)) != 0).sum() == (0 if link.length > 1 else 1)

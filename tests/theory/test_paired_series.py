@@ -20,12 +20,6 @@ SCENES = {
 }
 
 
-def shape_of(scene: Scene) -> tuple[float, float]:
-    a, b = scene.inertias
-    assert scene.link is not None
-    return (a + b) / (a - b), scene.link.length / scene.rotor.length
-
-
 def test_second_order_by_hand() -> None:
     """From the bar, x_1 − x_2 = 2 r_0² sin² Phi at sigma = k = 1; from J y'' = G x', y has −r_0²/4 sin 2 Phi."""
     series = paired_series(2, sp.Integer(1), sp.Integer(1))
@@ -45,7 +39,7 @@ def test_coefficients_for_numbers_are_those_of_the_symbols() -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_series_keeps_unit_axes_and_the_bar_to_its_order(name: str) -> None:
-    shape, ratio = shape_of(SCENES[name])
+    shape, ratio = SCENES[name].sigma, SCENES[name].k
     phases = np.linspace(0, 2 * np.pi, 41)
     for order in (2, 3):
         gaps = []
@@ -76,7 +70,7 @@ def test_the_exact_orbit_closes_and_has_its_symmetry(name: str) -> None:
 def test_errors_fall_with_the_order(name: str, order: int) -> None:
     """Error of the axes against the exact orbit ~ r_0**(order + 1), of the frequency ~ r_0**(next even power)."""
     scene = SCENES[name]
-    shape, ratio = shape_of(scene)
+    shape, ratio = scene.sigma, scene.k
     amplitudes = (0.04, 0.05, 0.06) if order < 5 else (0.08, 0.1, 0.12)
     phases = np.linspace(0, 2 * np.pi, 33)
     axes_errors, rate_errors = [], []
@@ -118,7 +112,5 @@ def test_refusals() -> None:
         exact_orbit(SCENES["massless"], 1.5)
     with pytest.raises(DomainError, match="sine"):
         paired_scene(SCENES["massless"], 1.5)
-    with pytest.raises(DomainError, match="last terms"):
-        paired_scene(SCENES["massless"], 0.6)
     kept = paired_scene(Scene(spins=(10, -10), shock=Shock((1, 0, 0), 1, 0.1)), 0.1)
     assert kept.shock is not None

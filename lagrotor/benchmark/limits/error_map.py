@@ -6,11 +6,12 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.limits.range_of_validity import series_axes
 from lagrotor.errors import InputError
 from lagrotor.models.ensemble import sweep
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair.scene import Scene
+from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 Array = NDArray[np.float64]
 USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction
@@ -38,9 +39,6 @@ def usefulness(
 
     Raises InputError for amplitudes or departures that are not rows of numbers.
     """
-    from lagrotor.theory.natural_frequency import natural_rate
-    from lagrotor.theory.paired_precession.series import evaluate, paired_series, shape_of
-
     if np.ndim(amplitudes) != 1 or np.ndim(departures) != 1 or not len(amplitudes) or not len(departures):
         raise InputError("usefulness: amplitudes and departures must be rows of numbers")
     base = Scene((spin, -spin))
@@ -52,7 +50,7 @@ def usefulness(
     for i, order in enumerate(orders):
         series = paired_series(order, *shape_of(base))
         for j, r0 in enumerate(amplitudes):
-            phases = natural_rate(base) * float(evaluate(series.frequency, float(r0), 0.0)) * times
-            off = exact[:, j] - series_axes(base, order, float(r0), phases)
+            phases = natural_rate(base) * series.relative_frequency(float(r0)) * times
+            off = exact[:, j] - series.axes(float(r0), phases)
             errors[i, :, j] = np.linalg.norm(off, axis=-1).max((1, 2))
     return Usefulness(np.asarray(amplitudes, float), np.asarray(departures, float), orders, errors)

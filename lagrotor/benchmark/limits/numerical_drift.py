@@ -30,7 +30,7 @@ def constraint_drift(scene: Scene, step: float, count: int, every: int, projecte
     rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
     assert scene.link is not None and spheres.MODEL.projection is not None
     project, off = spheres.MODEL.projection(scene), []
-    k = scene.link.length / scene.rotor.length
+    k = scene.k
     for number in range(1, count + 1):
         one = np.array(rate(0.0, y))
         two = np.array(rate(0.0, y + step / 2 * one))

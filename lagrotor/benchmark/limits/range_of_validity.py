@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from math import exp, log, pi, sqrt
+from math import exp, log, pi
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.models.ensemble import started
@@ -15,7 +15,7 @@ from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.series import PairedSeries, evaluate, paired_series, shape_of
+from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of
 from lagrotor.theory.parallel_precession import parallel_scene
 
 Array = NDArray[np.float64]
@@ -27,23 +27,12 @@ def _series(scene: Scene, order: int) -> PairedSeries:
     return paired_series(order, *shape_of(scene))
 
 
-def series_axes(scene: Scene, order: int, r0: float, phases: ArrayLike) -> Array:
-    """Axes (2, n, 3) of the paired precession of amplitude r0 at phases (n,), by the series through r0**order."""
-    series, widths = _series(scene, order), np.array([1.0, sqrt(shape_of(scene)[0]), 1.0])
-    at = np.asarray(phases, dtype=float)
-    first, second = (
-        np.stack([evaluate(part, r0, at + shift) for part in (series.x, series.Y, series.z)], axis=-1) * widths
-        for shift in (0.0, pi)
-    )
-    return np.stack([first, second * [-1.0, 1.0, 1.0]])
-
-
 def series_error(scene: Scene, order: int, r0: float) -> float:
     """Largest distance between the axes of the series and of the exact orbit at equal phases, over a turn."""
     orbit = _orbit(scene, r0)
     times = _PHASES / abs(orbit.frequency)
     exact = simulate(orbit.scene, times, "minimal", 1e-11).axes
-    return float(np.linalg.norm(series_axes(scene, order, r0, _PHASES) - exact, axis=-1).max())
+    return float(np.linalg.norm(_series(scene, order).axes(r0, _PHASES) - exact, axis=-1).max())
 
 
 @lru_cache(maxsize=256)
@@ -54,7 +43,7 @@ def _orbit(scene: Scene, r0: float) -> ExactOrbit:
 def next_term(scene: Scene, order: int) -> float:
     """Largest size over a turn of the coefficient of r0**(order + 1) in the axes."""
     phases, small = np.linspace(0, 2 * pi, 181), 0.5
-    more, less = (series_axes(scene, n, small, phases) for n in (order + 1, order))
+    more, less = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
     return float(np.linalg.norm(more - less, axis=-1).max()) / small ** (order + 1)
 
 

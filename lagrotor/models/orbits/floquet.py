@@ -6,7 +6,7 @@ the monodromy less four. The orbit is elliptic where |mu + 1/mu| < 2, hyperbolic
 """
 
 from dataclasses import dataclass
-from math import acos, acosh, pi
+from math import acos, acosh, pi, sqrt
 from typing import Literal
 
 import numpy as np
@@ -18,8 +18,8 @@ from lagrotor.models.orbits.variational import flow
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
-# The trace of a monodromy is found to about 1e-11; within that the pair cannot be told from 1.
-RESOLVED = 2e-11
+# Bound of the trace's error, relative to the size of the monodromy; held by tests/models/test_orbit_errors.py.
+_INTEGRATED = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,8 @@ class Floquet:
     """multipliers (6,), complex: four ones, mu, 1/mu. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
 
     growth: log |mu| per turn (0 on an elliptic orbit); turning: angle of mu per turn (rad) on an elliptic orbit.
-    frequency: of the orbit (rad/s).
+    frequency: of the orbit (rad/s). error: bound of the error of pair_sum, within which the kind is "unresolved";
+    exponent_error: of growth and turning (rad a turn).
     """
 
     multipliers: NDArray[np.complex128]
@@ -36,11 +37,19 @@ class Floquet:
     growth: float
     turning: float
     frequency: float
+    error: float
     monodromy: Array
+
+    @property
+    def exponent_error(self) -> float:
+        """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or its root."""
+        apart = abs(self.multipliers[4] - self.multipliers[5])
+        root = sqrt(2 * self.error)
+        return min(2 * self.error / apart, root) if apart > root else root
 
 
 def floquet(scene: Scene, r0: float) -> Floquet:
-    """Floquet multipliers of the paired precession of amplitude r0, through the variational equations.
+    """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
 
     Raises InputError unless the spins are opposite and there is a bar, DomainError when no orbit is found at r0.
     """
@@ -52,14 +61,20 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
     period = 2 * pi / abs(orbit.frequency)
     slope = flow(orbit.scene)(MODEL.start(orbit.scene), period).slope
     total = float(np.trace(slope)) - 4
-    excess = total - 2
-    if abs(excess) < RESOLVED:
+    excess, error = total - 2, _error(slope, total)
+    growth = turning = 0.0
+    if abs(excess) < error:
         kind: Literal["elliptic", "hyperbolic", "unresolved"] = "unresolved"
-        growth = turning = 0.0
     elif abs(total) > 2:
-        kind, growth, turning = "hyperbolic", acosh(abs(total) / 2), 0.0
+        kind, growth = "hyperbolic", acosh(abs(total) / 2)
     else:
-        kind, growth, turning = "elliptic", 0.0, acos(total / 2)
+        kind, turning = "elliptic", acos(total / 2)
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
-    return Floquet(multipliers, total, kind, growth, turning, orbit.frequency, slope)
+    return Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope)
+
+
+def _error(monodromy: Array, total: float) -> float:
+    """From integration, and from how far the sum of the multipliers' products by pairs is off 4 (mu + 1/mu) + 7."""
+    pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
+    return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

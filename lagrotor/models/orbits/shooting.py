@@ -1,64 +1,142 @@
 """The paired precession of opposite spins as the exact model has it: a periodic orbit found by shooting.
 
 At Phi = 0 the axes are parallel in the x-z plane and turn through it (chi = alpha = 0, U' = 0, x = r_0); a quarter
-period later the symmetries put U = alpha = 0, chi' = 0. Three conditions for chi'(0), alpha'(0) and the period.
+period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0), alpha'(0) (in units of
+Omega_0) and the quarter period's phase Omega_0 t; Newton's method takes the exact Jacobian of the flow.
 """
 
 from dataclasses import dataclass, replace
-from math import atanh, pi
+from math import atanh, copysign, pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, IntegrationError
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array
-from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.models.orbits.variational import flow
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.series import shape_of
+from lagrotor.theory.paired_precession.series_orbit import amplitude_of
+
+Array = NDArray[np.float64]
+# Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
+# by tests/models/test_orbit_errors.py, against collocation.
+INTEGRATED = 3e-14
+_NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
+FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
 
 
 @dataclass(frozen=True)
 class ExactOrbit:
-    """A scene that starts on the orbit at Phi = 0, and the orbit's angular frequency (rad/s)."""
+    """A scene that starts on the orbit at Phi = 0, and the orbit's angular frequency (rad/s), negative as rotor 1's spin.
+
+    error: bound of the axes' error at equal phase over a turn; frequency_error: of the frequency, rad/s.
+    """
 
     scene: Scene
     frequency: float
+    error: float
+    frequency_error: float
+
+
+class QuarterPeriod:
+    """The three conditions for the four unknowns z, and their Jacobian: a curve of orbits, the family of the scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        """Raises InputError unless the spins are opposite and there is a bar."""
+        shape_of(scene)
+        self.scene = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
+        own, shared = scene.inertias
+        self.natural = scene.momenta[0] / sqrt(own**2 - shared**2)
+        self._flow = flow(self.scene)
+
+    def state(self, z: Array) -> Array:
+        """(U, chi, alpha and their rates) at Phi = 0."""
+        return np.array([z[0], 0.0, 0.0, 0.0, z[1] * self.natural, z[2] * self.natural])
+
+    def __call__(self, z: Array) -> tuple[Array, Array]:
+        """The conditions (3,) and their Jacobian (3, 4)."""
+        scale = self.natural
+        now = self._flow(self.state(z), z[3] / abs(scale))
+        rows, weights = [0, 2, 4], np.array([1.0, 1.0, 1 / scale])
+        slope = np.column_stack(
+            [now.slope[rows, 0], now.slope[rows, 4] * scale, now.slope[rows, 5] * scale, now.rate[rows] / abs(scale)]
+        )
+        return weights * now.end[rows], weights[:, None] * slope
+
+    def linear(self, u: float) -> Array:
+        """The orbit of small amplitude: chi' = 2 u sqrt(sigma) Omega_0, by 1/k more for a short bar (Delta = k chi)."""
+        return np.array([u, 2 * u * sqrt(self.scene.sigma) / min(self.scene.k, 1.0), 0.0, pi / 2])
+
+    def correct(self, z: Array, row: Array, value: float) -> Array:
+        """Newton's method to the curve, on the plane row . z = value. Raises DomainError when it does not converge."""
+        for _ in range(9):
+            miss, slope = self(z)
+            error = np.append(miss, row @ z - value)
+            z = z - np.linalg.solve(np.vstack([slope, row]), error)
+            if np.abs(error).max() < 1e-11:
+                return z
+            if not np.isfinite(z).all() or np.abs(z).max() > 60:
+                break
+        raise DomainError("the periodic orbit: Newton's method does not converge")
+
+    def tangent(self, z: Array, along: Array) -> Array:
+        """Unit tangent of the curve at z, on the side of `along`."""
+        null = np.linalg.svd(self(z)[1])[2][-1]
+        return null if null @ along >= 0 else -null
+
+    def follow(self, z: Array | None, r0: float) -> Array:
+        """From z, or from rest, along the family to the amplitude r0 > 0.
+
+        Raises DomainError where the family turns or ends before.
+        """
+        goal, row, step = atanh(r0), np.array([1.0, 0.0, 0.0, 0.0]), 0.4
+        if z is None:
+            u = min(goal, 0.5)
+            while True:
+                try:
+                    z = self.correct(self.linear(u), row, u)
+                    break
+                except FAILURES:
+                    u /= 2
+                    if u < _NO_STEP:
+                        raise
+        while z[0] < goal - 1e-15:
+            tangent = self.tangent(z, row)
+            if tangent[0] < 0.02 or step < _NO_STEP:
+                raise DomainError(
+                    f"the periodic orbit of r0 = {r0:g}: the family turns or ends at {np.tanh(z[0]):.6g}; take a smaller "
+                    "amplitude, or follow the turn by lagrotor.models.orbits.continuation.trace_family"
+                )
+            u = min(goal, z[0] + step)
+            try:
+                z = self.correct(z + (u - z[0]) / tangent[0] * tangent, row, u)
+                step = min(0.4, 1.5 * step)
+            except FAILURES:
+                step /= 2
+        return z
+
+    def orbit(self, z: Array) -> ExactOrbit:
+        """The orbit of the unknowns z, as a scene that starts on it."""
+        seen = MODEL.observe(self.scene, self.state(z)[None])
+        axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
+        frequency = pi / 2 * self.natural / float(z[3])
+        # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
+        slope = self(z)[1]
+        off = INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
+        start = replace(self.scene, axes=axes, rates=rates)  # type: ignore[arg-type]
+        return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
 
 
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     """The orbit of amplitude r0 = sin(theta) when the axes are parallel, for the scene's rotor, bar and spins.
 
-    Raises InputError unless the spins are opposite, DomainError when no orbit of that amplitude is found.
+    Raises InputError unless the spins are opposite, DomainError unless 0 < |r0| < 1 and when no orbit of that amplitude
+    is found.
     """
-    from scipy.optimize import root
-
-    shape_of(scene)
-    if not 0 < abs(r0) < 1:
-        raise DomainError(f"exact_orbit: r0 = {r0:g} must lie between 0 and 1: it is the sine of an inclination")
-    still = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
-    a, b = scene.inertias
-    G = scene.momenta[0]
-    natural = G / np.sqrt(a * a - b * b)
-    rate = MODEL.rate(still, False)
-
-    def start(unknown: Array) -> Array:
-        return np.array([atanh(r0), 0.0, 0.0, 0.0, unknown[0] * natural, unknown[1] * natural])
-
-    def miss(unknown: Array) -> Array:
-        quarter = unknown[2] / abs(natural)
-        try:
-            end = integrate(Problem(rate, start(unknown), 20_000), np.array([quarter]), TIGHTEST).states[0]
-        except (IntegrationError, ValueError):
-            return np.full(3, 1e3)
-        return np.array([end[0], end[2], end[4] / natural])
-
-    # The linear orbit: y = ± r0 sqrt(sigma) sin Phi, so alpha_2' − alpha_1' = 2 r0 sqrt(sigma).
-    guess = np.array([2 * r0 * np.sqrt((a + b) / (a - b)), 0.0, pi / 2])
-    found = root(miss, guess, tol=1e-14)
-    if np.abs(miss(found.x)).max() > 1e-10:
-        raise DomainError(
-            f"exact_orbit: no periodic orbit found at r0 = {r0:g}: follow the family from a smaller amplitude"
-        )
-    seen = MODEL.observe(still, start(found.x)[None])
-    axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
-    return ExactOrbit(replace(still, axes=axes, rates=rates), float(pi / 2 * natural / found.x[2]))  # type: ignore[arg-type]
+    if amplitude_of(r0, "exact_orbit") == 0:
+        raise DomainError("exact_orbit: r0 = 0 is the pair at rest, with no orbit; take an amplitude above 0")
+    family = QuarterPeriod(scene)
+    z = family.follow(None, abs(r0))
+    # Of −r0: the same orbit half a period later.
+    return family.orbit(z * np.array([copysign(1, r0), copysign(1, r0), 1.0, 1.0]))

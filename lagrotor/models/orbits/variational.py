@@ -70,7 +70,7 @@ def flow(scene: Scene) -> Callable[[Array, float], Flow]:
     if scene.link is None:
         raise SingularError("flow: the scene has no bar to eliminate")
     inertia_a, inertia_b = scene.inertias
-    value = scene.link.length / scene.rotor.length
+    value = scene.k
     ratio: Ratio = "equal" if value == 1 else "short" if value < 1 else "long"
     parameters = [inertia_a]
     parameters += [inertia_b] if inertia_b != 0 else []

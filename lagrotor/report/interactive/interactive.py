@@ -42,7 +42,7 @@ from lagrotor.pair.symbols import (
 from lagrotor.pair.symbols import r0 as amplitude
 from lagrotor.pair.symbols import sigma as shape
 from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
-from lagrotor.theory.paired_precession import evaluate as precession
+from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
 
 ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
@@ -83,7 +83,7 @@ def programs() -> dict[str, Program]:
     bar_length    (r_1, r_2, ell) → m
     """
     found = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
-    found |= {"series": _series(), "orbit": precession.program(ORDER)}
+    found |= {"series": _series(), "orbit": horner.program(ORDER)}
     for ratio in _BARS:
         found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
     return found

@@ -11,13 +11,15 @@ sigma = 1. From there it is followed order by order.
 
 from functools import cache
 
+import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import truncated_series
 from lagrotor.errors import InputError
 from lagrotor.pair.symbols import COSINE, a_1, k, r0, sigma
-from lagrotor.theory.closed_form import ClosedForm
-from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor.theory.closed_form import Array, ClosedForm
+from lagrotor.theory.paired_precession.remainder import with_error
+from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
 
 @cache
@@ -28,7 +30,12 @@ def first_harmonic(order: int = 5) -> ClosedForm:
         (sp.factor(series.field.to_sympy(v)) * r0**n for (n, h), v in sorted(series.x.terms.items()) if h == 1),
         sp.Integer(0),
     )
-    return _form("first_harmonic", "a_1", total, (r0, sigma, k), order)
+    form = _form("first_harmonic", "a_1", total, (r0, sigma, k), order)
+    return with_error(form, lambda series, given: np.array([[_first(series, r) for r in given[r0].tolist()]]))
+
+
+def _first(series: PairedSeries, amplitude: float) -> float:
+    return float(series.harmonics(amplitude)[1, 0])
 
 
 @cache
@@ -39,7 +46,21 @@ def amplitude_of_first_harmonic(order: int = 3) -> ClosedForm:
     for _ in range(order // 2):
         # r_0 = a_1 − (a_1(r_0) − r_0): two more orders each time, as the series is odd.
         guess = _through(a_1 - (forward - r0).subs(r0, guess), a_1, order)
-    return _form("amplitude_of_first_harmonic", "r_0", guess, (a_1, sigma, k), order)
+
+    def reversed_series(series: PairedSeries, given: dict[sp.Symbol, Array]) -> Array:
+        found = np.polynomial.Polynomial(series.coefficients[:, 1, 0])
+        return np.array([[_root(found, size) for size in given[a_1].tolist()]])
+
+    form = _form("amplitude_of_first_harmonic", "r_0", guess, (a_1, sigma, k), order)
+    return with_error(form, reversed_series, lambda series, amplitude: 2 * series.remainder(amplitude).axes)
+
+
+def _root(polynomial: np.polynomial.Polynomial, value: float) -> float:
+    """Where a_1(r_0) is `value`, by Newton's method from r_0 = value."""
+    at = value
+    for _ in range(20):
+        at -= float((polynomial(at) - value) / polynomial.deriv()(at))
+    return at
 
 
 def _through(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
@@ -69,9 +90,16 @@ def largest_inclination(shape: str = "dumbbell", order: int = 3) -> ClosedForm:
     sine = truncated_series(r0 * sp.sqrt(sp.expand(top / scale)), r0, order)
     sine = _through(sp.expand(sine), r0, order)
     condition = sp.Eq(sigma, 1) if even else sp.Gt(sigma, 1)
-    return _form(
+    form = _form(
         "largest_inclination", "sin theta", sp.sqrt(scale) * sine, (r0, sigma, k), order, (sp.Ge(r0, 0), condition)
     )
+    return with_error(form, _steepest)
+
+
+def _steepest(series: PairedSeries, given: dict[sp.Symbol, Array]) -> Array:
+    """The largest sine of the inclination over a turn; sampled finely enough for its square to be right to 1e-7."""
+    axes = series.axes(float(given[r0][0]), np.linspace(0, 2 * np.pi, 20_001))
+    return np.full((1, given[r0].size), np.hypot(axes[..., 0], axes[..., 1]).max())
 
 
 def _squared_sine(order: int, shape: sp.Expr) -> sp.Expr:

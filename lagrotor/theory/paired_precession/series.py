@@ -12,32 +12,67 @@ sigma and k = ell / R. The amplitude r_0 is x_1(0) = x_2(0): the sine of the inc
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from functools import cached_property, lru_cache
+from math import inf, sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 import sympy as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from sympy.polys.domains.domain import Domain
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.fourier import FourierSeries, constant
-from lagrotor.mechanics.perturbation import lindstedt_poincare
+from lagrotor.mechanics.fourier import FourierSeries, Series
+from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, lindstedt_poincare
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
+from lagrotor.theory.paired_precession.harmonics import Array, axes_of
+
+# The remainder of a series is estimated as a geometric series; calibrated by tests/models/test_orbit_errors.py on random
+# bars and amplitudes. LARGEST_RATIO: of consecutive pairs of orders, beyond which no estimate is given. OF_AXES: the
+# least size, in those of the axes, of the terms of a frequency or an exponent, of which single ones may vanish.
+GROWTH_OF_RATIO, SAFETY, LARGEST_RATIO, OF_AXES = 1.3, 2.5, 0.9, 0.25
 
 
-@dataclass(frozen=True)
+class Remainder(NamedTuple):
+    """Estimated bounds of what a truncated series leaves out: of the axes and of dr/dPhi at equal phase, and of
+    Omega/Omega_0. Infinite where its terms do not fall."""
+
+    axes: float
+    frequency: float
+
+
+@dataclass(frozen=True, eq=False)
 class PairedSeries:
-    """The orbit through r0**order: axes of rotor 1 (x, Y, z), tension and frequency / Omega_0; Y = y / sqrt(sigma)."""
+    """The orbit through r0**order for sigma = `shape`, k = `ratio`: axis of rotor 1 (x, Y, z), Y = y / sqrt(sigma), and
+    frequency / Omega_0, through r0**(order − 1). `solution`: with the multipliers of unit length and bar."""
 
-    x: FourierSeries
-    Y: FourierSeries
-    z: FourierSeries
-    frequency: FourierSeries
+    solution: PeriodicSeries
     order: int
+    shape: sp.Expr
+    ratio: sp.Expr
     field: Domain
+
+    @property
+    def x(self) -> FourierSeries:
+        """x_1."""
+        return self.solution.unknowns[0]
+
+    @property
+    def Y(self) -> FourierSeries:
+        """y_1 / sqrt(sigma)."""
+        return self.solution.unknowns[1]
+
+    @property
+    def z(self) -> FourierSeries:
+        """z_1."""
+        return self.solution.unknowns[2]
+
+    @property
+    def frequency(self) -> FourierSeries:
+        """Omega / Omega_0."""
+        return self.solution.frequency
 
     def expression(self, series: FourierSeries) -> sp.Expr:
         """A series as an expression in r_0 and Phi (and sigma, k where they were left free)."""
@@ -46,6 +81,73 @@ class PairedSeries:
             wave = sp.cos(h * Phi) if h >= 0 else sp.sin(-h * Phi)
             total += sp.factor(self.field.to_sympy(value)) * r0**n * wave
         return total
+
+    @cached_property
+    def coefficients(self) -> Array:
+        """Of r_1, for a numeric bar, (order + 1, order + 1, 3): [n, h] belongs to r0**n and harmonic h."""
+        found = np.zeros((self.order + 1, self.order + 1, 3))
+        for i, (part, width) in enumerate(((self.x, 1.0), (self.Y, sqrt(self.shape)), (self.z, 1.0))):
+            for (n, h), value in part.terms.items():
+                found[n, abs(h), i] = width * float(value)
+        return found
+
+    @cached_property
+    def frequency_coefficients(self) -> Array:
+        """Of Omega/Omega_0 in powers of r0, for a numeric bar: (order + 1,)."""
+        found = np.zeros(self.order + 1)
+        for (n, _), value in self.frequency.terms.items():
+            found[n] = float(value)
+        return found
+
+    def harmonics(self, r0: float) -> Array:
+        """Harmonics (order + 1, 3) of r_1 at amplitude r0."""
+        return np.tensordot(r0 ** np.arange(self.order + 1), self.coefficients, 1)
+
+    def axes(self, r0: float, phase: ArrayLike) -> Array:
+        """Both axes (2, …, 3) at amplitude r0 and phases (…) in rad."""
+        return axes_of(self.harmonics(r0), phase)
+
+    def relative_frequency(self, r0: float) -> float:
+        """Omega / Omega_0 at amplitude r0."""
+        return float(np.polynomial.polynomial.polyval(r0, self.frequency_coefficients))
+
+    def remainder(self, r0: float) -> Remainder:
+        """Estimated bound of what the series leaves out at amplitude r0, from the fall of its own terms.
+
+        With t_n the size of the terms in r0**n, two orders together fall by a factor q, the largest seen in the last
+        orders and some more; the rest is at most q/(1 − q) times the last two, and a safety factor. Tested on random bars.
+        """
+        # The frequency is known through the order before the last; its odd orders vanish.
+        known = self.frequency_coefficients[: self.order + self.order % 2]
+        return Remainder(rest_of(self._sizes * abs(r0) ** np.arange(self.order + 1)), self.remainder_like(known, r0))
+
+    def remainder_like(self, coefficients: Array, r0: float) -> float:
+        """Estimated bound of what is left out of another power series of the orbit, given its first coefficients.
+
+        Its terms are a fraction of those of the axes, the largest seen; single ones may vanish.
+        """
+        sizes = self._sizes[: len(coefficients)]
+        part = max(OF_AXES, float((np.abs(coefficients)[2:] / sizes[2:]).max(initial=0.0)))
+        return part * rest_of(sizes * abs(r0) ** np.arange(len(sizes)))
+
+    @cached_property
+    def _sizes(self) -> Array:
+        """Sizes of the coefficients of r0**n in the axes and their derivatives by the phase, (order + 1,)."""
+        harmonic = np.maximum(np.arange(self.order + 1), 1)[:, None]
+        return np.linalg.norm((np.abs(self.coefficients) * harmonic).sum(1), axis=-1)
+
+
+def rest_of(terms: Array) -> float:
+    """Estimated bound of the terms beyond the last of `terms`, infinite where they do not fall."""
+    pairs = terms[1:] + terms[:-1]  # pairs[n]: orders n and n + 1
+    if not pairs[-1]:
+        return 0.0
+    if len(pairs) < 5:
+        return inf
+    # From order 3 on: below, the terms say little about those that follow.
+    ratios = pairs[3:] / np.maximum(pairs[1:-2], np.finfo(float).tiny)
+    fall = GROWTH_OF_RATIO * float(ratios[-4:].max())
+    return SAFETY * float(pairs[-1]) * fall / (1 - fall) if fall < LARGEST_RATIO else inf
 
 
 def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
@@ -62,64 +164,65 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
     return (both[a] + both[b]) / (both[a] - both[b]), values[ell] / values[R]
 
 
-def evaluate(series: FourierSeries, amplitude: float, phases: ArrayLike) -> NDArray[np.float64]:
-    """A series with numbers for coefficients at an amplitude and phases (n,): the sum of its harmonics."""
-    phases = np.asarray(phases, dtype=float)
-    waves: dict[int, float] = {}
-    for (n, h), value in series.terms.items():
-        waves[h] = waves.get(h, 0.0) + float(value) * amplitude**n
-    total = np.zeros_like(phases)
-    for h, size in waves.items():
-        total += size * (np.cos(h * phases) if h >= 0 else np.sin(-h * phases))
-    return total
-
-
-def last_terms(series: PairedSeries, r0: float) -> float:
-    """Size of the last two orders of the orbit at amplitude r0: what a truncated series leaves undecided."""
-    kept = [(value, n) for part in (series.x, series.Y) for (n, _), value in part.terms.items() if n > series.order - 2]
-    return max(abs(float(value)) * abs(r0) ** n for value, n in kept)
-
-
 def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
     free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)
     return sp.QQ.frac_field(*free) if free else sp.QQ
 
 
-@lru_cache(maxsize=32)
-def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> PairedSeries:
-    """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order."""
-    shape, ratio = sp.sympify(shape), sp.sympify(ratio)
-    field = field_of(shape, ratio)
-    s, length = field.from_sympy(shape), field.from_sympy(ratio)
-    one = field.one
-    # Units a + b = 1, so a − b = 1/sigma; own = a, shared = b.
-    own, shared = (one + one / s) / 2, (one - one / s) / 2
+def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain) -> Residual:
+    """The equations of motion of r_1 with the multipliers of |r_1| = 1 and of the bar, and these two constraints.
 
-    def residual(unknowns: Sequence[FourierSeries], frequency: FourierSeries) -> list[FourierSeries]:
+    In units a + b = 1, of Omega_0 and of y / sqrt(sigma); r_2 is r_1 exchanged, half a period later. Derived from the
+    Lagrangian in derivations/t3_paired_orbit.py.
+    """
+    s, length, one = field.from_sympy(shape), field.from_sympy(ratio), field.one
+    own, shared = (one + one / s) / 2, (one - one / s) / 2  # a, b
+
+    def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
         x, Y, z, unit, pull = unknowns
-        order = x.order
         tension = (pull + pull.half_period_later()).scaled(one / 2)  # the same bar for both rotors
         x2, Y2, z2 = -x.half_period_later(), Y.half_period_later(), z.half_period_later()
-        unit_length = constant(one, order)
         xd, Yd, zd = x.derivative(), Y.derivative(), z.derivative()
         squared = frequency * frequency
 
-        def inertia(first: FourierSeries, second: FourierSeries) -> FourierSeries:
+        def inertia(first: Series, second: Series) -> Series:
             return squared * (
                 first.derivative().derivative().scaled(own) + second.derivative().derivative().scaled(shared)
             )
 
         return [
-            inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (constant(length, order) + x2),
+            inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (x.constant(length) + x2),
             inertia(Y, Y2) - frequency * (z * xd - x * zd).scaled(one / s) - unit * Y + tension * Y2,
             inertia(z, z2) - frequency * (x * Yd - Y * xd) - unit * z + tension * z2,
-            x * x + (Y * Y).scaled(s) + z * z - unit_length,
-            (x2 - x).scaled(length) + unit_length - x * x2 - (Y * Y2).scaled(s) - z * z2,
+            x * x + (Y * Y).scaled(s) + z * z - x.constant(one),
+            (x2 - x).scaled(length) + x.constant(one) - x * x2 - (Y * Y2).scaled(s) - z * z2,
         ]
 
-    rest: list[Any] = [field.zero, field.zero, one, field.zero, field.zero]
-    mode: list[dict[int, Any]] = [{1: one}, {-1: one}, {}, {}, {}]
-    found = lindstedt_poincare(residual, rest, mode, order, field)
-    x, Y, z, *_ = found.unknowns
-    return PairedSeries(x, Y, z, found.frequency, order, field)
+    return residual
+
+
+def unknowns_at_rest(field: Domain) -> list[Any]:
+    """The unknowns x, Y, z and the two multipliers at rest."""
+    return [field.zero, field.zero, field.one, field.zero, field.zero]
+
+
+def check_order(order: int) -> int:
+    """The order of a series. Raises InputError unless it is a whole number, 1 or more."""
+    if isinstance(order, bool) or not isinstance(order, int) or order < 1:
+        raise InputError(f"the series of the paired precession: order = {order!r} must be a whole number, 1 or more")
+    return order
+
+
+@lru_cache(maxsize=32)
+def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> PairedSeries:
+    """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
+
+    Raises InputError unless the order is a whole number, 1 or more.
+    """
+    check_order(order)
+    shape, ratio = sp.sympify(shape), sp.sympify(ratio)
+    field = field_of(shape, ratio)
+    mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
+    found = lindstedt_poincare(equations(shape, ratio, field), unknowns_at_rest(field), mode, order, field)
+    return PairedSeries(found, order, shape, ratio, field)

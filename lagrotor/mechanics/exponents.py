@@ -1,0 +1,176 @@
+"""Characteristic exponents of a periodic orbit as power series in its amplitude.
+
+Where a system at rest has two displacements that stay (p_0 and q_0, exponent zero), an orbit of small amplitude eps lets
+them act on each other. A perturbation of the orbit is sought as
+
+    xi p(Phi) + eta q(Phi),    d xi/d Phi = A eta,    d eta/d Phi = B xi,
+
+with p and q periodic. Put into the equations of motion, linear in the perturbation, this fixes p, q, A and B order by
+order in eps; no root is taken. The exponents per radian of phase are ± sqrt(A B).
+
+Nayfeh & Mook, Nonlinear Oscillations, 5.3 (variational equations along a Lindstedt–Poincaré orbit).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sympy.polys.domains.domain import Domain
+
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, constant
+from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, solve_harmonic
+
+Parts = dict[str, list[FourierSeries]]  # of "p" and "q", one series an unknown
+Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
+_OTHER = {"p": "q", "q": "p"}
+
+
+@dataclass(frozen=True)
+class Perturbed:
+    """orbit + xi p + eta q to first order in xi and eta, with xi' = A eta, eta' = B xi.
+
+    It is added, multiplied and differentiated like a FourierSeries, so that equations written for an orbit give, put to
+    it, the variational equations too. exchange: the sign that p and q take where the equations use half a period later.
+    """
+
+    orbit: FourierSeries
+    p: FourierSeries
+    q: FourierSeries
+    A: FourierSeries
+    B: FourierSeries
+    exchange: int
+
+    def _with(self, orbit: FourierSeries, p: FourierSeries, q: FourierSeries) -> "Perturbed":
+        return Perturbed(orbit, p, q, self.A, self.B, self.exchange)
+
+    def __add__(self, other: "Perturbed") -> "Perturbed":
+        return self._with(self.orbit + other.orbit, self.p + other.p, self.q + other.q)
+
+    def __neg__(self) -> "Perturbed":
+        return self.scaled(-1)
+
+    def __sub__(self, other: "Perturbed") -> "Perturbed":
+        return self + (-other)
+
+    def __mul__(self, other: "Perturbed") -> "Perturbed":
+        first, second = self.orbit, other.orbit
+        return self._with(first * second, first * other.p + self.p * second, first * other.q + self.q * second)
+
+    def scaled(self, factor: Coefficient) -> "Perturbed":
+        """factor × f."""
+        return self._with(self.orbit.scaled(factor), self.p.scaled(factor), self.q.scaled(factor))
+
+    def derivative(self) -> "Perturbed":
+        """df/dPhi: (p' + B q) xi + (q' + A p) eta."""
+        p, q = self.p.derivative() + self.B * self.q, self.q.derivative() + self.A * self.p
+        return self._with(self.orbit.derivative(), p, q)
+
+    def half_period_later(self) -> "Perturbed":
+        """f(Phi + pi), the perturbation with the sign `exchange`."""
+        p, q = (part.half_period_later().scaled(self.exchange) for part in (self.p, self.q))
+        return self._with(self.orbit.half_period_later(), p, q)
+
+    def constant(self, value: Coefficient) -> "Perturbed":
+        """The constant `value`."""
+        nothing = FourierSeries({}, self.orbit.order)
+        return self._with(self.orbit.constant(value), nothing, nothing)
+
+
+@dataclass(frozen=True)
+class ExponentSeries:
+    """A and B as series in the amplitude, and the periodic parts p and q of the perturbations, one for each unknown."""
+
+    A: FourierSeries
+    B: FourierSeries
+    p: tuple[FourierSeries, ...]
+    q: tuple[FourierSeries, ...]
+
+    @property
+    def square(self) -> FourierSeries:
+        """lambda² = A B, per radian of phase: positive for growth, negative for turning."""
+        return self.A * self.B
+
+
+def characteristic_exponents(
+    residual: Residual,
+    orbit: PeriodicSeries,
+    sines: Sequence[bool],
+    neutral: tuple[int, int],
+    order: int,
+    field: Domain,
+    exchange: int = 1,
+) -> ExponentSeries:
+    """A and B through eps**order, for an orbit through at least that order.
+
+    sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones. neutral: the numbers
+    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
+    Raises SingularError where an order cannot be solved: another exponent comes close to zero.
+    """
+    variation = _Variation(residual, field, order, exchange)
+    parity = {"p": list(sines), "q": [not sine for sine in sines]}
+    parts: Parts = {part: [FourierSeries({}, order) for _ in sines] for part in "pq"}
+    fixed = dict(zip("pq", neutral, strict=True))
+    for part, i in fixed.items():
+        parts[part][i] = constant(field.one, order)
+    drift = {part: variation.of_drift(part, parts, orbit) for part in "pq"}
+    slow = {part: FourierSeries({}, order) for part in "pq"}  # B from the equations' p part, A from their q part
+    operators: dict[tuple[str, int], list[Column]] = {}
+    for n in range(1, order + 1):
+        now = variation.of(n, parts, slow, orbit)
+        for part in "pq":
+            for h in range(n, -1, -2):
+                if (part, h) not in operators:
+                    operators[part, h] = variation.operator(part, h, parity[part], orbit)
+                wanted = {key: -v for key, v in variation.column(now, part, n).items() if abs(key[1]) == h}
+                extra, mean = (drift[part], (fixed[part], field.zero)) if h == 0 else (None, None)
+                values, shift = solve_harmonic(operators[part, h], wanted, extra, mean, field)
+                for j, value in enumerate(values):
+                    if value:
+                        parts[part][j] += FourierSeries({(n, -h if parity[part][j] else h): value}, order)
+                if shift:
+                    slow[part] += constant(shift, order, n)
+    return ExponentSeries(slow["q"], slow["p"], tuple(parts["p"]), tuple(parts["q"]))
+
+
+@dataclass(frozen=True)
+class _Variation:
+    """The variational equations of `residual` along an orbit, order by order."""
+
+    residual: Residual
+    field: Domain
+    order: int
+    exchange: int
+
+    def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
+        """The equations with the perturbation put in, through eps**n."""
+        A, B = slow["q"].through(n), slow["p"].through(n)
+
+        def at(f: FourierSeries, p: FourierSeries, q: FourierSeries) -> Perturbed:
+            return Perturbed(f.through(n), p.through(n), q.through(n), A, B, self.exchange)
+
+        nothing = FourierSeries({}, n)
+        unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
+        return self.residual(unknowns, at(orbit.frequency, nothing, nothing))
+
+    @staticmethod
+    def column(found: Sequence[Perturbed], part: str, n: int) -> Column:
+        """The coefficients of eps**n in one part of the equations."""
+        return {(i, h): v for i, r in enumerate(found) for h, v in getattr(r, part).harmonics(n).items()}
+
+    def of_drift(self, part: str, parts: Parts, orbit: PeriodicSeries) -> Column:
+        """The response at rest of the equations' `part` to a unit of the slow rate: by it the other part drives this one."""
+        nothing = FourierSeries({}, self.order)
+        other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
+        slow = {part: constant(self.field.one, self.order), _OTHER[part]: nothing}
+        return self.column(self.of(0, other, slow, orbit), part, 0)
+
+    def operator(self, part: str, h: int, sines: Sequence[bool], orbit: PeriodicSeries) -> list[Column]:
+        """For each unknown the response at rest of the equations' `part` to a unit of its harmonic h."""
+        nothing = FourierSeries({}, self.order)
+        columns = []
+        for j, sine in enumerate(sines):
+            moved = [nothing] * len(sines)
+            if not (sine and h == 0):
+                moved[j] = FourierSeries({(0, -h if sine else h): self.field.one}, self.order)
+            found = self.of(0, {part: moved, _OTHER[part]: [nothing] * len(sines)}, dict.fromkeys("pq", nothing), orbit)
+            columns.append(self.column(found, part, 0))
+        return columns

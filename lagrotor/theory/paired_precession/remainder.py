@@ -1,0 +1,69 @@
+"""Bounds of the errors of closed forms of the paired precession: their distance from a series of higher order.
+
+The error of a form through r_0**n is its distance from what the series through r_0**(n + 6) gives for the same
+quantity, and the estimated remainder of that series. Both are evaluated for a bar whose sigma − 1 and k are rounded to
+three digits, so that the exact series has short coefficients.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.errors import DomainError
+from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.theory.closed_form import Array, ClosedForm
+from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
+
+MORE_ORDERS = 6
+_ROUNDED = 1.1  # what rounding sigma and k may change
+
+# (series, the form's arguments by symbol, one amplitude and bar) → the outputs (outputs, n); and (series, r_0) → the
+# bound of their error.
+Reference = Callable[[PairedSeries, dict[sp.Symbol, Array]], Array]
+Rest = Callable[[PairedSeries, float], float]
+
+
+def of_axes(series: PairedSeries, amplitude: float) -> float:
+    """For outputs that are components of the axes."""
+    return series.remainder(amplitude).axes
+
+
+def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> ClosedForm:
+    """The form with a bound of its error; where its `arguments` have no sigma it is 1."""
+    assert form.order is not None
+    order = max(form.order + MORE_ORDERS, 9)
+
+    def bound(*values: Array) -> Array:
+        given = dict(zip(form.arguments, values, strict=True))
+        ones = np.ones_like(values[0])
+        places = np.stack([values[0], 1 + _rounded(given.get(sigma, ones) - 1), _rounded(given.get(k, ones))])
+        found = np.empty((len(form.outputs), values[0].size))
+        for place in np.unique(places, axis=1).T:
+            here = (places == place[:, None]).all(0)
+            shape, ratio = (sp.Rational(f"{v:.12g}") for v in place[1:])
+            series = paired_series(order, shape, ratio)
+            part = {symbol: array[here] for symbol, array in given.items()}
+            part |= {s: np.full(here.sum(), v) for s, v in zip((sigma, k), place[1:], strict=True) if s in part}
+            exact, left = reference(series, part), _rest(form.name, series, rest, float(place[0]))
+            mine = np.reshape(form(*(part[s] for s in form.arguments)), exact.shape)
+            found[:, here] = _ROUNDED * np.abs(mine - exact) + left
+        return found
+
+    return replace(form, bound=bound)
+
+
+def _rounded(values: Array) -> Array:
+    """To three digits."""
+    return np.array([float(f"{v:.3g}") for v in values])
+
+
+def _rest(name: str, series: PairedSeries, rest: Rest, amplitude: float) -> float:
+    left = rest(series, amplitude)
+    if not np.isfinite(left):
+        raise DomainError(
+            f"{name}: at {r0} = {amplitude:g} the series does not converge, so that its error is not known; take a smaller "
+            "amplitude, or lagrotor.precession_orbit"
+        )
+    return left

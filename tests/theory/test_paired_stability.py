@@ -1,0 +1,120 @@
+"""Growth and turning of the paired precession's neighbours: the derived series against exact Floquet multipliers."""
+
+from math import cosh, pi, sqrt
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor import Link, Scene, floquet
+from lagrotor.errors import DomainError, InputError
+from lagrotor.mechanics.exponents import characteristic_exponents
+from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.theory.paired_precession.series import equations, paired_series, shape_of
+from lagrotor.theory.paired_precession.stability import elliptic_edge, exponent_series, growth_squared, most_growth
+
+BARS = {"b = 0": Link(1), "b < 0": Link(1, 0.01, 0.1), "b > 0": Link(0.9, 0.8, 0.05), "edge": Link(1.3, 0.35, 0.11)}
+
+
+def pair_sum(series, amplitude: float) -> float:
+    """mu + 1/mu = 2 cosh(2 pi lambda) from a series of lambda²."""
+    A, B = (sum(float(v) * amplitude**n for (n, _), v in part.terms.items()) for part in (series.A, series.B))
+    square = A * B
+    return 2 * np.cosh(2 * pi * np.sqrt(complex(square))).real
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_the_series_is_the_exact_multipliers_to_rounding(name: str) -> None:
+    """Through r0^10 both agree at r0 = 0.05 and 0.08 to some 1e-13; through r0^4 they do not."""
+    scene = Scene(spins=(10, -10), link=BARS[name])
+    series = exponent_series(10, *shape_of(scene))
+    for amplitude in (0.05, 0.08):
+        found = floquet(scene, amplitude)
+        assert abs(pair_sum(series, amplitude) - found.pair_sum) < found.error
+        assert abs(found.pair_sum - 2) > 1000 * found.error
+    fewer = exponent_series(4, *shape_of(scene))
+    assert abs(pair_sum(fewer, 0.08) - floquet(scene, 0.08).pair_sum) > 1e-11
+
+
+def test_the_leading_terms() -> None:
+    assert sp.expand(growth_squared().expressions[0] - 3 * sigma**2 * (1 - sigma) * r0**6 / (16 * k**2)) == 0
+    assert sp.expand(growth_squared(8, dumbbell=True).expressions[0] - 9 * r0**8 / (32 * k**4)) == 0
+    with pytest.raises(InputError, match="at least 6"):
+        growth_squared(4)
+
+
+def test_another_equation_has_other_exponents() -> None:
+    """Twin: without the tension of the bar nothing couples the two displacements in this way."""
+    orbit = paired_series(4, sp.Rational(7, 5), sp.Integer(1))
+    residual = equations(orbit.shape, orbit.ratio, orbit.field)
+
+    def changed(unknowns, frequency):
+        first, *others = residual(unknowns, frequency)
+        return [first + unknowns[0] * unknowns[0] * unknowns[0], *others]
+
+    sines = (False, True, False, False, False)
+    found = [
+        characteristic_exponents(r, orbit.solution, sines, (0, 1), 4, orbit.field, -1) for r in (residual, changed)
+    ]
+    assert found[0].A.terms == exponent_series(4, sp.Rational(7, 5), sp.Integer(1)).A.terms
+    assert found[0].B.terms != found[1].B.terms
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_the_law_tells_its_error(name: str) -> None:
+    scene = Scene(spins=(10, -10), link=BARS[name])
+    law = growth_squared(8, dumbbell=True) if name == "b = 0" else growth_squared()
+    for amplitude in (0.08, 0.15):
+        found = floquet(scene, amplitude)
+        square = (found.growth**2 - found.turning**2) / (2 * pi) ** 2
+        off = abs(float(law(amplitude, scene.sigma, scene.k)) - square)
+        assert off < float(law.error(amplitude, scene.sigma, scene.k)) < 5 * off
+    with pytest.raises(DomainError, match="does not converge"):
+        law.error(0.8, scene.sigma, scene.k)
+
+
+# sigma and r0 at k = 1, by bisection on exact multipliers.
+EDGES = [(1.02, 0.11392), (1.05, 0.17659), (1.1, 0.24189), (1.2, 0.32220)]
+
+
+@pytest.mark.parametrize(("shape", "seen"), EDGES)
+def test_elliptic_turns_hyperbolic_where_the_law_says_within_its_error(shape: float, seen: float) -> None:
+    """K = 0 and m so that sigma is the given one; the edge between the two kinds is where the exact orbits have it."""
+    scene = Scene(spins=(10, -10), link=Link(1, 2 * 1.25 * (shape - 1), 0))
+    assert scene.sigma == pytest.approx(shape, rel=1e-12)
+    law = elliptic_edge()
+    edge, error = float(law(shape, 1.0)), float(law.error(shape, 1.0))
+    assert abs(edge - seen) < error < 0.1 * edge
+    assert [floquet(scene, seen + d).kind for d in (-0.0005, 0.0005)] == ["elliptic", "hyperbolic"]
+    older = shape * sqrt(2 / 3 * (shape - 1))  # the balance of the leading terms
+    assert abs(older - seen) > 2 * abs(edge - seen)
+
+
+def test_far_from_a_dumbbell_the_edge_is_not_known() -> None:
+    assert elliptic_edge().error(1.7, 1.0) == np.inf or elliptic_edge().error(1.7, 1.0) > 0.3
+
+
+def random_bars(count: int):
+    rng = np.random.default_rng(5)
+    while count:
+        length, mass = rng.uniform(0.5, 2), rng.choice([0.0, rng.uniform(0, 1.5)])
+        scene = Scene(spins=(10, -10), link=Link(length, mass, mass * rng.uniform(0, 0.5)))
+        if 0.4 < scene.sigma < 1.8:
+            count -= 1
+            yield scene, rng.uniform(0.1, 0.5)
+
+
+def test_no_orbit_grows_faster_than_both_laws_together() -> None:
+    close = []
+    for scene, amplitude in random_bars(40):
+        growth = floquet(scene, amplitude).growth / (2 * pi)
+        bound = most_growth(amplitude, scene.sigma, scene.k)
+        assert growth <= bound, scene
+        close.append(growth > bound / 2)
+    assert any(close)  # twin: half the bound is none
+
+
+def test_the_floquet_numbers_hold_together() -> None:
+    found = floquet(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), 0.204)
+    assert 2 * cosh(found.growth) == pytest.approx(found.pair_sum, rel=1e-14)
+    assert 0 < found.exponent_error < 1e-9
