@@ -8,7 +8,13 @@ from hypothesis import strategies as st
 from lagrotor import Link, Scene, simulate
 from lagrotor.errors import InputError
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.parallel_precession import parallel_scene, twist_bounded, twist_growth, twist_multiplier_growth
+from lagrotor.theory.parallel_precession import (
+    parallel_scene,
+    twist_bounded,
+    twist_growth,
+    twist_growth_error,
+    twist_multiplier_growth,
+)
 from lagrotor.theory.toppling import toppling_growth, toppling_threshold
 
 
@@ -59,6 +65,16 @@ def test_twist_growth_is_first_order_in_the_angle():
     form = twist_growth()
     off = [abs(twist_multiplier_growth(scene, x) - float(form(np.sin(x), 10.0, *scene.inertias))) for x in angles]
     assert measured_order(angles, off) == pytest.approx(3, abs=0.1)
+
+
+@pytest.mark.parametrize("link", [Link(1, 1, 1), Link(1, 0.5, 0.9)])
+def test_the_error_of_the_twists_growth_is_its_next_term(link):
+    """Above the true error, and by no more than |beta| for beta against it: at most a fifth at small angles."""
+    scene = Scene(spins=(10, 10), link=link)
+    for angle in (0.1, 0.2, 0.4):
+        arguments = np.sin(angle), 10.0, *scene.inertias
+        off = twist_multiplier_growth(scene, angle) - float(twist_growth()(*arguments))
+        assert off < float(twist_growth_error()(*arguments)) < 1.2 * off / (1 - np.sin(angle) ** 2)
 
 
 def test_light_stiff_bar_keeps_the_axes_parallel():
