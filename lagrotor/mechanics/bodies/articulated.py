@@ -17,13 +17,15 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from lagrotor.mechanics.bodies.small_matrices import Small, unit, wedge, zeros
 from lagrotor.mechanics.bodies.trees import Link, Tree
 from lagrotor.mechanics.lagrangian import Coordinates
 from lagrotor.numerics.codegen import Stage
 
 Column = list[sp.Expr]
-Pair = tuple[sp.Matrix, sp.Matrix]  # angular and linear part
-_ZERO = sp.zeros(3, 1).as_immutable()
+Pair = tuple[Small, Small]  # angular and linear part
+_ZERO = zeros(3, 1)
+_EYE = sp.eye(3)
 
 
 @dataclass
@@ -41,23 +43,23 @@ class Stages:
             self.made.append((self.names[e], e))
         return self.names[e]
 
-    def each(self, matrix: sp.Matrix) -> sp.Matrix:
+    def each(self, matrix: Small) -> Small:
         """Every entry."""
-        return matrix.applyfunc(self)
+        return matrix.each(self)
 
-    def symmetric(self, matrix: sp.Matrix) -> sp.Matrix:
+    def symmetric(self, matrix: Small) -> Small:
         """Every entry of a symmetric matrix, once."""
         upper = {(i, j): self(matrix[i, j]) for i in range(3) for j in range(i, 3)}
-        return sp.Matrix(3, 3, lambda i, j: upper[min(i, j), max(i, j)])
+        return Small([[upper[min(i, j), max(i, j)] for j in range(3)] for i in range(3)])
 
 
 @dataclass(frozen=True)
 class Inertia:
     """J (3, 3) symmetric, H (3, 3), M (3, 3) symmetric."""
 
-    J: sp.Matrix
-    H: sp.Matrix
-    M: sp.Matrix
+    J: Small
+    H: Small
+    M: Small
 
 
 @dataclass(frozen=True)
@@ -67,18 +69,20 @@ class Joint:
     link: Link
     cosine: sp.Expr
     sine: sp.Expr
-    shift: sp.Matrix
+    shift: Small
     motion: Pair
     rate: sp.Expr
 
-    def inward(self, e: sp.Matrix, keep: Stages) -> sp.Matrix:
+    def inward(self, e: Small, keep: Stages) -> Small:
         """A vector's components in the parent → in the link."""
-        e = keep.each(self.link.rotation.T * e)
+        if self.link.rotation != _EYE:
+            e = keep.each(Small.of(self.link.rotation.T) * e)
         return _turned(e, self.link.axis, self.cosine, -self.sine, keep)
 
-    def outward(self, e: sp.Matrix, keep: Stages) -> sp.Matrix:
+    def outward(self, e: Small, keep: Stages) -> Small:
         """A vector's components in the link → in the parent."""
-        return keep.each(self.link.rotation * _turned(e, self.link.axis, self.cosine, self.sine, keep))
+        e = _turned(e, self.link.axis, self.cosine, self.sine, keep)
+        return e if self.link.rotation == _EYE else keep.each(Small.of(self.link.rotation) * e)
 
 
 def joints(tree: Tree, c: Coordinates, keep: Stages) -> list[Joint]:
@@ -95,9 +99,9 @@ def joints(tree: Tree, c: Coordinates, keep: Stages) -> list[Joint]:
             cosine = keep(sp.cos(c.q[link.coordinate]))
             sine = link.sign * keep(sp.sin(c.q[link.coordinate]))
         before = found[link.parent].motion if link.parent >= 0 else (_ZERO, _ZERO)
-        here = Joint(link, cosine, sine, keep.each(shift), (_ZERO, _ZERO), rate)
+        here = Joint(link, cosine, sine, keep.each(Small.of(shift)), (_ZERO, _ZERO), rate)
         w, v = here.inward(before[0], keep), here.inward(keep.each(before[1] + before[0].cross(here.shift)), keep)
-        own = sp.eye(3)[:, link.axis] * rate
+        own = unit(link.axis, rate)
         motion = (keep.each(w + own), v) if link.turns else (w, keep.each(v + own))
         found.append(Joint(link, cosine, sine, here.shift, motion, rate))
     return found
@@ -112,7 +116,7 @@ def tree_accelerations(tree: Tree, chain: Sequence[Joint], torques: Sequence[Col
     for i in reversed(range(len(chain))):
         joint, I, link = chain[i], inertias[i], chain[i].link
         k = link.axis
-        U = (I.J[:, k], I.H[k, :].T) if link.turns else (I.H[:, k], I.M[:, k])
+        U = (I.J.col(k), I.H.row(k)) if link.turns else (I.H.col(k), I.M.col(k))
         inverse = keep(1 / U[0 if link.turns else 1][k])
         u = [
             keep(link.sign * tau[link.coordinate] - p[0 if link.turns else 1][k])
@@ -142,13 +146,13 @@ def _outcome(
     places: list[Pair] = []
     for joint, (U, inverse, u) in zip(chain, factors, strict=True):
         link = joint.link
-        ground = _ZERO, (-tree.field if j == 0 else _ZERO)
+        ground = _ZERO, (-Small.of(tree.field) if j == 0 else _ZERO)
         w, v = places[link.parent] if link.parent >= 0 else ground
         c = _swing(joint, keep) if j == 0 else (_ZERO, _ZERO)
         v = joint.inward(keep.each(v + w.cross(joint.shift)), keep)
         w, v = keep.each(joint.inward(w, keep) + c[0]), keep.each(v + c[1])
         a = keep(keep(u[j] - U[0].dot(w) - U[1].dot(v)) * inverse)
-        own = sp.eye(3)[:, link.axis] * a
+        own = unit(link.axis, a)
         places.append((keep.each(w + own), v) if link.turns else (w, keep.each(v + own)))
         found[link.coordinate] = link.sign * a
     return found
@@ -156,35 +160,31 @@ def _outcome(
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], keep: Stages) -> sp.Expr:
     """T + V."""
-    total, fields, depths = -tree.rest, list[sp.Matrix](), list[sp.Expr]()
+    total, fields, depths = -tree.rest, list[Small](), list[sp.Expr]()
     for joint in chain:
-        above = (
-            (fields[joint.link.parent], depths[joint.link.parent])
-            if joint.link.parent >= 0
-            else (tree.field, sp.S.Zero)
-        )
-        fields.append(joint.inward(above[0], keep))
-        depths.append(keep(above[1] + above[0].dot(joint.shift)))
+        parent = joint.link.parent
+        field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
+        fields.append(joint.inward(field, keep))
+        depths.append(keep(depth + field.dot(joint.shift)))
         w, v = joint.motion
         for mass in joint.link.masses:
-            at = keep.each(v + w.cross(mass.centre))
-            total += keep(mass.mass * at.dot(at) / 2 + w.dot(mass.inertia * w) / 2)
-            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(mass.centre)))
+            centre = Small.of(mass.centre)
+            at = keep.each(v + w.cross(centre))
+            total += keep(mass.mass * at.dot(at) / 2 + w.dot(Small.of(mass.inertia) * w) / 2)
+            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))
     return total
-
-
-def _cross(v: sp.Matrix) -> sp.Matrix:
-    """[v]×, (3, 3)."""
-    return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
 def _rigid(link: Link, keep: Stages) -> Inertia:
     """The inertia of the bodies on a link, about its joint."""
-    J, H, m = sp.zeros(3, 3), sp.zeros(3, 3), sp.S.Zero
+    J, H, m = zeros(3, 3), zeros(3, 3), sp.S.Zero
     for mass in link.masses:
-        c = _cross(mass.centre)
-        J, H, m = J + mass.inertia - mass.mass * c * c, H + mass.mass * c, m + mass.mass
-    return Inertia(keep.symmetric(J), keep.each(H), keep(m) * sp.eye(3))
+        c = wedge(Small.of(mass.centre))
+        J, H, m = J + Small.of(mass.inertia) - c * c * mass.mass, H + c * mass.mass, m + mass.mass
+    m = keep(m)
+    return Inertia(
+        keep.symmetric(J), keep.each(H), Small([[m if i == j else sp.S.Zero for j in range(3)] for i in range(3)])
+    )
 
 
 def _bias(joint: Joint, I: Inertia, keep: Stages) -> Pair:
@@ -197,7 +197,7 @@ def _bias(joint: Joint, I: Inertia, keep: Stages) -> Pair:
 def _swing(joint: Joint, keep: Stages) -> Pair:
     """The acceleration that the joint's own velocity makes in the turning axes."""
     w, v = joint.motion
-    own = sp.eye(3)[:, joint.link.axis] * joint.rate
+    own = unit(joint.link.axis, joint.rate)
     return (keep.each(w.cross(own)), keep.each(v.cross(own))) if joint.link.turns else (_ZERO, keep.each(w.cross(own)))
 
 
@@ -205,20 +205,21 @@ def _eliminated(I: Inertia, U: Pair, E: Pair, link: Link, keep: Stages) -> Inert
     """I − U Uᵀ/D; along the joint nothing is left."""
     J, H, M = I.J - U[0] * E[0].T, I.H - U[0] * E[1].T, I.M - U[1] * E[1].T
     k = link.axis
-    if link.turns:
-        J[k, :], J[:, k], H[k, :] = sp.zeros(1, 3), sp.zeros(3, 1), sp.zeros(1, 3)
-    else:
-        M[k, :], M[:, k], H[:, k] = sp.zeros(1, 3), sp.zeros(3, 1), sp.zeros(3, 1)
+    for i in range(3):
+        if link.turns:
+            J.rows[k][i] = J.rows[i][k] = H.rows[k][i] = sp.S.Zero
+        else:
+            M.rows[k][i] = M.rows[i][k] = H.rows[i][k] = sp.S.Zero
     return Inertia(keep.symmetric(J), keep.each(H), keep.symmetric(M))
 
 
 def _shifted(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
     """The inertia in the parent's axes, about the parent's joint: H + [d] M, J − H [d] + [d] Hᵀ − [d] M [d]."""
     J, M = (_turned_symmetric(part, joint, keep) for part in (I.J, I.M))
-    H = keep.each(joint.outward(joint.outward(I.H, keep).T, keep).T)
-    d = _cross(joint.shift)
-    if d.is_zero_matrix:
+    H = joint.outward(joint.outward(I.H, keep).T, keep).T
+    if joint.shift.is_zero:
         return Inertia(J, H, M)
+    d = wedge(joint.shift)
     carried = keep.each(H + d * M)
     return Inertia(keep.symmetric(J - H * d + d * carried.T), carried, M)
 
@@ -227,17 +228,18 @@ def _sum(I: Inertia, other: Inertia, keep: Stages) -> Inertia:
     return Inertia(keep.symmetric(I.J + other.J), keep.each(I.H + other.H), keep.symmetric(I.M + other.M))
 
 
-def _turned(e: sp.Matrix, axis: int, c: sp.Expr, s: sp.Expr, keep: Stages) -> sp.Matrix:
+def _turned(e: Small, axis: int, c: sp.Expr, s: sp.Expr, keep: Stages) -> Small:
     """The rotation by (c, s) about an axis of the columns of e, (3, m)."""
     if s == 0:
         return e
     i, j = (axis + 1) % 3, (axis + 2) % 3
-    e = e.as_mutable()
-    e[i, :], e[j, :] = c * e[i, :] - s * e[j, :], s * e[i, :] + c * e[j, :]
-    return keep.each(e)
+    rows = [*e.rows]
+    turned = Small([[c, -s], [s, c]]) * Small([rows[i], rows[j]])
+    rows[i], rows[j] = keep.each(turned).rows
+    return Small(rows)
 
 
-def _turned_symmetric(A: sp.Matrix, joint: Joint, keep: Stages) -> sp.Matrix:
+def _turned_symmetric(A: Small, joint: Joint, keep: Stages) -> Small:
     """R A Rᵀ; where A is round about the axis, nothing is done.
 
     With e = a − d and w = c e − 2 s b the block [[a, b], [b, d]] becomes [[d + c w, b + s w], [b + s w, a − c w]].
@@ -245,12 +247,16 @@ def _turned_symmetric(A: sp.Matrix, joint: Joint, keep: Stages) -> sp.Matrix:
     c, s, k = joint.cosine, joint.sine, joint.link.axis
     if s != 0:
         i, j = (k + 1) % 3, (k + 2) % 3
-        a, b, d, A = A[i, i], A[i, j], A[j, j], A.as_mutable()
+        rows = [[*row] for row in A.rows]
+        a, b, d = rows[i][i], rows[i][j], rows[j][j]
         w = keep(c * keep(a - d) - 2 * s * b)
         if w != 0:
-            A[i, i], A[j, j], A[i, j] = d + c * w, a - c * w, b + s * w
-        A[i, k], A[j, k] = c * A[i, k] - s * A[j, k], s * A[i, k] + c * A[j, k]
-        A[j, i], A[k, i], A[k, j] = A[i, j], A[i, k], A[j, k]
-        A = keep.symmetric(A)
-    R = joint.link.rotation
-    return A if sp.eye(3) == R else keep.symmetric(R * A * R.T)
+            rows[i][i], rows[j][j], rows[i][j] = d + c * w, a - c * w, b + s * w
+        f, h = rows[i][k], rows[j][k]
+        rows[i][k], rows[j][k] = c * f - s * h, s * f + c * h
+        rows[j][i], rows[k][i], rows[k][j] = rows[i][j], rows[i][k], rows[j][k]
+        A = keep.symmetric(Small(rows))
+    if joint.link.rotation == _EYE:
+        return A
+    R = Small.of(joint.link.rotation)
+    return keep.symmetric(R * A * R.T)

@@ -1,0 +1,105 @@
+"""Matrices of three rows at most, for the many small products of a recursion: zeros cost nothing.
+
+sympy's own matrices do the same, and take most of the recursion's time for it.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Union
+
+import sympy as sp
+
+Scalar = Any  # an expression
+_0 = sp.S.Zero
+
+
+class Small:
+    """A matrix as a list of rows; a column's entries are also `v[i]`."""
+
+    __slots__ = ("rows",)
+
+    def __init__(self, rows: Sequence[Sequence[Any]]) -> None:
+        self.rows = [list(row) for row in rows]
+
+    @classmethod
+    def of(cls, matrix: sp.Matrix) -> "Small":
+        """A sympy matrix."""
+        return cls(matrix.tolist())
+
+    @classmethod
+    def column(cls, *entries: Any) -> "Small":
+        """A column."""
+        return cls([[e] for e in entries])
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.rows[key[0]][key[1]] if isinstance(key, tuple) else self.rows[key][0]
+
+    def col(self, j: int) -> "Small":
+        """Column j."""
+        return Small([[row[j]] for row in self.rows])
+
+    def row(self, i: int) -> "Small":
+        """Row i as a column."""
+        return Small([[e] for e in self.rows[i]])
+
+    @property
+    def T(self) -> "Small":
+        """The transpose."""
+        return Small(list(zip(*self.rows, strict=True)))
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether every entry is zero in its structure."""
+        return all(e == 0 for row in self.rows for e in row)
+
+    def each(self, function: Callable[[Any], Any]) -> "Small":
+        """A function of every entry."""
+        return Small([[function(e) for e in row] for row in self.rows])
+
+    def __add__(self, other: "Small") -> "Small":
+        return Small(
+            [
+                [b if a is _0 else a if b is _0 else a + b for a, b in zip(mine, theirs, strict=True)]
+                for mine, theirs in zip(self.rows, other.rows, strict=True)
+            ]
+        )
+
+    def __neg__(self) -> "Small":
+        return self.each(lambda e: -e)
+
+    def __sub__(self, other: "Small") -> "Small":
+        return self + -other
+
+    def __mul__(self, other: Union["Small", Scalar]) -> "Small":
+        if not isinstance(other, Small):
+            return self.each(lambda e: e if e is _0 else e * other)
+        columns = list(zip(*other.rows, strict=True))
+        return Small([[_dot(row, column) for column in columns] for row in self.rows])
+
+    def dot(self, other: "Small") -> Scalar:
+        """The product of two columns."""
+        return _dot([row[0] for row in self.rows], [row[0] for row in other.rows])
+
+    def cross(self, other: "Small") -> "Small":
+        """The vector product of two columns of three."""
+        (a, b, c), (x, y, z) = ([row[0] for row in each.rows] for each in (self, other))
+        return Small.column(_dot((b, -c), (z, y)), _dot((c, -a), (x, z)), _dot((a, -b), (y, x)))
+
+
+def zeros(rows: int, columns: int) -> Small:
+    """Zeros."""
+    return Small([[_0] * columns for _ in range(rows)])
+
+
+def unit(axis: int, length: Scalar) -> Small:
+    """A column of three along an axis."""
+    return Small.column(*(length if i == axis else _0 for i in range(3)))
+
+
+def wedge(v: Small) -> Small:
+    """[v]×, (3, 3)."""
+    return Small([[_0, -v[2], v[1]], [v[2], _0, -v[0]], [-v[1], v[0], _0]])
+
+
+def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
+    terms = [x * y for x, y in zip(a, b, strict=True) if x is not _0 and y is not _0]
+    return terms[0] if len(terms) == 1 else sp.Add(*terms)
