@@ -106,7 +106,7 @@ def judged(stem: str, progress: Progress | None = None) -> list[Verdict]:
 def statements(stem: str) -> list[Statement]:
     """What one derivation states of the paper's equations."""
     script = scripts.executed("derivations", stem)
-    return [*script.names.get("statements", ()), *script.shown(Statement)]
+    return script.shown(Statement)
 
 
 def in_words(verdict: Verdict) -> str:

@@ -111,7 +111,7 @@ def stating() -> dict[str, str]:
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
-                and node.func.id in ("verdict", "stated")
+                and node.func.id == "verdict"
                 and node.args
             ):
                 first = node.args[0]

@@ -36,7 +36,7 @@ def reads_the_print(text: str) -> list[str]:
     """Names by which a script could reach the printed lines."""
     found = []
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom) and node.module in ("lagrotor.paper.catalogue", "lagrotor.paper.legacy"):
+        if isinstance(node, ast.ImportFrom) and node.module == "lagrotor.paper.catalogue":
             found.append(node.module)
         if isinstance(node, ast.Attribute) and node.attr in ("lines", "members", "relations"):
             found.append(node.attr)
