@@ -35,3 +35,7 @@ class SingularError(LagrotorError, ArithmeticError):
 
 class IntegrationError(LagrotorError, ArithmeticError):
     """An integration that could not reach the end of the run."""
+
+
+class LagrotorWarning(UserWarning):
+    """A result that is given although it does not keep what was asked for; the message says what it keeps."""

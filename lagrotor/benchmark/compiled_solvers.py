@@ -27,7 +27,7 @@ def _compiled(scene: Scene) -> Callable[..., Any]:
 
     if scene.shock is not None:
         raise InputError("takes no shock")
-    program, parameters = minimal.generated(scene, False)
+    program, parameters = minimal.MODEL.program(scene, False)
     stages, outputs = reduce_common(program)
     function = numba.njit(
         sp.lambdify(program.arguments, tuple(outputs), "math", cse=lambda _: (stages, tuple(outputs)))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from lagrotor.benchmark.runner import Method, Prepare, Run, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
-from lagrotor.models.simulate import problem_of
+from lagrotor.models.integrated import problem_of
 from lagrotor.numerics.adams import adams
 from lagrotor.numerics.integrate import Rate
 from lagrotor.numerics.integrators import Engine, StopError, Stretch, dop853

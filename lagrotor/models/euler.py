@@ -12,14 +12,16 @@ import sympy as sp
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics import bias, mass_matrix, total_derivative
-from lagrotor.models.model import Array, Model, Observed, python_rate
+from lagrotor.models.model import Array, Model, Observed
 from lagrotor.numerics.codegen import Program, compile_program, solve_symmetric
-from lagrotor.numerics.integrate import Rate
+from lagrotor.numerics.integrate import Projection
 from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import I3, PAIR, a, b, k
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
+# The spins first: their pivot is I_3, and what is left of the azimuth's is then a sin² theta.
+ORDER = [2, 5, 0, 3, 1, 4]
 LEAST_INCLINATION = 1e-3  # rad; the rate of the azimuth grows as 1/theta below it
 
 
@@ -35,32 +37,47 @@ def program(massive: bool, body: int) -> Program:
         tip = axis(PAIR.q[i], PAIR.q[i + 1])
         for j in (0, 1):
             force[i + j] += sp.Matrix(FORCE).dot(tip.diff(PAIR.q[i + j]))
-    # The spins first: their pivot is I_3, and what is left of the azimuth's is then a sin² theta.
-    order = [2, 5, 0, 3, 1, 4]
-    mass, force, G = mass.extract(order, order), force.extract(order, [0]), G.extract([0], order)
+    mass, force, G = mass.extract(ORDER, ORDER), force.extract(ORDER, [0]), G.extract([0], ORDER)
     stages, free = solve_symmetric(mass, force.row_join(G.T), "m")
     lam = sp.Symbol("lam", real=True)
     row, acceleration, pull = G.row(0), free[:, 0], free[:, 1]
     gamma = system.gamma[0]
     stages.append((lam, -(row.dot(acceleration) + gamma) / row.dot(pull)))
     moved = acceleration + lam * pull
-    accelerations = [moved[order.index(i)] for i in range(6)]
+    accelerations = [moved[ORDER.index(i)] for i in range(6)]
     parameters = (a, *((b,) if massive else ()), k, I3, *(FORCE if body else ()))
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), (*PAIR.v, *accelerations))
 
 
-@lru_cache(maxsize=32)
-def _compiled(massive: bool, body: int) -> Any:
-    return compile_program(program(massive, body))
-
-
-def _rate(scene: Scene, pulsed: bool) -> Rate:
+def _program(scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
+    """The scene's program and the values of its parameters but for the force."""
     inertia_a, inertia_b = scene.inertias
     massive = inertia_b != 0
-    body = scene.shock.body if pulsed and scene.shock else 0
+    body = scene.shock.body if driven and scene.shock else 0
     ratio = scene.link.length / scene.rotor.length if scene.link else 1.0
-    parameters = (inertia_a, *((inertia_b,) if massive else ()), ratio, scene.rotor.I3)
-    return python_rate(scene, _compiled(massive, body), parameters, pulsed)
+    return program(massive, body), (inertia_a, *((inertia_b,) if massive else ()), ratio, scene.rotor.I3)
+
+
+@lru_cache(maxsize=2)
+def _projection_function(massive: bool) -> Any:
+    """One Newton step onto the bar's constraint and its rate, along M⁻¹ Gᵀ."""
+    system = pair_with_bar()
+    lagrangian = system.L if massive else system.L.subs(b, 0)
+    mass, G = mass_matrix(lagrangian, PAIR), system.rows
+    stages, pull = solve_symmetric(mass.extract(ORDER, ORDER), G.T.extract(ORDER, [0]), "p")
+    along = [pull[ORDER.index(i)] for i in range(6)]
+    strength = sum(x * y for x, y in zip(G, along, strict=True))
+    off, moving = system.constraints[0] / strength, system.residual[0] / strength
+    corrected = [*(q - off * x for q, x in zip(PAIR.q, along, strict=True))]
+    corrected += [v - moving * x for v, x in zip(PAIR.v, along, strict=True)]
+    parameters = (a, *((b,) if massive else ()), k, I3)
+    return compile_program(Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), tuple(corrected)), "numpy")
+
+
+def _projection(scene: Scene) -> Projection:
+    _, values = _program(scene, False)
+    function = _projection_function(scene.inertias[1] != 0)
+    return lambda y: np.array(function(*y, *values))
 
 
 def _start(scene: Scene) -> Array:
@@ -98,4 +115,4 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], scene.rotor.I3 * spins.T)
 
 
-MODEL = Model("euler", _start, _rate, _observe)
+MODEL = Model("euler", 12, _program, _start, _observe, _projection)

@@ -31,7 +31,6 @@ from lagrotor.theory.toppling import toppling_growth
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
 SAFETY = 1.1, 2.5  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02 and 1.93
 FARTHEST_OFF = 0.1  # estimated error of a shock's response beyond which its next order is no estimate
-MARGIN = 1.5  # of the error, estimated to leading order: two per cent off where it is small
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
 

@@ -3,7 +3,6 @@
 Exact for any bar and any k = ell / R. Singular only where an axis lies along the joint line.
 """
 
-from collections.abc import Callable
 from functools import lru_cache
 from math import asin, atan2, atanh, cosh, hypot, sin, sinh
 from typing import Any
@@ -12,21 +11,9 @@ import numpy as np
 
 from lagrotor.errors import SingularError
 from lagrotor.models.minimal_program import Ratio, observation, program
-from lagrotor.models.model import Array, Model, Observed, constant_momenta, python_rate
+from lagrotor.models.model import Array, Model, Observed, constant_momenta
 from lagrotor.numerics.codegen import Program, compile_program
-from lagrotor.numerics.integrate import Rate
-from lagrotor.numerics.rhs import rate_factory
 from lagrotor.pair.scene import Scene
-
-
-@lru_cache(maxsize=32)
-def _factory(massive: bool, ratio: Ratio, body: int) -> Callable[..., Rate]:
-    return rate_factory(program(massive, ratio, body), 6)
-
-
-@lru_cache(maxsize=32)
-def _compiled(massive: bool, ratio: Ratio, body: int) -> Any:
-    return compile_program(program(massive, ratio, body))
 
 
 def _ratio(scene: Scene) -> tuple[float, Ratio]:
@@ -36,32 +23,14 @@ def _ratio(scene: Scene) -> tuple[float, Ratio]:
     return value, "equal" if value == 1 else "short" if value < 1 else "long"
 
 
-def _terms(scene: Scene, pulsed: bool) -> tuple[tuple[bool, Ratio, int], tuple[float, ...]]:
-    """What picks the scene's program, and the values of its parameters but for the force."""
+def _program(scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
+    """The scene's program and the values of its parameters but for the force."""
     inertia_a, inertia_b = scene.inertias
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
-    body = scene.shock.body if pulsed and scene.shock else 0
-    parameters = (
-        inertia_a,
-        *((inertia_b,) if massive else ()),
-        *(() if ratio == "equal" else (value,)),
-        *scene.momenta,
-    )
-    return (massive, ratio, body), parameters
-
-
-def _rate(scene: Scene, pulsed: bool) -> Rate:
-    picked, parameters = _terms(scene, pulsed)
-    if not pulsed:
-        return _factory(*picked)(*parameters)
-    return python_rate(scene, _compiled(*picked), parameters, pulsed)
-
-
-def generated(scene: Scene, pulsed: bool) -> tuple[Program, tuple[float, ...]]:
-    """The scene's program, for a solver that takes expressions, and the values of its parameters but for the force."""
-    picked, parameters = _terms(scene, pulsed)
-    return program(*picked), parameters
+    body = scene.shock.body if driven and scene.shock else 0
+    optional = (*((inertia_b,) if massive else ()), *(() if ratio == "equal" else (value,)))
+    return program(massive, ratio, body), (inertia_a, *optional, *scene.momenta)
 
 
 def _start(scene: Scene) -> Array:
@@ -112,4 +81,4 @@ def _observed(scene: Scene, columns: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 
-MODEL = Model("minimal", _start, _rate, _observe)
+MODEL = Model("minimal", 6, _program, _start, _observe)

@@ -1,14 +1,15 @@
-"""What every rung of the ladder that is integrated offers: a start, a rate, and the axes read back."""
+"""What every integrated model offers: its program, how a scene fills the program's parameters, a start, the axes read back."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import exp
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.integrate import Projection, Rate
-from lagrotor.numerics.integrators import LOST
+from lagrotor.numerics.rhs import rate_factory
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -25,47 +26,48 @@ class Observed:
 
 @dataclass(frozen=True)
 class Model:
-    """One rung: `start` gives the state (d,) of a scene (and refuses what the rung cannot do), `rate` its right-hand
-    side with or without the pulse, `observe` the axes from states (n, d); `projection`, where the rung has constraints,
-    brings a state that drifted off them back."""
+    """A model that is integrated.
+
+    program: (scene, driven) → the program of the right-hand side, its first `size` arguments the state, and the values of
+    its parameters; driven by the pulse, the last three are the torque R F (N m) and not among the values. start: the state
+    (d,) of a scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
+    projection: brings states that drifted off the constraints back onto them. outside: whether a state lies where the
+    model must not be integrated; time_to_singular: the time after which a state may be there, at the earliest.
+    """
 
     name: str
+    size: int
+    program: Callable[[Scene, bool], tuple[Program, tuple[float, ...]]]
     start: Callable[[Scene], Array]
-    rate: Callable[[Scene, bool], Rate]
     observe: Callable[[Scene, Array], Observed]
     projection: Callable[[Scene], Projection] | None = None
+    outside: Callable[[Array], bool] | None = None
+    time_to_singular: Callable[[Array], float] | None = None
+
+    def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> Rate:
+        """The right-hand side s, y ↦ y' in Python floats, s the time from the pulse's peak, with the pulse if `driven`.
+
+        A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; bounded: a state
+        where the program is badly conditioned, too.
+        """
+        program, values = self.program(scene, driven)
+        shock = scene.shock if driven else None
+        if shock:
+            values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
+        rate = _factory(program, self.size, shock is not None, bounded)(*values)
+        return rate if self.outside is None else _guarded(rate, self.outside, self.size)
 
 
-def python_rate(
-    scene: Scene, function: Callable[..., list[float]], parameters: tuple[float, ...], pulsed: bool
-) -> Rate:
-    """The rate s, y ↦ function(*y, *parameters[, *force]) in Python floats, the fastest where one state comes at a time.
+@lru_cache(maxsize=64)
+def _factory(program: Program, size: int, driven: bool, bounded: bool) -> Callable[..., Rate]:
+    return rate_factory(program, size, driven, bounded)
 
-    `force` is R F on the shocked tip (N m). A state outside the coordinates' reach gives NaN, which makes the solver
-    shorten its step.
-    """
-    lost = [float("nan")]
-    if not pulsed or scene.shock is None:
 
-        def rate(s: float, y: Array) -> list[float]:
-            try:
-                return function(*y.tolist(), *parameters)
-            except LOST:
-                return lost * len(y)
+def _guarded(rate: Rate, outside: Callable[[Array], bool], size: int) -> Rate:
+    def guarded(s: float, y: Array) -> list[float]:
+        return [float("nan")] * size if outside(y) else rate(s, y)
 
-        return rate
-
-    width, R = scene.shock.width, scene.rotor.length
-    fx, fy, fz = (R * f for f in scene.shock.force)
-
-    def driven(s: float, y: Array) -> list[float]:
-        pulse = exp(-((s / width) ** 2))
-        try:
-            return function(*y.tolist(), *parameters, fx * pulse, fy * pulse, fz * pulse)
-        except LOST:
-            return lost * len(y)
-
-    return driven
+    return guarded
 
 
 def constant_momenta(scene: Scene, n: int) -> Array:

@@ -1,52 +1,55 @@
-"""`simulate`: a scene, times and a model in; a trajectory out."""
+"""`simulate`: a scene, times and a model in; a trajectory with its error estimate out."""
 
+import warnings
 from collections.abc import Callable
-from dataclasses import replace
-from math import hypot
+from dataclasses import dataclass, replace
+from math import inf, nan
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models.model import Model, Observed
-from lagrotor.numerics.integrate import TIGHTEST, Problem, check_tolerance, integrate
+from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorWarning
+from lagrotor.models import euler, minimal, spheres
+from lagrotor.models.calibrated import LINEAR_MARGIN, gathered_error
+from lagrotor.models.choose import choose
+from lagrotor.models.closed_form import closed_form
+from lagrotor.models.estimated import Estimated, run_at, run_within
+from lagrotor.models.linear import linear_error, linear_run
+from lagrotor.models.model import Model, Observed, constant_momenta
+from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
+from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.integrators import StopError
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 
-
-def _minimal() -> Model:
-    from lagrotor.models.minimal import MODEL
-
-    return MODEL
+MODELS: dict[str, Model] = {model.name: model for model in (minimal.MODEL, spheres.MODEL, euler.MODEL)}
 
 
-def _spheres() -> Model:
-    from lagrotor.models.spheres import MODEL
+@dataclass(frozen=True, eq=False)
+class Direct:
+    """A motion known at any time at once: what is observed, the largest error of an axis, a sentence on why."""
 
-    return MODEL
-
-
-def _euler() -> Model:
-    from lagrotor.models.euler import MODEL
-
-    return MODEL
+    seen: Observed
+    error: float
+    reason: str
 
 
-def _closed_form(scene: Scene, times: Array, tol: float) -> Observed:
-    from lagrotor.models.closed_form import closed_form_run
-
-    return closed_form_run(scene, times, tol)
-
-
-def _linear(scene: Scene, times: Array, tol: float) -> Observed:
-    from lagrotor.models.linear import linear_run
-
-    return linear_run(scene, times)
+def _closed_form(scene: Scene, times: Array, tol: float) -> Direct:
+    answer = closed_form(scene, float(times[-1]), tol, best=True)
+    seen = Observed(*answer.motion(times), constant_momenta(scene, len(times)))
+    missed = ", more than tol" if answer.error > tol else ""
+    return Direct(seen, answer.error, f"asked for; {answer.reason}; estimated error {answer.error:.1e}{missed}")
 
 
-# Rungs that answer at any time at once, and rungs that are integrated.
-DIRECT: dict[str, Callable[[Scene, Array, float], Observed]] = {"closed_form": _closed_form, "linear": _linear}
-MODELS: dict[str, Callable[[], Model]] = {"minimal": _minimal, "spheres": _spheres, "euler": _euler}
+def _linear(scene: Scene, times: Array, tol: float) -> Direct:
+    seen = linear_run(scene, times)
+    try:
+        return Direct(seen, LINEAR_MARGIN * linear_error(scene, float(times[-1])), "asked for")
+    except DomainError:  # more turns than the estimate sums over
+        return Direct(seen, nan, "asked for")
+
+
+DIRECT: dict[str, Callable[[Scene, Array, float], Direct]] = {"closed_form": _closed_form, "linear": _linear}
 
 
 def check_times(t: ArrayLike) -> Array:
@@ -75,14 +78,18 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
 
     model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
     of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: for "auto" that error
-    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1; the closed
-    form gives the best it has, and says in `why` how far off it may be.
+    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1.
+
+    The trajectory carries `error`, the estimated largest error of an axis, and `horizon`, the time after which neighbouring
+    motions have parted too far for `tol` to be meant. An integrated run is compared with a second one at another tolerance
+    and held to what the motion conserves; a LagrotorWarning says when `tol` is not kept, and what was reached.
 
     engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
     "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
 
     Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
-    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on.
+    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on,
+    or did not conserve what it must.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
@@ -92,98 +99,105 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     if model == "auto":
         return _automatic(scene, times, tolerance, engine)
     if model in DIRECT:
-        seen = DIRECT[model](scene, times, tolerance)
-        return _trajectory(scene, model, _foreseen(scene, model, float(times[-1]), tolerance), times, seen, 0)
+        direct = DIRECT[model](scene, times, tolerance)
+        return _direct(scene, model, direct.reason, times, direct, tolerance)
     if model not in MODELS:
         raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join((*DIRECT, *MODELS))}")
-    return _run(MODELS[model](), scene, times, tolerance, "asked for", engine)
+    return _by_name(MODELS[model], scene, times, tolerance, engine)
 
 
-def _foreseen(scene: Scene, model: str, t_end: float, tol: float) -> str:
-    """Why, and how far off, a model that was asked for by name; it may miss `tol`."""
-    if model != "closed_form":
-        return "asked for"
-    from lagrotor.models.closed_form import closed_form
-
-    answer = closed_form(scene, t_end, tol, best=True)
-    missed = ", more than tol" if answer.error > tol else ""
-    return f"asked for; {answer.reason}; an error up to {answer.error:.1e} is foreseen{missed}"
-
-
-def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
-    from lagrotor.models.choose import choose
-
-    choice = choose(scene, float(times[-1]), tol, engine)
-    if choice.model in DIRECT:
-        return _trajectory(scene, choice.model, choice.reason, times, DIRECT[choice.model](scene, times, tol), 0)
-    if choice.model == "spheres" and scene.link:
-        engine = "core"
-    try:
-        return _run(MODELS[choice.model](), scene, times, choice.solver_tol, choice.reason, engine)
-    except IntegrationError as refusal:
-        if choice.model == "spheres":
-            raise
-        # Beside a singular position any error grows a millionfold: the solver gives all it has.
-        return _run(_spheres(), scene, times, TIGHTEST, f"regular everywhere; {refusal}", "core")
-
-
-def _run(model: Model, scene: Scene, times: Array, tol: float, why: str, engine: str) -> Trajectory:
-    # Time is counted from the pulse: one that does not act within the run would only cost digits.
-    acting = replace(scene, shock=scene.shock_until(float(times[-1])))
-    if engine == "fast":
-        seen, evaluations = _fast(model, acting, times, tol)
-        return _trajectory(scene, model.name, why, times, seen, evaluations)
-    solution = integrate(problem_of(model, acting, float(times[-1])), times, tol)
-    return _trajectory(scene, model.name, why, times, model.observe(scene, solution.states), solution.evaluations)
-
-
-def problem_of(model: Model, scene: Scene, t_end: float) -> Problem:
-    """What `integrate` is given of a scene and a model that is integrated."""
-    return Problem(
-        free=model.rate(scene, False),
-        start=model.start(scene),
-        allowance=20_000 + 250 * _fastest(scene) * t_end,
-        driven=model.rate(scene, True) if scene.shock else None,
-        at=scene.shock.at if scene.shock else 0.0,
-        width=scene.shock.width if scene.shock else 0.0,
-        project=model.projection(scene) if model.projection else None,
+def _direct(scene: Scene, model: str, why: str, times: Array, direct: Direct, tol: float) -> Trajectory:
+    seen, horizon = direct.seen, inf if direct.error <= tol else nan
+    return Trajectory(
+        scene, model, why, times, seen.axes, seen.rates, seen.momenta, 0, error=direct.error, horizon=horizon
     )
 
 
-def _fast(model: Model, scene: Scene, times: Array, tol: float) -> tuple[Observed, int]:
-    from lagrotor.models import minimal, spheres
-    from lagrotor.numerics.taylor import Pulse, integrate_taylor
-
-    offered = {"minimal": minimal.generated} | ({} if scene.link else {"spheres": spheres.generated})
-    if model.name not in offered:
+def _by_name(model: Model, scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
+    if engine == "fast" and not _fast_runs(model, scene):
         raise InputError(
-            f"simulate: engine='fast' does not run model={model.name!r} with this scene: it has no projection onto "
-            "constraints; take minimal, or engine='core'"
+            f"simulate: engine='fast' does not run model={model.name!r} with this scene: a Taylor step may pass where its "
+            "constraints fail; take minimal, or engine='core'"
         )
-    start, pulse = model.start(scene), None
-    if scene.shock:
-        x, y, z = (scene.rotor.length * f for f in scene.shock.force)
-        pulse = Pulse((x, y, z), scene.shock.at, scene.shock.width)
-    solution = integrate_taylor(lambda pulsed: offered[model.name](scene, pulsed), start, pulse, times, tol)
-    observe = minimal.observe_fast if model.name == "minimal" else model.observe
-    return observe(scene, solution.states), solution.evaluations
+    units = _in_units(scene, times)
+    promised = gathered_error(tol, float(times[-1]) * units.rate * PACE)
+    try:
+        found = run_at(model, units.scene, times * units.rate, tol, engine, promised)
+    except StopError as stopped:
+        raise _in_seconds(stopped, units) from None
+    return _trajectory(scene, model.name, "asked for", times, found, units, promised, tol)
 
 
-def _trajectory(scene: Scene, model: str, why: str, times: Array, seen: Observed, evaluations: int) -> Trajectory:
+def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
+    choice = choose(scene, float(times[-1]), tol, engine)
+    if choice.model in DIRECT:
+        direct = DIRECT[choice.model](scene, times, tol)
+        return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tol)
+    units, why = _in_units(scene, times), choice.reason
+    if choice.model == "minimal":
+        try:
+            found = run_within(MODELS["minimal"], units.scene, times * units.rate, tol, engine, True)
+            return _trajectory(scene, "minimal", why, times, found, units, tol, tol)
+        except IntegrationError as refusal:
+            why = f"regular everywhere; {_in_seconds(refusal, units)}"
+    model = MODELS["spheres"]
+    try:
+        slow = "fast" if engine == "fast" and _fast_runs(model, scene) else "core"
+        found = run_within(model, units.scene, times * units.rate, tol, slow, False)
+    except StopError as stopped:
+        raise _in_seconds(stopped, units) from None
+    return _trajectory(scene, "spheres", why, times, found, units, tol, tol)
+
+
+def _fast_runs(model: Model, scene: Scene) -> bool:
+    """Whether Taylor steps cannot pass a position at which the model's constraints fail."""
+    return model.outside is None or scene.link is None
+
+
+def _in_units(scene: Scene, times: Array) -> NaturalUnits:
+    """Time is counted from the pulse: one far off that is not felt is left out, it would only cost digits."""
+    return natural_units(replace(scene, shock=scene.shock_until(float(times[-1]))))
+
+
+def _in_seconds(refusal: IntegrationError, units: NaturalUnits) -> IntegrationError:
+    return StopError(refusal.at / units.rate, refusal.reason) if isinstance(refusal, StopError) else refusal
+
+
+def _trajectory(
+    scene: Scene,
+    model: str,
+    why: str,
+    times: Array,
+    found: Estimated,
+    units: NaturalUnits,
+    promised: float,
+    tol: float,
+) -> Trajectory:
+    """The run in the units of the scene; warns where the estimate exceeds what was promised."""
+    error, horizon = float(found.errors[-1]), found.horizon / units.rate
+    if error > promised:
+        warnings.warn(_not_kept(model, tol, error, found.tol, horizon), LagrotorWarning, stacklevel=4)
+    seen, before = found.seen, constant_momenta(units.scene, len(times))
+    momentum = units.inertia * units.rate
     return Trajectory(
         scene=scene,
         model=model,
         why=why,
         t=times,
         axes=seen.axes,
-        rates=seen.rates,
-        momenta=seen.momenta,
-        evaluations=evaluations,
+        rates=seen.rates * units.rate,
+        momenta=constant_momenta(scene, len(times)) + (seen.momenta - before) * momentum,
+        evaluations=found.nfev,
+        error=error,
+        horizon=horizon,
     )
 
 
-def _fastest(scene: Scene) -> float:
-    """A rate (rad/s) that the motion does not exceed by much: spins, start and shock, in units of the tilting inertia."""
-    shock = hypot(*scene.shock.impulse) * scene.rotor.length if scene.shock else 0.0
-    spin = abs(scene.momenta[0]) + abs(scene.momenta[1])
-    return 1.0 + (spin + shock) / scene.rotor.J + hypot(*scene.rates[0]) + hypot(*scene.rates[1])
+def _not_kept(model: str, tol: float, error: float, reached: float, horizon: float) -> str:
+    apart = error / reached
+    reason = (
+        f"neighbouring motions part about {apart:.0e}-fold, and tol can be meant only up to"
+        if apart > 1e5
+        else "it is below what the solver can give after"
+    )
+    return f"simulate: {model} does not keep tol = {tol:g}: the estimated error is {error:.1e}; {reason} t = {horizon:.6g} s"

@@ -98,8 +98,11 @@ def _piece(stretch: Stretch, q: int, y: Array, t: float, h: float, steps: int, l
             states[n] = last = last + hB.dot(rates[n - q + 1 : n + 1])
             off[n] = last - predicted
             rates[n] = rate(t + n * h, last)
+            if stretch.time_to_singular and stretch.clear(last) < h:
+                raise StopError(t + n * h, "equal steps would pass a singular position")
         spent += 2 * len(block)
-        worst = np.abs(off[block.start : n + 1]).max() / (h * (1 + np.abs(last).max())) + 1e-300
+        # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
+        worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         if not worst <= limit:
             kept = block.start if block.start > q else 1
@@ -116,7 +119,11 @@ def adams(stretch: Stretch, error: float) -> Run:
     """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it."""
     asked, right, y, t = stretch.asked, stretch.right, stretch.start, stretch.left
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
-    h = min((right - t) / q, stretch.longest, min(limit ** (1 / q) / 5, 0.05) / (stretch.pace + 1e-300))
+    h = min(
+        (right - t) / q,
+        stretch.longest,
+        min(limit ** (1 / q) / 5, 0.05) / (max(stretch.pace, stretch.typical_rate) + 1e-300),
+    )
     found, done, spent, end = np.empty((len(asked), len(y))), 0, 1, y
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), 10_000)

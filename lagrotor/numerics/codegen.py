@@ -26,16 +26,18 @@ class Program:
 
     shared: the stages were made so that sums and products have few parts in common: only equal subexpressions are then
     sought, in a time linear in their number.
+    positive: expressions that are positive within the range in which the program is well conditioned.
     """
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]
     outputs: tuple[sp.Expr, ...]
     shared: bool = False
+    positive: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
         known = set(self.arguments)
-        for name, expression in (*self.stages, *((None, e) for e in self.outputs)):
+        for name, expression in (*self.stages, *((None, e) for e in (*self.outputs, *self.positive))):
             if missing := expression.free_symbols - known:
                 raise SingularError(
                     f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"

@@ -1,15 +1,16 @@
 """One door to scipy's initial value solvers, which never steps over a pulse."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import InputError, IntegrationError
+from lagrotor.errors import InputError
 from lagrotor.numerics.adams import adams
+from lagrotor.numerics.integrators import OutsideError, Run, StopError, Stretch, dop853, lsoda
 from lagrotor.numerics.integrators import Projection as Projection
 from lagrotor.numerics.integrators import Rate as Rate
-from lagrotor.numerics.integrators import Run, StopError, Stretch, dop853, lsoda
 from lagrotor.numerics.pulse import segments
 
 Array = NDArray[np.float64]
@@ -26,7 +27,8 @@ class Problem:
     """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
 
     `project` brings a state (d,), or states (d, n), back onto their constraints; `allowance` is how many evaluations the
-    run may take before it is said to crawl.
+    run may take before it is said to crawl; `typical_rate`, in rad/s, bounds the first step;
+    no step is longer than half of `time_to_singular` of the state where it begins.
     """
 
     free: Rate
@@ -36,6 +38,8 @@ class Problem:
     at: float = 0.0
     width: float = 0.0
     project: Projection | None = None
+    typical_rate: float = 0.0
+    time_to_singular: Callable[[Array], float] | None = None
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,7 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
     at the pulse's edges, s = ± 6.5 width; within them no step is longer than `width`, so no tolerance can miss it.
 
-    Raises IntegrationError when the solver cannot go on, or crawls.
+    Raises StopError, an IntegrationError with the time, when the solver cannot go on, or crawls.
     """
     asked = times - problem.at
     begin, end = -problem.at, float(asked[-1])
@@ -69,7 +73,10 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
     for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
         if right > left:
             inside = (asked > left) & (asked <= right)
-            run = _run(problem, pulsed, y, left, right, asked[inside], tol, evaluations)
+            try:
+                run = _run(problem, pulsed, y, left, right, asked[inside], tol, evaluations)
+            except StopError as stopped:
+                raise StopError(problem.at + stopped.at, stopped.reason) from None
             states[inside], y = run.states, run.end
             evaluations += run.evaluations
     return Solution(states, evaluations)
@@ -85,25 +92,19 @@ def _run(
     rate = problem.driven if pulsed and problem.driven else problem.free
     # From a rate that is not finite a solver makes a step that is not, and retries it for ever.
     if not np.isfinite(rate(left, y)).all():
-        raise IntegrationError(_stopped(problem.at + left, "the rate is not finite"))
+        raise StopError(left, "the right-hand side is not finite")
     longest, allowance = problem.width if pulsed else np.inf, problem.allowance - spent
-    stretch = Stretch(rate, y, left, right, asked, longest, allowance, problem.project)
-    try:
-        try:
-            if tol >= CROSSOVER:
-                return lsoda(stretch, min(tol / 200, 1e-6 if pulsed else np.inf))
-            if pulsed:
-                return dop853(stretch, tol / 20)
-            # Where equal steps do not pay, Adams is given up soon and DOP853 takes its own steps.
-            return adams(replace(stretch, allowance=min(allowance, 5_000 + 0.15 * allowance)), tol)
-        except StopError:
-            return dop853(stretch, tol / 20)
-    except StopError as stopped:
-        raise IntegrationError(_stopped(problem.at + stopped.at, stopped.reason)) from None
-
-
-def _stopped(t: float, reason: str) -> str:
-    return (
-        f"the solver stopped near t = {t:.6g} s ({reason.rstrip('.')}): the motion reaches a singular position of these "
-        "coordinates, or the tolerance is out of reach; try another model or a larger tol"
+    stretch = Stretch(
+        rate, y, left, right, asked, longest, allowance, problem.project, problem.typical_rate, problem.time_to_singular
     )
+    try:
+        if tol >= CROSSOVER:
+            return lsoda(stretch, min(tol / 200, 1e-6 if pulsed else np.inf))
+        if pulsed:
+            return dop853(stretch, tol / 20)
+        # Where equal steps do not pay, Adams is given up soon and DOP853 takes its own steps.
+        return adams(replace(stretch, allowance=min(allowance, 5_000 + 0.15 * allowance)), tol)
+    except OutsideError:
+        raise
+    except StopError:
+        return dop853(stretch, tol / 20)

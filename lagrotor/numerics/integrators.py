@@ -36,11 +36,17 @@ class Stretch:
     longest: float = np.inf
     allowance: float = np.inf
     project: Projection | None = None
+    typical_rate: float = 0.0
+    time_to_singular: Callable[[Array], float] | None = None
 
     @property
     def pace(self) -> float:
         """A rate of change (1/s) of the state at the start."""
         return float(np.abs(self.rate(self.left, self.start)).max() / (1 + np.abs(self.start).max()))
+
+    def clear(self, y: Array) -> float:
+        """The longest step from a state that does not pass a singular position."""
+        return self.time_to_singular(y) / 2 if self.time_to_singular else np.inf
 
 
 @dataclass(frozen=True)
@@ -56,11 +62,21 @@ Engine = Callable[[Stretch, float], Run]
 
 
 class StopError(IntegrationError):
-    """A solver that stopped at `at`, in the stretch's own time."""
+    """A solver that stopped at the time `at` (in a solver: the segment's own time), for a reason."""
 
     def __init__(self, at: float, reason: str) -> None:
-        super().__init__(reason)
+        super().__init__(
+            f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): the motion reaches a singular position of these "
+            "coordinates, or the tolerance is out of reach; try another model or a larger tol"
+        )
         self.at, self.reason = at, reason
+
+
+class OutsideError(StopError):
+    """A run that left the range in which its right-hand side is well conditioned."""
+
+    def __init__(self, at: float) -> None:
+        super().__init__(at, "the coordinates become singular")
 
 
 def lsoda(stretch: Stretch, error: float) -> Run:
@@ -73,20 +89,13 @@ def lsoda(stretch: Stretch, error: float) -> Run:
         return _lsoda(stretch, error)
     found, spent, left, y, longest_cut = [], 0, stretch.left, stretch.start, np.inf
     while left < stretch.right:
-        cut = min(5 / (replace(stretch, left=left, start=y).pace + 1e-300), longest_cut)
+        cut = min(5 / (replace(stretch, left=left, start=y).pace + 1e-300), longest_cut, stretch.clear(y))
         right = left + cut if left + 1.5 * cut < stretch.right else stretch.right
-        inside = (stretch.asked > left) & (stretch.asked <= right)
-        # A state with constraints moves no more than a tenth in a step, so that none leaps over where they fail.
-        part = replace(
-            stretch,
-            start=y,
-            left=left,
-            right=right,
-            asked=stretch.asked[inside],
-            longest=min(stretch.longest, cut / 50),
-        )
+        # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
+        longest = min(stretch.longest, cut / 25)
+        part = replace(stretch, start=y, left=left, right=right, longest=longest)
         try:
-            run = _lsoda(replace(part, allowance=min(stretch.allowance - spent, _A_CUT)), error)
+            part, run = _up_to_singular(part, min(stretch.allowance - spent, _A_CUT), error)
             end, spent = stretch.project(run.end), spent + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError:
@@ -99,11 +108,28 @@ def lsoda(stretch: Stretch, error: float) -> Run:
                 raise StopError(left, "the constraints drift faster than they can be kept")
             continue
         found.append(run.states)
-        y, left = end, right
+        y, left = end, part.right
     states = stretch.project(np.concatenate(found).T).T
     if not np.isfinite(states).all():
         raise StopError(stretch.left, "a state could not be brought back onto its constraints")
     return Run(states, y, spent)
+
+
+def _up_to_singular(part: Stretch, allowance: float, error: float) -> tuple[Stretch, Run]:
+    """The part of a run, or what of it comes before its steps might pass a singular position, with the states asked for."""
+    inside = (part.asked > part.left) & (part.asked <= part.right)
+    if part.time_to_singular is None:
+        return part, _lsoda(replace(part, asked=part.asked[inside], allowance=allowance), error)
+    watched = np.linspace(part.left, part.right, 66)[1:-1]
+    asked = np.union1d(part.asked[inside], watched)
+    run = _lsoda(replace(part, asked=asked, allowance=allowance), error)
+    for s, y in zip(asked, run.states, strict=True):
+        if s < part.right and part.clear(y) < part.longest and s - part.left > part.longest:
+            shorter = replace(part, right=float(s), longest=min(part.longest, (s - part.left) / 25))
+            inside = (part.asked > part.left) & (part.asked <= s)
+            again = _lsoda(replace(shorter, asked=part.asked[inside], allowance=allowance), error)
+            return shorter, replace(again, evaluations=again.evaluations + run.evaluations)
+    return part, replace(run, states=run.states[np.searchsorted(asked, part.asked[inside])])
 
 
 def _lsoda(stretch: Stretch, error: float) -> Run:
@@ -162,7 +188,9 @@ def dop853(stretch: Stretch, error: float) -> Run:
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail
             solver.max_step = min(
-                stretch.longest, 0.1 * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
+                stretch.longest,
+                0.1 * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300),
+                stretch.clear(solver.y),
             )
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():

@@ -6,13 +6,14 @@ the program: three quarters of the time that `compile_program` and a wrapper aro
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
-from lagrotor.numerics.integrators import LOST, Rate
+from lagrotor.numerics.integrators import LOST, OutsideError, Rate
 
 
 class _Products(PythonCodePrinter):  # type: ignore[misc]
@@ -68,30 +69,44 @@ def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: 
     return lines
 
 
-def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
-    """parameters → rate(s, y), for a program whose first `states` arguments are the state.
+def rate_factory(program: Program, states: int, driven: bool = False, bounded: bool = False) -> Callable[..., Rate]:
+    """parameters → rhs(s, y), for a program whose first `states` arguments are the state.
 
-    A state outside the coordinates' reach gives NaN, which makes a solver shorten its step; `rate.bare`, for a solver that
-    cannot, raises one of LOST there instead.
+    driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
+    one of the program's `positive` is not positive, OutsideError is raised.
+    A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; `rhs.bare`, for a solver
+    that cannot, raises one of LOST there instead.
     """
-    stages, outputs = reduce_common(program)
+    wanted = (*program.outputs, *(program.positive if bounded else ()))
+    stages, reduced = reduce_common(replace(program, outputs=wanted))
+    outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]
     show = _Products()
     state, parameters = program.arguments[:states], program.arguments[states:]
-    fixed, moving, known = list[str](), list[Stage](), set(parameters)
+    force = parameters[-3:] if driven else ()
+    fixed, moving, known = list[str](), list[Stage](), set(parameters) - set(force)
     for name, expression in stages:
         if expression.free_symbols <= known:
             known.add(name)
             fixed.append(f"{name} = {show.doprint(expression)}")
         else:
             moving.append((name, expression))
-    lines = _lines(moving, outputs, show, program.shared)
+    lines = _lines(moving, reduced, show, program.shared)
+    within = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
+        *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,
+        *([f"if not ({' and '.join(within)}): raise OutsideError(s)"] if within else []),
         f"return [{', '.join(map(show.doprint, outputs))}]",
     ]
+    given = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
+    return _made(body, fixed, [*given, "width"] if driven else given, len(outputs))
+
+
+def _made(body: list[str], fixed: list[str], given: list[str], outputs: int) -> Callable[..., Rate]:
+    """The function of the lines `body`, made for given parameters once the lines `fixed` are evaluated."""
     source = [
-        f"def make({', '.join(map(str, parameters))}):",
+        f"def make({', '.join(given)}):",
         *(f"    {line}" for line in fixed),
         "    def bare(s, y):",
         *(f"        {line}" for line in body),
@@ -99,10 +114,11 @@ def rate_factory(program: Program, states: int) -> Callable[..., Rate]:
         "        try:",
         *(f"            {line}" for line in body),
         "        except LOST:",
-        f"            return [nan] * {len(outputs)}",
+        f"            return [nan] * {outputs}",
         "    rate.bare = bare",
         "    return rate",
     ]
-    names = dict(vars(math)) | {"LOST": LOST}
+    names = dict(vars(math)) | {"LOST": LOST, "OutsideError": OutsideError}
     exec("\n".join(source), names)
-    return names["make"]
+    made: Callable[..., Rate] = names["make"]
+    return made

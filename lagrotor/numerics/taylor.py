@@ -19,9 +19,10 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.errors import InputError, IntegrationError
+from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.integrate import Solution
+from lagrotor.numerics.integrate import Projection, Solution
+from lagrotor.numerics.integrators import StopError
 from lagrotor.numerics.pulse import segments
 
 Array = NDArray[np.float64]
@@ -48,39 +49,65 @@ def taylor_order(tol: float) -> int:
     return 10 if tol >= 1e-7 else 14 if tol >= 1e-11 else 16
 
 
-def integrate_taylor(generated: Generated, start: Array, pulse: Pulse | None, times: Array, tol: float) -> Solution:
+def companion_order(tol: float) -> int:
+    """An order that takes other steps than that of a tighter run: at the tightest the next lower one."""
+    return min(taylor_order(tol), 14)
+
+
+def integrate_taylor(
+    generated: Generated,
+    start: Array,
+    pulse: Pulse | None,
+    times: Array,
+    tol: float,
+    project: Projection | None = None,
+    longest_between: float = np.inf,
+    order: int | None = None,
+) -> Solution:
     """Integrate from t = 0 through `times`; states (n, d) there, and steps times order for evaluations.
 
-    Cut at the pulse's edges as `integrate` is. Raises InputError without heyoka, IntegrationError where it stops.
+    Cut at the pulse's edges as `integrate` is, and projected there, at the end, and after no more than `longest_between`.
+    order: another than the cheapest for `tol`.
+    Raises InputError without heyoka, StopError where it stops.
     """
+    order = order or taylor_order(tol)
     at, width = (pulse.at, pulse.width) if pulse else (0.0, 0.0)
-    asked = times - at if pulse else times
-    d, done, y, evaluations, found = len(start), 0, start, 0, []
-    for left, right, driven in segments(-at, float(asked[-1]), width):
+    t_eval = times - at if pulse else times
+    found: list[Array] = []
+    d, y, evaluations = len(start), start, 0
+    for left, right, driven in segments(-at, float(t_eval[-1]), width):
         program, values = generated(driven)
-        solver = _solver(program, d, driven, taylor_order(tol), 1, get_ident())
+        solver = _solver(program, d, driven, order, 1, get_ident())
+        cyclic = _cyclic(program, d)
         if pulse and driven:
             values = (*values, *pulse.force, width)
-        solver.time = left
-        cyclic = _cyclic(program, d)
-        solver.state[:d], solver.state[d] = y, _size(tol)
-        solver.state[cyclic] *= _CARRIED
         solver.pars[: len(values)] = values
-        until = int(np.searchsorted(asked, right, side="right"))
-        grid = asked[done:until]
-        before, after = (0 if len(grid) and grid[i] == edge else 1 for i, edge in ((0, left), (-1, right)))
-        if before or after:
-            grid = np.concatenate([[left] * before, grid, [right] * (after and right > left)])
-        outcome, _, _, steps, _, states = solver.propagate_grid(
-            grid, max_delta_t=width if driven else np.inf, max_steps=_MOST_STEPS
-        )
-        if "time_limit" not in str(outcome) or not np.isfinite(states).all():
-            raise IntegrationError(f"the Taylor solver stopped near t = {at + solver.time:.6g} s; use engine='core'")
-        states[:, cyclic] /= _CARRIED
-        found.append(states[before : before + until - done, :d])
-        done, y = until, states[-1, :d]
-        evaluations += steps * solver.order
-    return Solution(found[0] if len(found) == 1 else np.concatenate(found), evaluations)
+        while left < right or not found:
+            solver.time, solver.state[:d], solver.state[d] = left, y, _size(tol, order)
+            solver.state[cyclic] *= _CARRIED
+            until = min(right, left + longest_between)
+            inside = t_eval[(t_eval > left if found else t_eval >= left) & (t_eval <= until)]
+            states, y, steps = _propagated(solver, inside, until, width if driven else np.inf)
+            if states is None:
+                raise StopError(at + solver.time, "the Taylor series has no step; engine='core' may go on")
+            states[:, cyclic] /= _CARRIED
+            y[cyclic] /= _CARRIED
+            found.append(states[:, :d])
+            y, left = (y[:d] if project is None else project(y[:d])), until
+            evaluations += steps * solver.order
+    states = np.concatenate(found)
+    return Solution(states if project is None else project(states.T).T, evaluations)
+
+
+def _propagated(solver: Any, t_eval: Array, until: float, longest: float) -> tuple[Array | None, Array, int]:
+    """States (n, d) at the times within the solver's and `until`, the state there, and steps; None where it stops."""
+    before = 0 if len(t_eval) and t_eval[0] == solver.time else 1
+    after = 0 if len(t_eval) and t_eval[-1] == until else int(until > solver.time)
+    grid = np.concatenate([[solver.time] * before, t_eval, [until] * after])
+    outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_delta_t=longest, max_steps=_MOST_STEPS)
+    if "time_limit" not in str(outcome) or not np.isfinite(states).all():
+        return None, np.empty(0), steps
+    return states[before : before + len(t_eval)].copy(), states[-1].copy(), steps
 
 
 def march_taylor(program: Program, start: Array, parameters: Array, times: Array, tol: float) -> tuple[Array, Counts]:
@@ -97,7 +124,7 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     for begin in range(0, n, LANES):
         lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
         solver.set_time(np.zeros(LANES))
-        solver.state[:d], solver.state[d] = start[:, lanes], _size(tol)
+        solver.state[:d], solver.state[d] = start[:, lanes], _size(tol, taylor_order(tol))
         solver.state[cyclic] *= _CARRIED
         solver.pars[:] = parameters[:, lanes]
         _, found = solver.propagate_grid(grid, max_steps=_MOST_STEPS)
@@ -136,9 +163,9 @@ def compile_taylor(program: Program, states: int) -> Callable[[Array, tuple[floa
     return evaluate
 
 
-def _size(tol: float) -> float:
-    """Of the component that stands still: with it a step leaves a tenth of `tol`."""
-    return tol / 10 / _compiled_for(taylor_order(tol))
+def _size(tol: float, order: int) -> float:
+    """Of the component that stands still: with it a step of this order leaves a tenth of `tol`."""
+    return tol / 10 / _compiled_for(order)
 
 
 def _compiled_for(order: int) -> float:
@@ -184,7 +211,7 @@ def _solver(program: Program, states: int, driven: bool, order: int, lanes: int,
     if lanes > 1:
         return heyoka.taylor_adaptive_batch(equations, state=np.zeros((states + 1, lanes)), **given)
     # A pulse is short: there its loops are not unrolled, which compiles many times faster and runs a little slower.
-    return heyoka.taylor_adaptive(equations, state=[0.0] * (states + 1), compact_mode=driven, **given)
+    return heyoka.taylor_adaptive(equations, state=[0.0] * (states + 1), compact_mode=driven or states > 6, **given)
 
 
 def _translated(program: Program, known: dict[sp.Symbol, Any], heyoka: Any) -> list[Any]:

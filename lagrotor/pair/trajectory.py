@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from html import escape
+from math import inf, nan
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,7 +32,9 @@ UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "lin
 class Trajectory:
     """A run of a scene by a model.
 
-    t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s).
+    t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s). error: the
+    estimated largest error of an axis over the run (tips: in units of R), NaN where none is known. horizon: time (s) after
+    which neighbouring motions have parted too far for the tolerance to be meant.
     """
 
     scene: Scene
@@ -42,6 +45,8 @@ class Trajectory:
     rates: Array
     momenta: Array
     evaluations: int
+    error: float = nan
+    horizon: float = inf
 
     @cached_property
     def joints(self) -> Array:

@@ -39,7 +39,7 @@ def step(f: Any, y: list[Any], H: Any) -> list[Any]:
 
 def states(module: Any, scene: Scene, seconds: int) -> list[list[Any]]:
     """States at 1, 2, … seconds."""
-    program, parameters = module.generated(scene, False)
+    program, parameters = module.MODEL.program(scene, False)
     function = compile_program(program, "mpmath")
     values = [mp.mpf(p) for p in parameters]
     y, kept = [mp.mpf(float(x)) for x in module.MODEL.start(scene)], []

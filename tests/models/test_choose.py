@@ -10,7 +10,9 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import LagrotorError
+from lagrotor.models import minimal, spheres
 from lagrotor.models.choose import choose
+from lagrotor.models.integrated import integrated
 
 LADDER = ("closed_form", "linear", "minimal", "spheres")
 BARS = ((0.0, 0.0), (0.01, 0.1), (1.0, 1.0), (1.0, 0.05))
@@ -67,11 +69,11 @@ def trials(seed: int, count: int) -> Iterator[Trial]:
             scene = random_scene(rng, kind)
         except LagrotorError:
             continue
-        exact = simulate(scene, t, "spheres", 1e-13).axes
+        exact = integrated(spheres.MODEL, scene, t, 1e-13).seen.axes
         try:
-            other = simulate(scene, t, "minimal", 1e-13).axes
+            other = integrated(minimal.MODEL, scene, t, 1e-13).seen.axes
         except LagrotorError:
-            other = simulate(scene, t, "spheres", 3e-13).axes
+            other = integrated(spheres.MODEL, scene, t, 3e-13).seen.axes
         if np.abs(exact - other).max() < tol / 10:
             drawn += 1
             yield Trial(kind, scene, t, tol, exact)
@@ -118,7 +120,7 @@ def test_the_fast_extra_misses_none_either_and_foresees_only_long_runs(count: in
     assert not missed, missed
     assert chosen["rest", "minimal"] and chosen["paired", "minimal"]
     shaken = Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05))
-    assert choose(shaken, 5.0, 1e-4, "fast").reason.endswith("too short to foresee what cheaper ones would miss")
+    assert choose(shaken, 5.0, 1e-4, "fast").reason.endswith("too short to estimate the cheaper ones' errors")
     assert choose(shaken, 50.0, 1e-4, "fast").model == choose(shaken, 5.0, 1e-4).model == "linear"
     assert choose(Scene((10, 3), link=None, rates=((1, 0, 0),) * 2), 1.0, 1e-6, "fast").model == "closed_form"
 
@@ -143,7 +145,7 @@ SHOCK = Shock((40, -11, 0), 2.0, 1 / 20)
         (Scene((10, -10)), 1e-9, "closed_form", "at rest and left alone: nothing moves"),
         (paired_scene(Scene((10, -10)), 0.05), 1e-6, "closed_form", r"paired precession of amplitude 0\.05: .* r0\^\d"),
         (Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05)), 1e-4, "linear", "normal modes, whose next term is"),
-        (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; normal modes would miss by"),
+        (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; normal modes have an error of"),
         (Scene((10, 0), link=None, shock=SHOCK), 1e-6, "spheres", "regular everywhere; minimal: the scene has no bar"),
     ],
 )
@@ -160,7 +162,7 @@ def test_the_estimate_integrates_nothing(monkeypatch: pytest.MonkeyPatch) -> Non
     def never(*_: object) -> None:
         raise AssertionError("integrated")
 
-    monkeypatch.setattr("lagrotor.models.simulate.integrate", never)
+    monkeypatch.setattr("lagrotor.models.integrated.integrate", never)
     for scene in (Scene((10, -10), shock=SHOCK), paired_scene(Scene((10, -10)), 0.2)):
         assert choose(scene, 10.0, 1e-10).estimate <= 1e-10
         with pytest.raises(AssertionError, match="integrated"):  # twin: a run does integrate

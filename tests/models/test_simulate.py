@@ -96,7 +96,7 @@ def test_auto_takes_the_least_model_and_says_why() -> None:
     [
         (Scene((10, -10), link=None, shock=Shock((1, 2, 0), 0.5, 0.05)), "the scene has no bar to eliminate"),
         (on_the_line(), "axis 1 lies along the joint line"),
-        (towards_the_line(), r"the solver stopped near t = 0\.(5|499)"),
+        (towards_the_line(), r"the solver stopped near t = 0\.3\d* s \(the coordinates become singular"),
     ],
 )
 def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str) -> None:

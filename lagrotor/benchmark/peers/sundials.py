@@ -21,7 +21,7 @@ def _casadi(multistep: str) -> Prepare:
         import casadi
         import sympy as sp
 
-        program, parameters = minimal.generated(scene, False)
+        program, parameters = minimal.MODEL.program(scene, False)
         stages, outputs = reduce_common(program)
         function = sp.lambdify(program.arguments, outputs, modules=[casadi], cse=lambda _: (stages, outputs))
         y = casadi.SX.sym("y", 6)

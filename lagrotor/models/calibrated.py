@@ -1,0 +1,72 @@
+"""Constants of the models that were found by trial: what each was calibrated on, and the test that holds it."""
+
+from math import pi
+from typing import NamedTuple
+
+
+class Calibrated(NamedTuple):
+    """A constant, what it is, what it was calibrated on, and the test that fails when it is wrong."""
+
+    value: float
+    what: str
+    calibrated_on: str
+    test: str
+
+
+_WIDE = "300 wide scenes of up to 100 turns against 80-bit integrations, core and fast"
+_TRIAL = "test_wide_scenes.py::test_no_miss_is_silent"
+TABLE = {
+    "APART": Calibrated(
+        30.0,
+        "ratio of the tolerances of a run and its companion: their difference bounds the better one's error",
+        _WIDE,
+        _TRIAL,
+    ),
+    "CLEARLY": Calibrated(5.0, "least ratio of the tolerances of a run and its companion", _WIDE, _TRIAL),
+    "FIRST": Calibrated(
+        1 / 3,
+        "tolerance of the first companion over the wanted error",
+        f"{_WIDE}: 19 of 20 need no other",
+        _TRIAL,
+    ),
+    "LOOSEST": Calibrated(
+        0.1,
+        "largest local error that a solver is given",
+        "the solvers' own tests",
+        "test_integrate.py::test_tolerances_out_of_reach_are_refused",
+    ),
+    "GIVEN_UP": Calibrated(1e-5, "local error beyond which no looser run is tried", _WIDE, _TRIAL),
+    "ROUNDING": Calibrated(2e-15, "error a turn that no tolerance avoids", _WIDE, _TRIAL),
+    "KEPT": Calibrated(
+        100.0,
+        "times the error estimate that conserved quantities may be off",
+        f"{_WIDE}: 99 of 100 runs are off by less than twice the estimate",
+        "test_estimated.py::test_a_run_that_does_not_conserve_is_refused",
+    ),
+    "LINEAR_MARGIN": Calibrated(
+        1.5,
+        "safety factor on the linear model's error, known to leading order",
+        "random scenes: two per cent off where small",
+        "test_choose.py::test_the_chosen_rung_meets_the_tolerance_and_hardly_any_cheaper_one_would",
+    ),
+    "GATHERED": Calibrated(
+        3e3,
+        "global error over local error of a run of SHORT turns whose neighbours stay close",
+        f"{_WIDE}: at most 1500",
+        _TRIAL,
+    ),
+    "SHORT": Calibrated(
+        20.0,
+        "turns after which the error is taken to grow with the run, below which the fast extra integrates at once",
+        "random scenes of up to 20 turns",
+        "test_choose.py::test_the_fast_extra_misses_none_either_and_foresees_only_long_runs",
+    ),
+}
+APART, CLEARLY, FIRST, LOOSEST, GIVEN_UP, ROUNDING, KEPT, LINEAR_MARGIN, GATHERED, SHORT = (
+    entry.value for entry in TABLE.values()
+)
+
+
+def gathered_error(tol: float, angle: float) -> float:
+    """Largest global error of a run at local error `tol` over `angle` (rad) of typical rate whose neighbours stay close."""
+    return GATHERED * tol * max(1.0, angle / (2 * pi * SHORT))

@@ -1,0 +1,102 @@
+"""What every motion of the pair keeps: energy less the shock's work, momentum about the joint line, bar and axes' lengths.
+
+A run that does not keep them within what its error estimate allows is not the pair's motion, whatever the solver says.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.models.model import Array, Observed
+from lagrotor.models.natural_units import PACE
+from lagrotor.pair.scene import Scene
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_MOST_PANELS = 2_000  # beyond, the work of a broad pulse is not followed
+
+
+@dataclass(frozen=True, eq=False)
+class PulseNodes:
+    """Gauss–Legendre nodes t (n,) and weights (n,) over the part of the pulse between `begin` and `end` (s)."""
+
+    t: Array
+    weights: Array
+    begin: float
+    end: float
+
+
+def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
+    """Nodes for the shock's work on a scene in natural units; none without shock, or for a pulse of too many turns."""
+    if scene.shock is None:
+        return None
+    begin, end = max(0.0, scene.shock.begin), min(t_end, scene.shock.end)
+    count = int(np.ceil((end - begin) / min(scene.shock.width, 1 / PACE)))
+    if not 0 < count <= _MOST_PANELS:
+        return None
+    edges = np.linspace(begin, end, count + 1)
+    half = np.diff(edges)[:, None] / 2
+    t = (edges[:-1, None] + half * (1 + _NODES)).ravel()
+    return PulseNodes(t, (half * _WEIGHTS).ravel(), begin, end)
+
+
+@dataclass(frozen=True, eq=False)
+class Conserved:
+    """Energy T (n,) of the tilting and momentum P (n,) about the joint line, and how much an error of 1 in the axes, and
+    of PACE in the rates, may change each."""
+
+    energy: Array
+    momentum: Array
+    energy_scale: float
+    momentum_scale: float
+
+
+def _conserved(scene: Scene, seen: Observed) -> Conserved:
+    a, b = scene.inertias
+    (r1, r2), (v1, v2) = seen.axes, seen.rates
+    p1, p2 = a * v1 + b * v2, a * v2 + b * v1
+    energy = ((p1 * v1).sum(-1) + (p2 * v2).sum(-1)) / 2
+    turning = np.cross(r1, p1)[:, 0] + np.cross(r2, p2)[:, 0] + seen.momenta[0] * r1[:, 0] + seen.momenta[1] * r2[:, 0]
+    size = float(np.sqrt((p1**2 + p2**2).sum(-1)).max())
+    return Conserved(energy, turning, PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max()))
+
+
+def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
+    """The error of axes and rates that would explain how far a run at times t (n,) is from conserving what it must.
+
+    The scene is in natural units; `nodes`, where there is a shock, are among the times.
+    """
+    found = _conserved(scene, seen)
+    lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
+    if scene.link:
+        k = scene.link.length / scene.rotor.length
+        bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
+        lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
+    defects = [float(np.abs(part).max()) for part in lengths]
+    work, turn, outside = np.zeros(2), np.zeros(2), np.ones(len(t), bool)
+    if scene.shock:
+        if nodes is None:
+            return max(defects)
+        work, turn, outside = _received(scene, t, seen, nodes)
+    after = (t >= nodes.end).astype(int) if nodes else np.zeros(len(t), int)
+    for values, received, scale in (
+        (found.energy, work, found.energy_scale),
+        (found.momentum, turn, found.momentum_scale),
+    ):
+        off = np.abs(values - values[0] - received[after])[outside]
+        if scale > 0:
+            defects.append(float(off.max()) / scale)
+    return max(defects)
+
+
+def _received(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Work (0, W) and angular impulse (0, N) before and after the pulse, and the times at which it does not act."""
+    assert scene.shock is not None
+    at = np.searchsorted(t, nodes.t)
+    i = scene.shock.body - 1
+    r, v = seen.axes[i, at], seen.rates[i, at]
+    pulse = nodes.weights * np.exp(-(((nodes.t - scene.shock.at) / scene.shock.width) ** 2))
+    torque = scene.rotor.length * np.array(scene.shock.force)
+    work = float((pulse * (v @ torque)).sum())
+    turn = float((pulse * np.cross(r, torque)[:, 0]).sum())
+    return np.array([0, work]), np.array([0, turn]), (t <= nodes.begin) | (t >= nodes.end)

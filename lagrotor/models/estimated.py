@@ -1,0 +1,134 @@
+"""Runs that know their error: two integrations at different tolerances, held to what the motion conserves.
+
+The difference of the two bounds the error of the better one. It is also how far neighbouring motions part: where it exceeds
+what was promised, the run has reached its horizon.
+"""
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import IntegrationError
+from lagrotor.models.calibrated import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, ROUNDING
+from lagrotor.models.conserved import PulseNodes, conservation_defect, pulse_nodes
+from lagrotor.models.integrated import integrated
+from lagrotor.models.model import Array, Model, Observed
+from lagrotor.models.natural_units import PACE
+from lagrotor.numerics.integrate import CROSSOVER, TIGHTEST
+from lagrotor.numerics.integrators import StopError
+from lagrotor.pair.scene import Scene
+
+_SAMPLES = 65  # times at which a run is watched besides those it is read at
+
+
+@dataclass(frozen=True, eq=False)
+class Estimated:
+    """A run at its times: the largest error of an axis up to each of them (n,), the horizon, evaluations of all its runs.
+
+    tol: the local error of the better run.
+    """
+
+    seen: Observed
+    errors: Array
+    horizon: float
+    nfev: int
+    tol: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Watched:
+    """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user."""
+
+    model: Model
+    scene: Scene
+    t: Array
+    read: NDArray[np.intp]
+    nodes: PulseNodes | None
+    engine: str
+    bounded: bool
+
+    def run(self, tol: float, companion: bool = False) -> tuple[Observed, int]:
+        found = integrated(self.model, self.scene, self.t, tol, self.engine, self.bounded, companion)
+        return found.seen, found.nfev
+
+
+def _watched(model: Model, scene: Scene, times: Array, engine: str, bounded: bool) -> _Watched:
+    t_end = float(times[-1])
+    nodes = pulse_nodes(scene, t_end)
+    t = np.union1d(times, np.linspace(0.0, t_end, _SAMPLES))
+    if nodes:
+        t = np.union1d(t, nodes.t)
+    return _Watched(model, scene, t, np.searchsorted(t, times), nodes, engine, bounded)
+
+
+def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, promised: float) -> Estimated:
+    """The model at a local error `tol`, its error estimated by a run at another; scene in natural units.
+
+    The horizon is where the estimate exceeds `promised`. Raises what `integrated` does, and IntegrationError where the run
+    does not conserve what it must.
+    """
+    watched = _watched(model, scene, times, engine, False)
+    other = tol * APART if tol * APART <= LOOSEST else tol / APART
+    one, nfev = watched.run(tol)
+    try:
+        two, spent = watched.run(other, True)
+    except StopError:
+        two, spent = watched.run(max(tol / APART, TIGHTEST), True)
+    return _estimated(watched, two, one, nfev + spent, tol, promised)
+
+
+def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: str, bounded: bool) -> Estimated:
+    """The model at tolerances that keep the axes within `wanted` as the estimate has it, else the best there is.
+
+    Scene in natural units. Raises as `run_at`.
+    """
+    watched = _watched(model, scene, times, engine, bounded)
+    loose, nfev = max(min(wanted * FIRST, LOOSEST), 3 * TIGHTEST), 0
+    best: Estimated | None = None
+    stopped: IntegrationError | None = None
+    while True:
+        tight = _tighter(loose, engine)
+        try:
+            (one, spent), (two, more) = watched.run(loose, True), watched.run(tight)
+            nfev += spent + more
+            found = _estimated(watched, one, two, nfev, tight, wanted)
+            best = found if best is None or found.errors[-1] < best.errors[-1] else replace(best, nfev=nfev)
+        except IntegrationError as refusal:
+            stopped = stopped or refusal
+        if stopped and (best or bounded or loose > GIVEN_UP):
+            break
+        if best and (best.errors[-1] <= wanted or loose <= 3 * TIGHTEST):
+            break
+        loose = loose * APART if best is None else max(min(tight, loose * wanted / best.errors[-1] / 2), 3 * TIGHTEST)
+    if best is None:
+        raise stopped or IntegrationError("no run")
+    return best
+
+
+def _tighter(loose: float, engine: str) -> float:
+    """The tolerance of the better run; not beyond where the core's solvers become dear, if it is clearly tighter there."""
+    tight = max(loose / APART, TIGHTEST)
+    return max(tight, CROSSOVER) if engine == "core" and loose >= CLEARLY * CROSSOVER else tight
+
+
+def _estimated(
+    watched: _Watched, loose: Observed, tight: Observed, nfev: int, tol: float, promised: float
+) -> Estimated:
+    t, apart = watched.t, np.linalg.norm(loose.axes - tight.axes, axis=-1).max(axis=0)
+    errors = np.maximum.accumulate(apart) + ROUNDING * (1 + PACE * t / (2 * np.pi))
+    error = float(errors[-1])
+    if not np.isfinite(error):
+        raise IntegrationError(f"{watched.model.name}: a value is not finite; use another model")
+    defect = conservation_defect(watched.scene, t, tight, watched.nodes)
+    if not defect <= KEPT * max(error, tol, float(np.abs(loose.rates - tight.rates).max()) / PACE):
+        raise IntegrationError(
+            f"{watched.model.name}: energy, momentum or the bar's length is off by as much as an error of {defect:.1e} "
+            f"makes, although {error:.1e} is estimated: the run followed another motion; use another model or a smaller tol"
+        )
+    beyond = errors > promised
+    horizon = float(t[np.argmax(beyond)]) if beyond.any() else inf
+    read = watched.read
+    seen = Observed(tight.axes[:, read], tight.rates[:, read], tight.momenta[:, read])
+    return Estimated(seen, errors[read], horizon, nfev, tol)
