@@ -33,6 +33,9 @@ def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> t
     return free + W @ lam, lam
 
 
+_ROUNDING = 4 * float(np.finfo(float).eps)
+
+
 def project_position(
     g_fun: Callable[[Array], Array],
     G_fun: Callable[[Array], Array],
@@ -44,16 +47,19 @@ def project_position(
     """The configuration with g = 0 reached from q by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
 
     To first order in the distance it is the nearest one in the mass metric (M = 1 when none is given). The steps end
-    when one is shorter than tol (1 + |q|): a length in q, whatever the units of g.
+    when one is shorter than tol (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its
+    terms, 4 eps |G| |q|: beside dependent constraints that rounding alone moves q by more than tol.
 
     Raises ConstraintError with the residual left after max_steps, SingularError where the rows of G are dependent.
     """
     start, q = q, np.array(q, dtype=float)
     for _ in range(max_steps):
-        W, S = _normals("project_position", G_fun(q), mass)
-        step = W @ np.linalg.solve(S, g_fun(q))
+        G, g = G_fun(q), g_fun(q)
+        W, S = _normals("project_position", G, mass)
+        step = W @ np.linalg.solve(S, g)
+        below_rounding = bool((np.abs(g) <= _ROUNDING * (np.abs(G) @ np.abs(q))).all())
         q = q - step
-        if np.linalg.norm(step) <= tol * (1 + np.linalg.norm(q)):
+        if below_rounding or np.linalg.norm(step) <= tol * (1 + np.linalg.norm(q)):
             return q
     raise ConstraintError(
         f"project_position: |g| = {np.linalg.norm(g_fun(q)):.3g} left after {max_steps} steps from q = {start}: "

@@ -6,14 +6,17 @@ to 10⁴ rad/s in all combinations, starts anywhere and beside the joint line, s
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor import Link, Rotor, Scene, Shock
 from lagrotor.errors import InputError
+from tests.models.oracle import exact_axes, pace
 
 Array = NDArray[np.float64]
+SEED, COUNT = 1, 1000  # of the trials whose references are recorded
 
 
 @dataclass(frozen=True)
@@ -94,3 +97,29 @@ def _start(rng: np.random.Generator, k: float, bar: bool) -> tuple[Array, Array]
     tangents = np.linalg.svd(normals)[2][len(normals) :]
     v = rng.normal(size=len(tangents)) @ tangents
     return np.array([r1, r2]), (v / np.linalg.norm(v)).reshape(2, 3)
+
+
+def turns(trial: Wide) -> float:
+    """Turns of the run, at the scene's own rate."""
+    return float(trial.t[-1] * pace(trial.scene)) / (2 * np.pi)
+
+
+def reference(trial: Wide, rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Exact axes (2, 3, 3), their own uncertainty (3,), and how far motions that start 1e-10 beside it part, over 1e-10."""
+    exact = exact_axes(trial.scene, trial.t)
+    own = np.abs(exact - exact_axes(trial.scene, trial.t, 1e-17)).max((0, 2))
+    beside = [exact_axes(trial.scene, trial.t, 1e-17, rng.normal(size=(2, 2, 3)) * 1e-10) for _ in range(2)]
+    parted = np.max([np.abs(axes - exact).max((0, 2)) for axes in beside], axis=0) / 1e-10
+    return exact.astype(float), own.astype(np.float32), parted.astype(np.float32)
+
+
+def renew(path: Path) -> None:
+    """Integrate the recorded trials anew: about ten minutes."""
+    rng = np.random.default_rng(0)
+    found = [reference(trial, rng) for trial in wide_scenes(SEED, COUNT)]
+    axes, own, growth = (np.array(part) for part in zip(*found, strict=True))
+    np.savez_compressed(path, axes=axes, own=own, growth=growth)
+
+
+if __name__ == "__main__":
+    renew(Path(__file__).with_name("wide_scenes.npz"))

@@ -1,0 +1,121 @@
+"""No wrong answer without a word: random scenes as wide as the package accepts, held to 80-bit integrations.
+
+The references are recorded in `wide_scenes.npz`; `python -m tests.models.wide_scenes` renews them, with heyoka.
+"""
+
+import sys
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT))
+
+from lagrotor import simulate  # noqa: E402
+from lagrotor.errors import IntegrationError, LagrotorWarning  # noqa: E402
+from lagrotor.models import simulate as simulating  # noqa: E402
+from lagrotor.pair.trajectory import Trajectory  # noqa: E402
+from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes  # noqa: E402
+
+RECORDED = np.load(Path(__file__).with_name("wide_scenes.npz"))
+PREDICTABLE = 1e4  # parting of neighbouring motions below which no miss may be silent
+NO_HEYOKA = pytest.mark.skipif(find_spec("heyoka") is None, reason="the fast extra is not installed")
+ENGINES = ["core", pytest.param("fast", marks=NO_HEYOKA)]
+TRIALS = wide_scenes(SEED, COUNT)
+SHORT = [i for i, trial in enumerate(TRIALS) if turns(trial) < 10][:100]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A trial's run, None where it was refused; its true error beyond the reference's own; whether there was a warning."""
+
+    trial: Wide
+    run: Trajectory | None
+    error: float
+    growth: float
+    warned: bool
+
+    @property
+    def missed(self) -> bool:
+        return self.run is not None and not self.error <= self.trial.tol
+
+    def __str__(self) -> str:
+        says = f"{self.run.model}, estimate {self.run.error:.1e}" if self.run else "refused"
+        return f"{self.trial}: {says}, error {self.error:.1e}, neighbours part {self.growth:.0e}-fold"
+
+
+def outcomes(which: list[int], engine: str) -> Iterator[Outcome]:
+    for i in which:
+        trial, growth = TRIALS[i], float(RECORDED["growth"][i].max())
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            try:
+                run = simulate(trial.scene, trial.t, tol=trial.tol, engine=engine)
+            except IntegrationError:
+                yield Outcome(trial, None, np.nan, growth, True)
+                continue
+        error = np.linalg.norm(run.axes - RECORDED["axes"][i], axis=-1).max() - 2 * RECORDED["own"][i].max()
+        yield Outcome(trial, run, float(error), growth, any(w.category is LagrotorWarning for w in said))
+
+
+def judge(which: list[int], engine: str) -> tuple[list[str], list[str], list[str]]:
+    """Silent misses, refusals, and warnings of runs that did keep the tolerance, where neighbours part little."""
+    silent, refused, needless = [], [], []
+    for outcome in outcomes(which, engine):
+        if outcome.missed and not outcome.warned:
+            silent.append(str(outcome))
+        if outcome.growth < PREDICTABLE:
+            refused += [str(outcome)] if outcome.run is None else []
+            needless += [str(outcome)] if outcome.run and outcome.warned and not outcome.missed else []
+    return silent, refused, needless
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_no_miss_is_silent(engine: str) -> None:
+    silent, refused, needless = judge(SHORT, engine)
+    assert not silent, silent
+    assert len(refused) + len(needless) <= len(SHORT) / 10, refused + needless
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ENGINES)
+def test_no_miss_is_silent_on_a_thousand_scenes(engine: str) -> None:
+    silent, refused, needless = judge(list(range(COUNT)), engine)
+    assert not silent, silent
+    assert len(refused) + len(needless) <= COUNT / 10, refused + needless
+
+
+def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twin: one integration at the wanted tolerance, its error taken for granted, misses in silence."""
+
+    def trusting(model, scene, times, wanted, engine, bounded):  # type: ignore[no-untyped-def]
+        found = simulating.run_at(model, scene, times, wanted, engine, np.inf)
+        return type(found)(found.seen, np.full(len(times), wanted), np.inf, found.nfev, wanted)
+
+    monkeypatch.setattr(simulating, "run_within", trusting)
+    assert len(judge(SHORT, "core")[0]) > 2
+
+
+@NO_HEYOKA
+def test_the_record_is_what_the_oracle_gives() -> None:
+    rng = np.random.default_rng(5)
+    for i in SHORT[::12]:
+        exact, own, _ = reference(TRIALS[i], rng)
+        assert np.abs(exact - RECORDED["axes"][i]).max() <= 1e-15 + own.max() + RECORDED["own"][i].max()
+
+
+def test_the_scenes_are_as_wide_as_they_say() -> None:
+    ratios = np.array([t.scene.link.length / t.scene.rotor.length for t in TRIALS if t.scene.link])
+    inertias = np.array([t.scene.rotor.I1 for t in TRIALS])
+    spins = np.abs([s for t in TRIALS for s in t.scene.spins])
+    lengths = np.array([turns(t) for t in TRIALS])
+    assert ratios.min() < 0.21 and ratios.max() > 3.9 and 0 < np.abs(ratios - 1)[ratios != 1].min() < 1e-13
+    assert inertias.max() / inertias.min() > 1e11 and (spins == 0).any() and spins.max() > 9e3
+    assert lengths.min() < 1e-3 and lengths.max() > 3e3
+    assert max(t.scene.link.mass for t in TRIALS if t.scene.link) > 15
+    assert sum(t.scene.shock is not None for t in TRIALS) > 400
