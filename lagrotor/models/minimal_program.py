@@ -74,7 +74,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         *(FORCE if body else ()),
     )
     away = tuple(FARTHEST_ALONG**2 - r.t**2 for r in rotors)
-    return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), away)
+    return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 
 
 @lru_cache(maxsize=3)

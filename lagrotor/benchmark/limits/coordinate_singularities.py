@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.errors import IntegrationError
-from lagrotor.models import euler, minimal
+from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.ensemble import started
+from lagrotor.models.integrated import integrated
 from lagrotor.models.model import Model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
@@ -119,7 +120,7 @@ def joint_line_limits(quick: bool) -> list[Limit]:
             "how far from it (rad) a swinging pair must pass for spheres to go on",
             f"{CLEARANCE:g}/sqrt(2), both axes counted: within it the three gradients are as good as dependent",
             CLEARANCE / sqrt(2),
-            threshold(lambda miss: not passes(miss), 1e-3, 0.1, 0.1 if quick else 0.01),
+            threshold(lambda miss: not passes(miss), CLEARANCE / 10, 10 * CLEARANCE, 0.1 if quick else 0.01),
             "spheres stops, and says where; closed_form refuses",
         ),
     ]
@@ -129,7 +130,7 @@ def passes(miss: float) -> bool:
     """Whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
     swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
     try:
-        simulate(swing, [2.0], "spheres", 1e-8)
+        integrated(spheres.MODEL, swing, np.array([2.0]), 1e-8)
     except IntegrationError:
         return False
     return True
