@@ -1,16 +1,16 @@
 # %% [markdown]
 # # Speed against accuracy, in seconds
 #
-# **Objective.** What an error costs in seconds, with the four core packages, with the fast extra, and with other tools on
-# the same pair; how many trajectories and closed-form points a second gives.
+# **Objective.** The processor time that an error costs, with the four core packages, with the fast extra, and with other
+# tools on the same pair; trajectories and points of closed forms a second.
 #
-# **Assumptions.** Seconds differ from machine to machine and from run to run, so they are read off a record, made in one
-# run by `python -m lagrotor.report.renew_record speed`: medians of processor time over samples of at least 10 ms, methods in
-# turn. What every reader gets alike, errors and evaluations, is in b1_chart.
+# **Assumptions.** Times differ from machine to machine and from run to run. These are the results of one machine, recorded in
+# one run by `python -m lagrotor.report.renew_record speed`: medians of processor time over samples of at least 10 ms, the
+# methods in turn. Errors and numbers of evaluations, the same everywhere, are in b1_chart.
 
 # %%
 from lagrotor.benchmark.recorded_speed import recorded_speed
-from lagrotor.benchmark.scenes_and_methods import LADDERS, courses
+from lagrotor.benchmark.scenes_and_methods import CASES, OURS
 from lagrotor.models.choose import choose
 from lagrotor.paper.tables import Table
 
@@ -31,14 +31,14 @@ def multiple(name, error, of):
 
 
 # %% [markdown]
-# ## What `model="auto"` takes
+# ## What `model="auto"` chooses
 #
-# On the paired precession the closed form, as long as the terms that it knows of its series foresee an error below `tol`.
+# On the paired precession it takes the closed form as long as the last terms of its series give an error below `tol`.
 
 # %%
-displaced = courses()["displaced"]
+displaced = CASES["displaced"](True)
 decades = [
-    n for n in range(3, 14) if choose(displaced.scene, float(displaced.times[-1]), 10.0**-n).model == "closed_form"
+    n for n in range(3, 14) if choose(displaced.scene, float(displaced.t_eval[-1]), 10.0**-n).model == "closed_form"
 ]
 reach = max(decades)
 decades
@@ -46,7 +46,7 @@ decades
 # %% [markdown]
 # ## At equal error
 #
-# Fastest first, by the error that most of them reach.
+# Fastest first, at the largest of the errors.
 
 # %%
 names = [name for name in at_error[ERRORS[0]] if any(at_error[error][name] for error in ERRORS)]
@@ -56,7 +56,7 @@ versions = ", ".join(f"{name} {number}" for name, number in found["versions"].it
 tables = [
     Table(
         "Speed against accuracy: milliseconds for an error of the tips (m), 10 s of the displaced pair",
-        ("method", *ERRORS, "least error (m)", "to get ready (s)"),
+        ("method", *ERRORS, "least error (m)", "set-up (s)"),
         tuple(
             (
                 name,
@@ -66,18 +66,18 @@ tables = [
             )
             for name in names
         ),
-        f"On record from one run: {where}; {versions}. Processor time; 1001 output times. The closed form holds on the "
-        f"paired precession, where it is what auto takes down to tol = 1e-{reach}; the others integrate.",
+        f"One run of {where}; {versions}. Processor time; 1001 output times. The closed form is valid on the paired "
+        f"precession, where auto takes it down to tol = 1e-{reach}; the others integrate.",
     ),
     Table(
         "Speed against accuracy: other tools as multiples",
-        ("method", *(f"over {ladder}, {error}" for ladder in LADDERS for error in ERRORS[:2])),
+        ("method", *(f"over {best}, {error}" for best in OURS for error in ERRORS[:2])),
         tuple(
-            (name, *(multiple(name, error, f"best of {ladder}") for ladder in LADDERS for error in ERRORS[:2]))
+            (name, *(multiple(name, error, f"best of {best}") for best in OURS for error in ERRORS[:2]))
             for name in names
             if at_error[ERRORS[0]][name]
         ),
-        "Any rung: the best of the core packages, here the closed form, its fit to the start included. Core and fast: the best "
+        "Any model: the best of the core packages, here the closed form, its fit to the start included. Core and fast: the best "
         "of their integrations, with the core packages and with the fast extra. From the same run.",
     ),
     Table(

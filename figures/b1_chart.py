@@ -43,13 +43,13 @@ def data() -> dict[str, np.ndarray]:
     errors, evaluations = np.full((2, len(LOOKS), len(tolerances)), np.nan)
     closed = np.full(len(tolerances), np.nan)
     for p in found.points:
-        j = tolerances.index(p.knob)
+        j = tolerances.index(p.setting)
         if p.method == CLOSED:
             closed[j] = p.error
         else:
             i = list(LOOKS).index(p.method)
-            errors[i, j], evaluations[i, j] = p.error, p.evaluations
-    front = np.array([(p.evaluations, p.error) for p in made["by_work"] if p.evaluations])
+            errors[i, j], evaluations[i, j] = p.error, p.nfev
+    front = np.array([(p.nfev, p.error) for p in made["by_work"] if p.nfev])
     return {
         "errors": errors, "evaluations": evaluations, "closed": closed, "front": front, "floor": np.array([found.floor])
     }  # fmt: skip

@@ -1,6 +1,6 @@
-"""What the fast extra could have been: compiled right-hand sides for solvers made by others. heyoka was taken.
+"""Solvers that were benchmarked for the fast extra and not chosen: others' solvers on a compiled right-hand side.
 
-Both run the minimal right-hand side, its generated Python compiled by numba; what that takes is in the chart's set-up.
+Both run the minimal right-hand side, its generated Python compiled by numba; the time that takes counts as set-up.
 """
 
 from collections.abc import Callable
@@ -10,19 +10,19 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.runner import Method, Run, tips
+from lagrotor.benchmark.calibrated import LSODA_LEAST
+from lagrotor.benchmark.method import Method, Runner, tips
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.numerics.codegen import reduce_common
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
-_STEP = 12  # evaluations of a step of DOP853, those of its read-out left out
-_LEAST = 3e-14  # what LSODA takes for a tolerance
+_A_STEP = 12  # evaluations of the right-hand side in a step of DOP853, those for dense output left out
 
 
 def _compiled(scene: Scene) -> Callable[..., Any]:
-    """y_1 … y_6 ↦ their six rates, as a tuple, compiled by numba for a scene without shock."""
+    """y ↦ y' as a tuple of six, compiled by numba, for a scene without shock."""
     import numba
 
     if scene.shock is not None:
@@ -34,26 +34,26 @@ def _compiled(scene: Scene) -> Callable[..., Any]:
     )
 
     @numba.njit
-    def rates(y):  # type: ignore[no-untyped-def]
+    def rhs(y):  # type: ignore[no-untyped-def]
         return function(y[0], y[1], y[2], y[3], y[4], y[5], *parameters)
 
-    return rates
+    return rhs
 
 
-def cyrk(scene: Scene, times: Array) -> Run:
+def cyrk(scene: Scene, t_eval: Array) -> Runner:
     """CyRK: DOP853 in C++, called with the address of a compiled right-hand side. Local error: a tenth of tol."""
     from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
-    rates, start = _compiled(scene), minimal.MODEL.start(scene)
+    rhs, start = _compiled(scene), minimal.MODEL.start(scene)
 
     def fill(out, t, y, p):  # type: ignore[no-untyped-def]
-        out[0], out[1], out[2], out[3], out[4], out[5] = rates(y)
+        out[0], out[1], out[2], out[3], out[4], out[5] = rhs(y)
 
     address = nb_diffeq_addr(fill)
 
     def run(tol: float) -> tuple[Array, int]:
         found = nbsolve2_ivp(
-            address, (0.0, float(times[-1])), start, "DOP853", t_eval=times, rtol=tol / 10, atol=tol / 10
+            address, (0.0, float(t_eval[-1])), start, "DOP853", t_eval=t_eval, rtol=tol / 10, atol=tol / 10
         )
         try:
             if not found.success:
@@ -61,25 +61,25 @@ def cyrk(scene: Scene, times: Array) -> Run:
             states, steps = found.y.T.copy(), int(found.steps_taken)
         finally:
             found.free()
-        return tips(scene, minimal.MODEL.observe(scene, states).axes), _STEP * steps
+        return tips(scene, minimal.MODEL.observe(scene, states).axes), _A_STEP * steps
 
     return run
 
 
-def numba_odeint(scene: Scene, times: Array) -> Run:
-    """numba's compiled right-hand side in scipy's odeint. Local error: a hundredth of tol, as LSODA leaves more."""
+def numba_odeint(scene: Scene, t_eval: Array) -> Runner:
+    """numba's compiled right-hand side in scipy's odeint. Local error: a hundredth of tol, as LSODA exceeds its own."""
     import numba
     from scipy.integrate import odeint
 
-    rates, start = _compiled(scene), minimal.MODEL.start(scene)
+    rhs, start = _compiled(scene), minimal.MODEL.start(scene)
 
     @numba.njit
-    def rate(t, y):  # type: ignore[no-untyped-def]
-        return np.array(rates(y))
+    def array_rhs(t, y):  # type: ignore[no-untyped-def]
+        return np.array(rhs(y))
 
     def run(tol: float) -> tuple[Array, int]:
-        error = max(tol / 100, _LEAST)
-        states, log = odeint(rate, start, times, tfirst=True, rtol=error, atol=error, full_output=True)
+        error = max(tol / 100, LSODA_LEAST.value)
+        states, log = odeint(array_rhs, start, t_eval, tfirst=True, rtol=error, atol=error, full_output=True)
         if log["message"] != "Integration successful.":
             raise IntegrationError(log["message"])
         return tips(scene, minimal.MODEL.observe(scene, states).axes), int(log["nfe"][-1])

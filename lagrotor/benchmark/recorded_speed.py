@@ -1,5 +1,6 @@
-"""Seconds on record: what one machine took for the displaced pair and for ensembles, so that a report can tell them and
-still be the same bytes everywhere. Renewed by `python -m lagrotor.report.renew_record speed`.
+"""Benchmark results of one machine, with its description: the displaced pair by every method, and ensembles.
+
+A report shows these, and so is the same bytes everywhere. Renewed by `python -m lagrotor.report.renew_record speed`.
 """
 
 import json
@@ -34,7 +35,7 @@ _ERRORS = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
 
 
 def recorded_speed() -> dict[str, Any]:
-    """machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError when broken."""
+    """machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError if unreadable."""
     try:
         return dict(json.loads(RECORDED.read_text(encoding="utf-8")))
     except (OSError, ValueError) as error:
@@ -47,12 +48,13 @@ def renew_speed() -> None:
 
     from lagrotor.benchmark.compiled_solvers import CANDIDATES
     from lagrotor.benchmark.peers import PEERS
-    from lagrotor.benchmark.runner import chart, seconds_at
-    from lagrotor.benchmark.scenes_and_methods import LADDERS, METHODS, courses
+    from lagrotor.benchmark.runner import benchmark, seconds_at
+    from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, OURS
     from lagrotor.benchmark.throughput import throughput
 
-    found = chart("displaced", replace(courses()["displaced"], repeats=_SAMPLES), METHODS | CANDIDATES | PEERS)
-    best = {f"best of {name}": [p for p in found.points if p.family in of] for name, of in LADDERS.items()}
+    case = replace(CASES["displaced"](False), repeats=_SAMPLES)
+    found = benchmark("displaced", case, METHODS | CANDIDATES | PEERS)
+    best = {f"best of {name}": [p for p in found.points if p.family in of] for name, of in OURS.items()}
     best |= {name: [p for p in found.points if p.method == name] for name in found.setup}
     with ProcessPoolExecutor() as executor:
         rates = throughput(8192, executor)

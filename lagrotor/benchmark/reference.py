@@ -1,4 +1,4 @@
-"""The motion that the others are held to: the exact pair by two formulations, and how far they are apart."""
+"""The motion that all methods are compared with: the exact pair by two formulations, and how far they are apart."""
 
 from dataclasses import dataclass
 
@@ -14,16 +14,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reference:
-    """Tips (2, n, 3) in m, and `floor`: the largest distance (m) of the two formulations' tips, what doubles leave."""
+    """Tips (2, n, 3) in m, and `floor`: the largest distance (m) of the two formulations' tips, from rounding."""
 
     tips: Array
     floor: float
 
 
-def reference(scene: Scene, times: Array) -> Reference:
+def reference(scene: Scene, t_eval: Array) -> Reference:
     """The bar eliminated (six states) and two unit vectors with multipliers (twelve), both at 1e-13.
 
-    tests/study/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
+    tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
     """
-    one, other = (simulate(scene, times, model, TIGHTEST).tips for model in ("minimal", "spheres"))
+    one, other = (simulate(scene, t_eval, model, TIGHTEST).tips for model in ("minimal", "spheres"))
     return Reference(one, float(np.linalg.norm(one - other, axis=-1).max()))

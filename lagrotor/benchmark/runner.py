@@ -1,9 +1,9 @@
-"""One scene, many methods: each at every knob, held to the reference; its points, what failed, and the front."""
+"""One scene, many methods: each at every accuracy setting, held to the reference; its points, its failures, and the front."""
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby
 from statistics import median
 from typing import Literal
@@ -11,77 +11,52 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.calibrated import LONGEST_RUN, SAMPLE
+from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Runner
 from lagrotor.benchmark.reference import reference
 from lagrotor.errors import LagrotorError
-from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
-Run = Callable[[float], tuple[Array, int]]
-Prepare = Callable[[Scene, Array], Run]
-Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]
-
-
-TOLERANCES = tuple(10.0**-n for n in range(3, 14))
-# A method is not asked for more once a run took as long (s); one that takes a tenth of it is timed once.
-PATIENCE = 2.0
-# A run is repeated, one after another, until that long (s): a millisecond by itself is a measure of what ran before it.
-SAMPLE = 0.01
-# Processor time, which other work on the machine does not lengthen, where it ticks finely enough.
+# Processor time, which other work on the machine does not lengthen, where its resolution is fine enough.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
-_COMPILING = "closed", "fast"  # a first run may derive or compile
+Work = Literal["seconds", "nfev"]
+_COMPILING = "closed", "fast"  # families whose first run may derive or compile
 _REFUSALS = LagrotorError, RuntimeError, ValueError
 
 
 @dataclass(frozen=True)
-class Method:
-    """prepare(scene, times) → run(knob) → tips (2, n, 3) in m, and evaluations.
-
-    The knob is a tolerance, or one of `steps` (s) for what goes in equal steps; `extra`: what of pyproject installs it.
-    """
-
-    family: Family
-    prepare: Prepare
-    steps: tuple[float, ...] = ()
-    extra: str = ""
-
-
-def tips(scene: Scene, axes: Array) -> Array:
-    """Tips (2, n, 3) in m of axes (2, n, 3)."""
-    half = (scene.link.length if scene.link else scene.rotor.length) / 2
-    return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
-
-
-@dataclass(frozen=True)
 class Point:
-    """One method at one knob, a tolerance or a step in s: largest error of a tip (m; the reference's floor where it is
-    below), evaluations, median over samples of the seconds of processor time a run, and those of the first, which may
-    compile."""
+    """One method at one accuracy setting, a tolerance or a step in s.
+
+    error: largest of a tip (m; the reference's own where it is below that). nfev: evaluations of the right-hand side.
+    seconds: processor time of a run, the median of its samples. first: that of the first run, which may compile.
+    """
 
     method: str
     family: Family
-    knob: float
+    setting: float
     error: float
-    evaluations: int
+    nfev: int
     seconds: float
     first: float
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A method that gave no point at some knobs, or at all (none), and why."""
+    """A method that gave no point at some settings, or at all (no settings), and why."""
 
     method: str
-    knobs: tuple[float, ...]
+    settings: tuple[float, ...]
     reason: str
 
     def __str__(self) -> str:
-        at = ", ".join(f"{knob:g}" for knob in self.knobs)
+        at = ", ".join(f"{setting:g}" for setting in self.settings)
         return f"{self.method} at {at}: {self.reason}" if at else f"{self.method}: {self.reason}"
 
 
 @dataclass(frozen=True)
-class Chart:
-    """A scene's points and failures, seconds that each method takes to get ready, and the reference's floor (m)."""
+class Benchmark:
+    """A scene's points and failures, the seconds that each method needs to set up, and the error of the reference (m)."""
 
     scene: str
     says: str
@@ -92,134 +67,143 @@ class Chart:
 
 
 @dataclass(frozen=True)
-class Course:
-    """A scene to run, its times (s), how many samples are taken of each run after the first, and a sentence."""
+class _Prepared:
+    """A method that is ready to run: its runner, its settings from coarse to fine, and the seconds that took."""
 
-    scene: Scene
-    times: Array
-    repeats: int
-    says: str
-
-
-@dataclass(frozen=True)
-class _Ready:
-    """A method that is prepared: its run, its knobs from crude to fine, and the seconds that it took to get there."""
-
-    run: Run
-    knobs: tuple[float, ...]
+    runner: Runner
+    settings: tuple[float, ...]
     seconds: float
 
 
-# Method, the knob or none, and the reason.
-_Failed = list[tuple[str, float | None, str]]
+@dataclass
+class _Record:
+    """What has been measured: by method and setting its error and nfev, and its seconds, run by run; and what failed."""
+
+    found: dict[tuple[str, float], tuple[float, int]] = field(default_factory=dict)
+    seconds: dict[tuple[str, float], list[float]] = field(default_factory=dict)
+    failed: list[tuple[str, float | None, str]] = field(default_factory=list)
 
 
-def chart(
+def benchmark(
     name: str,
-    course: Course,
+    case: Case,
     methods: dict[str, Method],
     tolerances: Iterable[float] = TOLERANCES,
-    patience: float = PATIENCE,
-) -> Chart:
-    """Run every method at every knob, all of them once before any of them again; medians of the samples' seconds."""
-    truth = reference(course.scene, course.times)
-    failed: _Failed = []
-    ready = _get_ready(course, methods, tuple(tolerances), failed)
-    deepest = max((len(one.knobs) for one in ready.values()), default=0)
-    turns = [(method, one.knobs[i]) for i in range(deepest) for method, one in ready.items() if i < len(one.knobs)]
+    longest: float = LONGEST_RUN.value,
+) -> Benchmark:
+    """Run every method at every setting, all of them once before any of them again; medians of the samples' seconds.
 
-    found: dict[tuple[str, float], tuple[float, int]] = {}
-    seconds: dict[tuple[str, float], list[float]] = {}
-    tired: dict[str, str] = {}
-    for method, knob in turns:
-        if method in tired:
-            failed.append((method, knob, tired[method]))
-            continue
-        try:
-            tips, evaluations, spent = _timed(ready[method].run, knob)
-        except _REFUSALS as refusal:
-            failed.append((method, knob, str(refusal).split("\n")[0]))
-            continue
-        if spent > patience and methods[method].family not in _COMPILING:
-            tired[method] = f"left out: at {knob:g} a run took {spent:.1f} s"
-        error = float(np.linalg.norm(tips - truth.tips, axis=-1).max())
-        if np.isfinite(error):
-            found[method, knob], seconds[method, knob] = (max(error, truth.floor), evaluations), [spent]
-        else:
-            failed.append((method, knob, "a value is not finite"))
-    again = [
-        (method, knob)
-        for method, knob in found
-        if methods[method].family in _COMPILING or seconds[method, knob][0] < patience / 10
-    ]
-    for method, knob in again * course.repeats:
-        seconds[method, knob].append(_sample(ready[method].run, knob))
-
+    A method is not run at a finer setting once a run of it took more than `longest` s.
+    """
+    truth, record = reference(case.scene, case.t_eval), _Record()
+    ready = _prepare_all(case, methods, tuple(tolerances), record)
+    _run_all(ready, methods, truth.tips, longest, record)
+    _repeat(ready, methods, case.repeats, longest / 10, record)
     points = []
-    for (method, knob), (error, evaluations) in found.items():
-        first, *later = seconds[method, knob]
+    for (method, setting), (error, nfev) in record.found.items():
+        first, *later = record.seconds[method, setting]
         usual = median(later or [first])
-        points.append(Point(method, methods[method].family, knob, error, evaluations, usual, first))
+        points.append(Point(method, methods[method].family, setting, max(error, truth.floor), nfev, usual, first))
     setup = {
         method: one.seconds + max([0.0, *(p.first - p.seconds for p in points if p.method == method)])
         for method, one in ready.items()
     }
-    return Chart(name, course.says, tuple(points), _grouped(failed, ready), setup, truth.floor)
+    return Benchmark(name, case.says, tuple(points), _grouped(record, ready), setup, truth.floor)
 
 
-def _get_ready(
-    course: Course, methods: dict[str, Method], tolerances: tuple[float, ...], failed: _Failed
-) -> dict[str, _Ready]:
-    """Prepare each method and run it once at its crudest; what cannot be prepared goes to `failed`."""
+def _prepare_all(
+    case: Case, methods: dict[str, Method], tolerances: tuple[float, ...], record: _Record
+) -> dict[str, _Prepared]:
+    """Prepare each method and run it once at its coarsest setting; what cannot be prepared has failed."""
     ready = {}
     for method, given in methods.items():
-        began, knobs = time.perf_counter(), given.steps or tolerances
+        began, settings = time.perf_counter(), given.steps or tolerances
         try:
-            run = given.prepare(course.scene, course.times)
-            with suppress(*_REFUSALS):  # to fail again, and be listed, when its turn comes
-                run(knobs[0])
-            ready[method] = _Ready(run, knobs, time.perf_counter() - began)
+            runner = given.prepare(case.scene, case.t_eval)
+            with suppress(*_REFUSALS):  # it fails again, and is recorded, in its turn
+                runner(settings[0])
+            ready[method] = _Prepared(runner, settings, time.perf_counter() - began)
         except ImportError as absent:
-            failed.append((method, None, f"not installed ({absent.name}): pip install 'lagrotor[{given.extra}]'"))
+            reason = f"not installed ({absent.name}): pip install 'lagrotor[{given.extra}]'"
+            record.failed.append((method, None, reason))
         except LagrotorError as refusal:
-            failed.append((method, None, str(refusal)))
+            record.failed.append((method, None, str(refusal)))
     return ready
 
 
-def _timed(run: Run, knob: float) -> tuple[Array, int, float]:
+def _run_all(
+    ready: dict[str, _Prepared], methods: dict[str, Method], truth: Array, longest: float, record: _Record
+) -> None:
+    """Every method at its coarsest setting, then at the next, and so on."""
+    most = max((len(one.settings) for one in ready.values()), default=0)
+    turns = [(method, one.settings[i]) for i in range(most) for method, one in ready.items() if i < len(one.settings)]
+    too_slow: dict[str, str] = {}
+    for method, setting in turns:
+        if method in too_slow:
+            record.failed.append((method, setting, too_slow[method]))
+            continue
+        try:
+            found, nfev, seconds = _timed(ready[method].runner, setting)
+        except _REFUSALS as refusal:
+            record.failed.append((method, setting, str(refusal).split("\n")[0]))
+            continue
+        if seconds > longest and methods[method].family not in _COMPILING:
+            too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
+        error = float(np.linalg.norm(found - truth, axis=-1).max())
+        if np.isfinite(error):
+            record.found[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
+        else:
+            record.failed.append((method, setting, "a value is not finite"))
+
+
+def _repeat(
+    ready: dict[str, _Prepared], methods: dict[str, Method], repeats: int, longest: float, record: _Record
+) -> None:
+    """Further samples of every run that took less than `longest` s, or whose first may have compiled."""
+    again = [
+        (method, setting)
+        for method, setting in record.found
+        if methods[method].family in _COMPILING or record.seconds[method, setting][0] < longest
+    ]
+    for method, setting in again * repeats:
+        record.seconds[method, setting].append(_sample(ready[method].runner, setting))
+
+
+def _timed(runner: Runner, setting: float) -> tuple[Array, int, float]:
     began = _CLOCK()
-    tips, evaluations = run(knob)
-    return tips, evaluations, _CLOCK() - began
+    found, nfev = runner(setting)
+    return found, nfev, _CLOCK() - began
 
 
-def _sample(run: Run, knob: float) -> float:
-    """Seconds a run, of as many as SAMPLE holds, and at least one."""
+def _sample(runner: Runner, setting: float) -> float:
+    """Seconds a run, over as many as take SAMPLE, and at least one."""
     began, runs, spent = _CLOCK(), 0, 0.0
-    while spent < SAMPLE:
-        run(knob)
+    while spent < SAMPLE.value:
+        runner(setting)
         runs, spent = runs + 1, _CLOCK() - began
     return spent / runs
 
 
-def _grouped(failed: _Failed, ready: dict[str, _Ready]) -> tuple[Failure, ...]:
-    """One failure a method and reason; without knobs where it is all of them."""
+def _grouped(record: _Record, ready: dict[str, _Prepared]) -> tuple[Failure, ...]:
+    """One failure a method and reason; without settings where it is all of them."""
     grouped = []
-    for (method, reason), group in groupby(sorted(failed, key=lambda f: (f[0], f[2])), key=lambda f: (f[0], f[2])):
-        at = tuple(knob for _, knob, _ in group if knob is not None)
-        whole = method not in ready or len(at) == len(ready[method].knobs)
+    by_reason = sorted(record.failed, key=lambda f: (f[0], f[2]))
+    for (method, reason), group in groupby(by_reason, key=lambda f: (f[0], f[2])):
+        at = tuple(setting for _, setting, _ in group if setting is not None)
+        whole = method not in ready or len(at) == len(ready[method].settings)
         grouped.append(Failure(method, () if whole else at, reason))
     return tuple(grouped)
 
 
 def listed(failures: Iterable[Failure]) -> list[str]:
-    """Sentences, one for all methods that share knobs and reason."""
+    """Sentences, one for all methods that share settings and reason."""
     shared: dict[tuple[tuple[float, ...], str], list[str]] = {}
     for failure in failures:
-        shared.setdefault((failure.knobs, failure.reason), []).append(failure.method)
+        shared.setdefault((failure.settings, failure.reason), []).append(failure.method)
     return [str(Failure("; ".join(methods), *key)) for key, methods in shared.items()]
 
 
-def front(points: Iterable[Point], work: str = "seconds") -> list[Point]:
+def front(points: Iterable[Point], work: Work = "seconds") -> list[Point]:
     """The points that no other beats both in error and in work, from the cheapest to the most exact; traps left out."""
     kept: list[Point] = []
     for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):

@@ -1,4 +1,4 @@
-"""Speed against accuracy: every rung, solver and tolerance on the same scenes, held to the same reference."""
+"""Speed against accuracy: every model, solver and tolerance on the same scenes, held to the same reference."""
 
 import warnings
 from collections.abc import Callable, Iterable
@@ -8,21 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.calibrated import LONGEST_QUICK_RUN, LONGEST_RUN
 from lagrotor.benchmark.compiled_solvers import CANDIDATES
+from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare, Runner
 from lagrotor.benchmark.peers import PEERS
-from lagrotor.benchmark.runner import (
-    PATIENCE,
-    TOLERANCES,
-    Chart,
-    Course,
-    Failure,
-    Family,
-    Method,
-    Prepare,
-    Run,
-    chart,
-    seconds_at,
-)
+from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, seconds_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.closed_form import closed_form
 from lagrotor.models.simulate import simulate
@@ -35,28 +25,49 @@ from lagrotor.theory.paired_precession.series_orbit import series_orbit
 Array = NDArray[np.float64]
 
 AMPLITUDE, ORDER = 0.204, 21  # the start lies on the periodic orbit to 1e-12
-QUICK_PATIENCE = 0.2
+_TEN = np.linspace(0, 10, 1001)
 
 
-def courses(quick: bool = False) -> dict[str, Course]:
-    """The four scenes; quick: fewer repeats, and 100 turns for 1,000."""
-    opposite, heavy = (series_orbit(Scene((10, -10), link=bar), AMPLITUDE, ORDER).start for bar in (Link(), HEAVY))
-    ten, repeats, turns = np.linspace(0, 10, 1001), 1 if quick else 2, 100 if quick else 1000
-    period = 2 * np.pi / natural_rate(opposite)
-    shocked = SCENES["free-precession"].scene
-    return {
-        "displaced": Course(opposite, ten, repeats, f"paired precession, r0 = {AMPLITUDE}, 10 s"),
-        "shock": Course(shocked, ten, repeats, "shock of 5.2.1 on a light bar, 10 s"),
-        "heavy": Course(heavy, ten, repeats, "bar of 1 kg, 10 s"),
-        "long": Course(opposite, np.linspace(0, turns * period, 1001), 1, f"paired precession, {turns:,} turns"),
-    }
+def _displaced(quick: bool) -> Case:
+    return Case(_paired(Link()), _TEN, _repeats(quick), f"paired precession, r0 = {AMPLITUDE}, 10 s")
 
 
-def _rung(model: str, engine: str = "core") -> Prepare:
-    def prepare(scene: Scene, times: Array) -> Run:
+def _shocked(quick: bool) -> Case:
+    return Case(SCENES["free-precession"].scene, _TEN, _repeats(quick), "shock of 5.2.1 on a light bar, 10 s")
+
+
+def _heavy(quick: bool) -> Case:
+    return Case(_paired(HEAVY), _TEN, _repeats(quick), "bar of 1 kg, 10 s")
+
+
+def _long(quick: bool) -> Case:
+    scene, turns = _paired(Link()), 100 if quick else 1000
+    t_eval = np.linspace(0, turns * 2 * np.pi / natural_rate(scene), 1001)
+    return Case(scene, t_eval, 1, f"paired precession, {turns:,} turns")
+
+
+def _paired(bar: Link) -> Scene:
+    return series_orbit(Scene((10, -10), link=bar), AMPLITUDE, ORDER).start
+
+
+def _repeats(quick: bool) -> int:
+    return 1 if quick else 2
+
+
+# Name → case; quick: fewer repeats, and 100 turns for 1,000. Each is made when it is needed: a paired start is a series.
+CASES: dict[str, Callable[[bool], Case]] = {
+    "displaced": _displaced,
+    "shock": _shocked,
+    "heavy": _heavy,
+    "long": _long,
+}
+
+
+def _model(model: str, engine: str = "core") -> Prepare:
+    def prepare(scene: Scene, t_eval: Array) -> Runner:
         def run(tol: float) -> tuple[Array, int]:
-            closed_form.cache_clear()  # no run knows of the one before: each meets its scene for the first time
-            found = simulate(scene, times, model, tol, engine)
+            closed_form.cache_clear()  # each run meets its scene for the first time
+            found = simulate(scene, t_eval, model, tol, engine)
             return found.tips, found.evaluations
 
         return run
@@ -67,11 +78,11 @@ def _rung(model: str, engine: str = "core") -> Prepare:
 def _springs(stiffer: float) -> Prepare:
     """The paper's own method, its springs `stiffer` times as stiff at the same ratio of damping."""
 
-    def prepare(scene: Scene, times: Array) -> Run:
+    def prepare(scene: Scene, t_eval: Array) -> Runner:
         system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
 
         def run(step: float) -> tuple[Array, int]:
-            found = run_steps(system, scene.shock, times, step)
+            found = run_steps(system, scene.shock, t_eval, step)
             return found.tips, found.evaluations
 
         return run
@@ -80,21 +91,21 @@ def _springs(stiffer: float) -> Prepare:
 
 
 METHODS: dict[str, Method] = {
-    "closed form": Method("closed", _rung("closed_form")),
-    "normal modes": Method("closed", _rung("linear")),
-    "minimal": Method("core", _rung("minimal")),
-    "spheres": Method("core", _rung("spheres")),
-    "euler": Method("core", _rung("euler")),
+    "closed form": Method("closed", _model("closed_form")),
+    "normal modes": Method("closed", _model("linear")),
+    "minimal": Method("core", _model("minimal")),
+    "spheres": Method("core", _model("spheres")),
+    "euler": Method("core", _model("euler")),
     **ENGINES,
-    "minimal, fast": Method("fast", _rung("minimal", "fast")),
+    "minimal, fast": Method("fast", _model("minimal", "fast")),
     "springs of the paper": Method("springs", _springs(1), (2e-3, 1e-3, 5e-4)),
     "springs, 100 times as stiff": Method("springs", _springs(100), (2e-4, 1e-4)),
 }
 
 
-# What is left out, in a hurry and of single scenes, and why; listed with what failed.
+# Methods that are left out of quick runs, and of single cases, with the reason; they are listed with what failed.
 _ELSEWHERE = "takes seconds a run; see the displaced pair"
-_SLOW = {
+_LEFT_OUT = {
     "quick": {
         "minimal, CyRK": "compiles for six seconds",
         "minimal, numba": "slower than minimal, CyRK",
@@ -121,34 +132,33 @@ _SLOW = {
 }
 
 
-def charts(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Chart]:
-    """All four charts: candidates and peers on the displaced scene, the plain calls on the shock."""
-    patience = QUICK_PATIENCE if quick else PATIENCE
+def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
+    """All four cases; candidates and peers on the displaced one, the plain calls on the shock. step: called with each name."""
+    longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
     found = []
-    for name, course in courses(quick).items():
+    for name, case in CASES.items():
         step(name)
         methods = METHODS | {"displaced": CANDIDATES | PEERS, "shock": TRAPS}.get(name, {})
-        slow = _SLOW.get(name, {}) | (_SLOW["quick"] if quick else {})
+        slow = _LEFT_OUT.get(name, {}) | (_LEFT_OUT["quick"] if quick else {})
         left_out = {method: why for method, why in slow.items() if method in methods}
-        asked = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
-        with warnings.catch_warnings():  # what a solver warns of, it fails of, or its error shows
+        tolerances = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
+        with warnings.catch_warnings():  # a solver that warns fails, or its error shows why
             warnings.simplefilter("ignore")
-            one = chart(name, course, {m: g for m, g in methods.items() if m not in left_out}, asked, patience)
+            kept = {method: given for method, given in methods.items() if method not in left_out}
+            one = benchmark(name, case(quick), kept, tolerances, longest)
         omitted = tuple(Failure(method, (), f"left out: {why}") for method, why in left_out.items())
         found.append(replace(one, failures=one.failures + omitted))
     return found
 
 
-# What others are held to: the best rung of the core packages, the closed form included, and the best integrations.
-LADDERS: dict[str, tuple[Family, ...]] = {"any rung": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
+# Families of the package's own methods by what they need: the closed forms too, integrations with the four core packages,
+# integrations with the fast extra.
+OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
 
 
-def ratios(found: Chart, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of each of LADDERS, and the best of others as multiples of them; None where one does not get there.
-
-    "any rung" and "core" take the four core packages alone, "core" and "fast" integrate.
-    """
-    by = {name: [p for p in found.points if p.family in families] for name, families in LADDERS.items()}
+def ratios(found: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
+    """Error → seconds of the best of OURS, and of each other tool as multiples of them; None where one does not reach it."""
+    by = {name: [p for p in found.points if p.family in families] for name, families in OURS.items()}
     others = {name: [p for p in found.points if p.method == name] for name in (*CANDIDATES, *PEERS)}
     table = {}
     for error in errors:
@@ -156,7 +166,7 @@ def ratios(found: Chart, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e
         row: dict[str, Any] = ours | {"core / fast": _over(ours["core"], ours["fast"])}
         for name, points in others.items():
             theirs = seconds_at(points, error)
-            row |= {f"{name} / {ladder}": _over(theirs, spent) for ladder, spent in ours.items()}
+            row |= {f"{name} / {best}": _over(theirs, seconds) for best, seconds in ours.items()}
         table[f"{error:g}"] = row
     return table
 

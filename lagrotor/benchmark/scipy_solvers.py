@@ -1,11 +1,12 @@
-"""scipy's solvers by name, for runs whose solver is what is looked at, and as engines on the minimal right-hand side."""
+"""scipy's solvers by name, for runs in which the solver is studied, and as engines on the minimal right-hand side."""
 
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.runner import Method, Prepare, Run, tips
+from lagrotor.benchmark.calibrated import LSODA_LEAST
+from lagrotor.benchmark.method import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.integrated import problem_of
@@ -28,59 +29,59 @@ IVP = ("RK45", "Radau", "BDF", "LSODA")
 
 
 def run_by(
-    solver: str, rate: Rate, start: Array, times: Array, tol: float, longest: float = np.inf
+    solver: str, rhs: Rate, start: Array, t_eval: Array, tol: float, longest: float = np.inf
 ) -> tuple[Array, int]:
-    """States (n, d) at increasing times (n,) from `start` (d,) at times[0], by one of SOLVERS, and evaluations.
+    """States (n, d) at increasing t_eval (n,) from `start` (d,) at t_eval[0], by one of SOLVERS, and nfev.
 
-    tol: relative and absolute local error as the solver has it. Raises IntegrationError when it stops.
+    tol: relative and absolute local error in the solver's own sense. Raises IntegrationError when it stops.
     """
     from scipy.integrate import ode
 
-    spent = 0
+    nfev = 0
 
     def counted(t: float, y: Array) -> list[float]:
-        nonlocal spent
-        spent += 1
-        return rate(t, y)
+        nonlocal nfev
+        nfev += 1
+        return rhs(t, y)
 
     name, settings = SOLVERS[solver]
     limit = 0.0 if np.isinf(longest) else longest
     going = ode(counted).set_integrator(
-        name, rtol=max(tol, 3e-14), atol=tol, nsteps=2_000_000_000, max_step=limit, **settings
+        name, rtol=max(tol, LSODA_LEAST.value), atol=tol, nsteps=2_000_000_000, max_step=limit, **settings
     )
-    going.set_initial_value(start, times[0])
+    going.set_initial_value(start, t_eval[0])
     states = [start]
-    for t in times[1:]:
+    for t in t_eval[1:]:
         states.append(going.integrate(t).copy())
         if not going.successful():
             raise IntegrationError(f"run_by: {solver} stopped before t = {t:.6g} s: take a larger tol")
-    return np.array(states), spent
+    return np.array(states), nfev
 
 
 def ode_engine(solver: str) -> Engine:
-    """One of SOLVERS as an engine. It is called for every output time: what has no memory begins anew."""
+    """One of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
     def run(stretch: Stretch, error: float) -> States:
-        times = np.union1d([stretch.left], stretch.asked)
-        states, spent = run_by(solver, stretch.rate, stretch.start, times, error, stretch.longest)
-        return States(states[-len(stretch.asked) :], states[-1], spent)
+        t_eval = np.union1d([stretch.left], stretch.asked)
+        states, nfev = run_by(solver, stretch.rate, stretch.start, t_eval, error, stretch.longest)
+        return States(states[-len(stretch.asked) :], states[-1], nfev)
 
     return run
 
 
 def ivp_engine(method: str) -> Engine:
-    """A method of `solve_ivp` as an engine: one call over the stretch. What a Jacobian takes is counted too."""
+    """A method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
 
     def run(stretch: Stretch, error: float) -> States:
         from scipy.integrate import solve_ivp
 
-        spent = 0
+        nfev = 0
 
         def counted(s: float, y: Array) -> list[float]:
-            nonlocal spent
-            spent += 1
-            if spent > stretch.allowance:
-                raise StopError(s, f"{spent - 1} evaluations spent by s = {s:.3g} s")
+            nonlocal nfev
+            nfev += 1
+            if nfev > stretch.allowance:
+                raise StopError(s, f"{nfev - 1} evaluations by s = {s:.3g} s")
             return stretch.rate(s, y)
 
         found = solve_ivp(
@@ -91,7 +92,7 @@ def ivp_engine(method: str) -> Engine:
             raise StopError(stretch.right, found.message)
         if not np.isfinite(found.y).all():
             raise StopError(stretch.right, "a value is not finite")
-        return States(found.y.T, found.y[:, -1], spent)
+        return States(found.y.T, found.y[:, -1], nfev)
 
     return run
 
@@ -99,11 +100,11 @@ def ivp_engine(method: str) -> Engine:
 def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
     """The minimal right-hand side, pulse included, by an engine that is called once over the whole run.
 
-    sees_shock: no step is longer than the pulse is wide. Without it this is the trap of a plain call.
+    sees_shock: no step is longer than the width of the pulse. Without it this is a plain call, which may step over it.
     """
 
-    def prepare(scene: Scene, times: Array) -> Run:
-        end = float(times[-1])
+    def prepare(scene: Scene, t_eval: Array) -> Runner:
+        end = float(t_eval[-1])
         problem = problem_of(minimal.MODEL, scene, end)
         longest = problem.width if problem.driven and sees_shock else np.inf
         stretch = Stretch(
@@ -111,7 +112,7 @@ def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
             start=problem.start,
             left=-problem.at,
             right=end - problem.at,
-            asked=times - problem.at,
+            asked=t_eval - problem.at,
             longest=longest,
             allowance=5 * problem.allowance,
         )
@@ -131,7 +132,7 @@ ENGINES: dict[str, Method] = {
     **{f"solve_ivp, {name}": Method("scipy", on_minimal(ivp_engine(name))) for name in IVP},
     **{f"ode, {name}": Method("scipy", on_minimal(ode_engine(name))) for name in SOLVERS},
 }
-# What a plain call makes of a shock that comes after a rest: nothing, or what its step happens to meet.
+# Plain calls: a shock that comes after a rest is stepped over, but where a step happens to fall into it.
 TRAPS: dict[str, Method] = {
     f"solve_ivp, {name}, one call": Method("trap", on_minimal(ivp_engine(name), sees_shock=False))
     for name in ("RK23", *IVP, "DOP853")

@@ -22,7 +22,7 @@ _BIG = 1_000_000  # doubles: 8 MB an array, past the caches that a core has to i
 
 @dataclass(frozen=True)
 class Throughput:
-    """What was done, how many a second (`unit`), and how that compares: `against` says with what."""
+    """What was done, how many a second (`unit`), and as what share of what (`against`)."""
 
     what: str
     unit: str
@@ -44,15 +44,17 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     """
     scenes = displaced_family(n)
     rows: list[Throughput] = []
+    first = ""
     chunk = max(1, min(CHUNK, n // 2))
     for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
         for tol in (1e-6, 1e-10):
-            # What is compiled once in a process is compiled here.
+            # Compile now what is compiled once in a process.
             sweep(scenes[:16], [0.1], tol, chunk=4, executor=executor, engine=engine)
             seconds = _best(partial(sweep, scenes, [_RUN], tol, chunk=chunk, executor=executor, engine=engine), 2)
-            what = f"trajectories of {_RUN:g} s, displaced family, {engine}, error {tol:.0e}"
+            kind = f"{engine}, error {tol:.0e}"
+            what, first = f"trajectories of {_RUN:g} s, displaced family, {kind}", first or kind
             rate = n / seconds
-            against = "itself" if not rows else f"that of {rows[0].what.split(', ', 2)[2]}"
+            against = f"that of {first}" if rows else "itself"
             rows.append(Throughput(what, "trajectories/s", rate, rate / rows[0].rate if rows else 1.0, against))
     phases, source, target = np.linspace(0, 2 * np.pi, _BIG), np.ones(_BIG), np.empty(_BIG)
     copied = _BIG / _best(partial(np.copyto, target, source), 5)

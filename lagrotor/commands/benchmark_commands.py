@@ -15,7 +15,7 @@ from lagrotor.commands.terminal import progress, table
 
 if TYPE_CHECKING:
     from lagrotor.benchmark.limits.threshold import Limit
-    from lagrotor.benchmark.runner import Chart
+    from lagrotor.benchmark.runner import Benchmark
     from lagrotor.benchmark.throughput import Throughput
 
 LIMIT_HEAD = ("regime", "what", "predicted", "found", "ratio", "what the tool does")
@@ -44,14 +44,14 @@ def add_benchmark_commands(command: Command) -> None:
 
 def chart_command(given: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
-    from lagrotor.benchmark.scenes_and_methods import charts
+    from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
     from lagrotor.pictures.speed_chart import speed_chart
 
     check_folder(given.out)
     with progress(4) as step:
-        found = charts(given.quick, step)
+        found = benchmarks(given.quick, step)
     data = as_data(found)
     text = json.dumps(data, indent=1, ensure_ascii=False)
     written = [write_text(given.out / "chart.json", text)]
@@ -68,32 +68,32 @@ def chart_command(given: argparse.Namespace) -> int:
     return 0
 
 
-def as_data(found: "list[Chart]") -> dict[str, Any]:
-    """The charts and the ratios of the displaced scene, for JSON."""
+def as_data(found: "list[Benchmark]") -> dict[str, Any]:
+    """The benchmarks and the ratios of the displaced scene, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
     return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0])}
 
 
-def in_words(found: "list[Chart]") -> str:
-    """The front of each scene, set-up, what failed, and the ratios, as tables."""
+def in_words(found: "list[Benchmark]") -> str:
+    """The front of each scene, set-up times, failures and ratios, as tables."""
     from lagrotor.benchmark.runner import front, listed
-    from lagrotor.benchmark.scenes_and_methods import LADDERS, ratios
+    from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
     parts = []
     for one in found:
         rows = [
-            (p.method, f"{p.knob:g}", f"{p.error:.1e}", f"{p.evaluations}", f"{1e3 * p.seconds:.3g}")
+            (p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev}", f"{1e3 * p.seconds:.3g}")
             for p in front(one.points)
         ]
         parts += [f"{one.scene}: {one.says}; the reference's two formulations agree to {one.floor:.1e} m"]
-        parts += [table(("front", "tol", "error (m)", "evaluations", "ms"), rows)]
+        parts += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
         slow = sorted(((s, name) for name, s in one.setup.items() if s > 0.2), reverse=True)
-        parts += [f"  to get ready: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
-        parts += [f"  not there: {failure}" for failure in listed(one.failures)]
+        parts += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
+        parts += [f"  left out: {failure}" for failure in listed(one.failures)]
         parts += [""]
     compared = [
-        (error, name, f"{1e3 * value:.3g} ms" if name in LADDERS else f"{value:.3g}")
+        (error, name, f"{1e3 * value:.3g} ms" if name in OURS else f"{value:.3g}")
         for error, row in ratios(found[0]).items()
         for name, value in row.items()
         if value is not None

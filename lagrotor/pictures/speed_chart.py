@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from lagrotor.benchmark.runner import Chart, Point, front, listed
+from lagrotor.benchmark.runner import Benchmark, Point, Work, front, listed
 from lagrotor.drawing.style import OKABE_ITO
 
 _MARKS = "osD^vp*XP<>hd"
@@ -20,75 +20,78 @@ _FAMILIES = {
     "scipy": ("other solvers of scipy, minimal model", "sky blue"),
     "springs": ("the paper's method", "black"),
     "peer": ("other tools", "bluish green"),
-    "trap": ("traps: called once over the shock", "grey"),
+    "trap": ("one call over the shock, which it may miss", "grey"),
 }
 _WRAP = 225  # characters of a failure on a line as wide as the figure
-_ACROSS = {"seconds": "processor time of a run (s)", "evaluations": "evaluations (steps × order for fast)"}
+_ACROSS: dict[Work, str] = {
+    "seconds": "processor time of a run (s)",
+    "nfev": "evaluations of the right-hand side (steps × order for fast)",
+}
 
 
-def speed_chart(chart: Chart) -> Figure:
-    """Error against seconds and against evaluations, with the front, a colour a family; under it what failed."""
+def speed_chart(chart: Benchmark) -> Figure:
+    """Error against seconds and against nfev, with the front, a colour a family; under it what failed."""
     failures = [
         line for failure in listed(chart.failures) for line in textwrap.wrap(failure, _WRAP, subsequent_indent="   ")
     ]
     figure = Figure(figsize=(12.0, 7.2 + 0.13 * len(failures)))
-    handles: list[Any] = []
+    lines: list[tuple[Line2D, bool]] = []
     for axes, work in zip(figure.subplots(1, 2, sharey=True), _ACROSS, strict=True):
-        handles = _panel(axes, chart, work)
+        lines = _panel(axes, chart, work)
     figure.axes[0].set_ylabel("largest error of a tip (m)")
     figure.suptitle(chart.says, x=0.06, ha="left")
-    _legend(figure, handles)
+    _legend(figure, lines)
     if failures:
-        figure.supxlabel("not there:\n" + "\n".join(failures), x=0.01, ha="left", fontsize=6.5, linespacing=1.3)
+        figure.supxlabel("left out:\n" + "\n".join(failures), x=0.01, ha="left", fontsize=6.5, linespacing=1.3)
     return figure
 
 
-def _panel(axes: Axes, chart: Chart, work: str) -> list[Any]:
-    """One panel, `work` along it; the handles of its legend, families as headings."""
+def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]]:
+    """One panel, `work` along it; the lines of its legend, and whether each is the heading of a family."""
     best = [p for p in front(chart.points, work) if getattr(p, work) > 0]
     grey: dict[str, Any] = {"color": "#bbbbbb", "linewidth": 6, "alpha": 0.5}
     axes.step([getattr(p, work) for p in best], [p.error for p in best], where="post", label="front", **grey)
-    handles: list[Any] = [Line2D([], [], label="front", **grey)]
+    lines = [(Line2D([], [], label="front", **grey), False)]
     families = {p.method: p.family for p in chart.points}
     number = 0
     for family, (called, colour) in _FAMILIES.items():
         names = [name for name in families if families[name] == family]
         if names:
-            handles.append(Line2D([], [], linestyle="", label=called))
+            lines.append((Line2D([], [], linestyle="", label=called), True))
         for place, name in enumerate(names):
             number += 1
             points = [p for p in chart.points if p.method == name and getattr(p, work) > 0 and p.error > 0]
             ready = f" ({chart.setup[name]:.1f} s)" if chart.setup[name] > 0.05 else ""
             look: dict[str, Any] = {"color": OKABE_ITO.get(colour, "#888888"), "marker": _MARKS[place % len(_MARKS)]}
             look["linestyle"] = "--" if family == "trap" else "-"
-            handles.append(_curve(axes, points, work, f"{number}  {name}{ready}", look))
+            line = _curve(axes, points, work, number, look)
+            line.set_label(f"{number}  {name}{ready}")
+            lines.append((line, False))
     axes.axhline(max(chart.floor, 1e-16), color="#888888", linestyle=":", linewidth=0.8)
     axes.set_xlabel(_ACROSS[work])
     axes.margins(0.06)
-    return handles
+    return lines
 
 
-def _curve(axes: Axes, points: list[Point], work: str, label: str, look: dict[str, Any]) -> Line2D:
+def _curve(axes: Axes, points: list[Point], work: Work, number: int, look: dict[str, Any]) -> Line2D:
     """One method's curve, with its number at its most accurate point."""
     across, errors = [getattr(p, work) for p in points], [p.error for p in points]
-    (line,) = axes.loglog(across, errors, markersize=4, linewidth=0.9, label=label, **look)
+    (line,) = axes.loglog(across, errors, markersize=4, linewidth=0.9, **look)
     if points:
         end = min(points, key=lambda p: p.error)
-        number, at = label.partition(" ")[0], (getattr(end, work), end.error)
-        axes.annotate(number, at, (3, -7), textcoords="offset points", fontsize=7, color=look["color"])
+        at = getattr(end, work), end.error
+        axes.annotate(str(number), at, (3, -7), textcoords="offset points", fontsize=7, color=look["color"])
     return line
 
 
-def _legend(figure: Figure, handles: list[Any]) -> None:
+def _legend(figure: Figure, lines: list[tuple[Line2D, bool]]) -> None:
     legend = figure.legend(
-        handles=handles,
+        handles=[line for line, _ in lines],
         loc="outside right upper",
         fontsize=7,
-        title="in brackets: time to get ready",
+        title="in brackets: set-up time",
         title_fontsize=7,
         alignment="left",
     )
-    headings = {called for called, _ in _FAMILIES.values()}
-    for text in legend.get_texts():
-        if text.get_text() in headings:
-            text.set_fontweight("bold")
+    for text, (_, is_heading) in zip(legend.get_texts(), lines, strict=True):
+        text.set_fontweight("bold" if is_heading else "normal")

@@ -1,4 +1,4 @@
-"""Renew reference.json: `python tests/study/renew_reference.py`, about a minute.
+"""Renew reference.json: `python tests/benchmark/renew_reference.py`, about a minute.
 
 Gragg's midpoint rule, extrapolated (Hairer, Nørsett & Wanner, II.9), with thirty digits in both formulations: another
 method, another arithmetic than anything in the package.

@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor import simulate
 from lagrotor.benchmark.compiled_solvers import CANDIDATES
-from lagrotor.benchmark.scenes_and_methods import courses
+from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import InputError
 
 TIMES = np.linspace(0, 2, 21)
@@ -17,7 +17,7 @@ NEEDS = {"minimal, CyRK": ("numba", "CyRK"), "minimal, numba": ("numba",)}
 def prepare(name: str, course: str) -> Any:
     for module in NEEDS[name]:
         pytest.importorskip(module, reason=f"{name} is in the extra {CANDIDATES[name].extra}")
-    return CANDIDATES[name].prepare(courses(quick=True)[course].scene, TIMES)
+    return CANDIDATES[name].prepare(CASES[course](True).scene, TIMES)
 
 
 def test_every_candidate_is_tested() -> None:
@@ -28,7 +28,7 @@ def test_every_candidate_is_tested() -> None:
 @pytest.mark.parametrize("course", ["displaced", "heavy"])
 def test_a_candidate_meets_its_tolerance(name: str, course: str) -> None:
     run = prepare(name, course)
-    truth = simulate(courses(quick=True)[course].scene, TIMES, "minimal", 1e-13).tips
+    truth = simulate(CASES[course](True).scene, TIMES, "minimal", 1e-13).tips
     errors = [float(np.linalg.norm(run(tol)[0] - truth, axis=-1).max()) for tol in (1e-4, 1e-7, 1e-10)]
     assert errors[0] > 100 * errors[1] > 1e4 * errors[2]
     assert errors[2] < 1e-10

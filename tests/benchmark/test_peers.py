@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 from lagrotor import simulate
+from lagrotor.benchmark.method import Case
 from lagrotor.benchmark.peers import PEERS
 from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
-from lagrotor.benchmark.runner import Course, chart
-from lagrotor.benchmark.scenes_and_methods import courses
+from lagrotor.benchmark.runner import benchmark
+from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import IntegrationError
 from lagrotor.numerics.convergence import measured_order
 
-SCENE = courses(quick=True)["displaced"].scene
+SCENE = CASES["displaced"](True).scene
 TIMES = np.linspace(0, 1, 11)
 NEEDS = {
     "LagrangesMethod": "sympy",
@@ -90,7 +91,7 @@ def test_a_solver_that_stops_is_not_taken_for_one_that_ends() -> None:
 @pytest.mark.skipif(all(map(find_spec, NEEDS.values())), reason="all peers are installed: none is absent")
 def test_what_is_not_installed_is_said() -> None:
     absent = [name for name, module in NEEDS.items() if not find_spec(module)]
-    found = chart("small", Course(SCENE, TIMES, 0, ""), {name: PEERS[name] for name in absent}, (1e-3,))
+    found = benchmark("small", Case(SCENE, TIMES, 0, ""), {name: PEERS[name] for name in absent}, (1e-3,))
     assert not found.points
     assert {f.method for f in found.failures} == set(absent)
     assert all("not installed" in f.reason and "pip install 'lagrotor[" in f.reason for f in found.failures)

@@ -10,9 +10,10 @@ import pytest
 
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import scenes_and_methods as module
+from lagrotor.benchmark.method import TOLERANCES, Case
 from lagrotor.benchmark.reference import reference
-from lagrotor.benchmark.runner import TOLERANCES, Course, Failure, Point, chart
-from lagrotor.benchmark.scenes_and_methods import METHODS, courses, ratios
+from lagrotor.benchmark.runner import Failure, Point, benchmark
+from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing.style import paper_style
 from lagrotor.errors import InputError
@@ -33,8 +34,8 @@ def off(axes: Any) -> float:
 
 
 def test_the_stored_reference_is_the_charts_scene() -> None:
-    assert np.array(courses()["displaced"].scene.axes) == pytest.approx(np.array(displaced().axes), abs=1e-15)
-    assert np.array(courses()["displaced"].scene.rates) == pytest.approx(np.array(displaced().rates), abs=1e-14)
+    assert np.array(CASES["displaced"](False).scene.axes) == pytest.approx(np.array(displaced().axes), abs=1e-15)
+    assert np.array(CASES["displaced"](False).scene.rates) == pytest.approx(np.array(displaced().rates), abs=1e-14)
     assert STORED["formulations_apart"] < 3e-15
 
 
@@ -91,39 +92,39 @@ def test_a_closed_form_meets_its_scene_anew_in_every_run() -> None:
     assert closed_form.cache_info().misses == 1
 
 
-def small() -> Course:
-    return Course(displaced(), np.linspace(0, 1, 11), 1, "one second")
+def small() -> Case:
+    return Case(displaced(), np.linspace(0, 1, 11), 1, "one second")
 
 
 def test_springs_end_at_their_finite_stiffness_and_refuse_a_bar_without_mass() -> None:
-    heavy = replace(courses(quick=True)["heavy"], times=np.linspace(0, 1, 11), repeats=0)
+    heavy = replace(CASES["heavy"](True), t_eval=np.linspace(0, 1, 11), repeats=0)
     named = [name for name, method in METHODS.items() if method.family == "springs"]
-    found = chart("heavy", heavy, {name: METHODS[name] for name in named}, patience=np.inf)
+    found = benchmark("heavy", heavy, {name: METHODS[name] for name in named}, longest=np.inf)
     worst = [max(p.error for p in found.points if p.method == name) for name in named]
     best = [min(p.error for p in found.points if p.method == name) for name in named]
     assert not found.failures
     assert worst[0] < 3 * best[0]  # a finer step does not help: the springs give
     assert best[1] < best[0] / 10
-    refused = chart("small", small(), {named[0]: METHODS[named[0]]})
-    assert "mass 0 kg" in refused.failures[0].reason and refused.failures[0].knobs == ()
+    refused = benchmark("small", small(), {named[0]: METHODS[named[0]]})
+    assert "mass 0 kg" in refused.failures[0].reason and refused.failures[0].settings == ()
 
 
 def test_what_is_left_out_is_listed(monkeypatch: pytest.MonkeyPatch) -> None:
     one = small()
-    monkeypatch.setattr(module, "courses", lambda quick: {"displaced": one})
+    monkeypatch.setattr(module, "CASES", {"displaced": lambda quick: one})
     monkeypatch.setattr(module, "PEERS", {})
     monkeypatch.setattr(module, "CANDIDATES", {})
     monkeypatch.setattr(module, "METHODS", {name: METHODS[name] for name in ("minimal", "euler")})
-    (quick,), (full,) = module.charts(quick=True), module.charts()
+    (quick,), (full,) = module.benchmarks(quick=True), module.benchmarks()
     assert [str(f) for f in quick.failures] == ["euler: left out: slower than minimal, which goes as far"]
     assert not full.failures
-    assert {p.knob for p in quick.points} == {1e-3, 1e-8, 1e-13}
-    assert {p.knob for p in full.points} == set(TOLERANCES)
+    assert {p.setting for p in quick.points} == {1e-3, 1e-8, 1e-13}
+    assert {p.setting for p in full.points} == set(TOLERANCES)
 
 
-@pytest.mark.parametrize("group", module._SLOW)
+@pytest.mark.parametrize("group", module._LEFT_OUT)
 def test_only_what_is_offered_is_left_out(group: str) -> None:
-    assert set(module._SLOW[group]) <= set(METHODS) | set(module.CANDIDATES) | set(module.PEERS)
+    assert set(module._LEFT_OUT[group]) <= set(METHODS) | set(module.CANDIDATES) | set(module.PEERS)
 
 
 def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
@@ -133,16 +134,16 @@ def point(name: str, error: float, evaluations: int, seconds: float, family: Any
 def test_ratios_compare_at_equal_error() -> None:
     points = [point("minimal", 1e-6, 1, 0.01), point("minimal, fast", 1e-6, 1, 0.001, "fast")]
     points += [point("PyDy, Cython", 1e-5, 1, 0.1, "peer"), point("PyDy, Cython", 1e-7, 1, 0.4, "peer")]
-    found = replace(chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,)), points=tuple(points))
+    found = replace(benchmark("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,)), points=tuple(points))
     row = ratios(found, [1e-6])["1e-06"]
-    assert row["PyDy, Cython / core"] == row["PyDy, Cython / any rung"] == pytest.approx(20)
+    assert row["PyDy, Cython / core"] == row["PyDy, Cython / any model"] == pytest.approx(20)
     assert row["core / fast"] == pytest.approx(10)
     assert row["CasADi CVODES / core"] is None
     # The closed form is a rung, and no integration.
     whole = replace(found, points=(*points, point("closed form", 1e-6, 0, 0.002, "closed")))
     row = ratios(whole, [1e-6, 1e-7])["1e-06"]
-    assert (row["PyDy, Cython / core"], row["PyDy, Cython / any rung"]) == pytest.approx((20, 100))
-    assert ratios(whole, [1e-7])["1e-07"]["any rung"] is None
+    assert (row["PyDy, Cython / core"], row["PyDy, Cython / any model"]) == pytest.approx((20, 100))
+    assert ratios(whole, [1e-7])["1e-07"]["any model"] is None
 
 
 # The figure.
@@ -150,7 +151,7 @@ def test_ratios_compare_at_equal_error() -> None:
 
 def test_the_figure_tells_families_apart_and_clips_no_failure() -> None:
     methods = {"minimal": METHODS["minimal"], "solve_ivp, RK45": METHODS["solve_ivp, RK45"]}
-    found = chart("small", small(), methods, (1e-3, 1e-6))
+    found = benchmark("small", small(), methods, (1e-3, 1e-6))
     reason = "a reason that goes on " * 60
     trap = replace(found.points[0], method="trap", family="trap")
     found = replace(found, points=(*found.points, trap), setup=found.setup | {"trap": 0.5})
@@ -178,14 +179,14 @@ def test_the_figure_tells_families_apart_and_clips_no_failure() -> None:
 def test_the_command_writes_pictures_and_numbers(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    made = chart("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,))
-    monkeypatch.setattr(module, "charts", lambda quick, step: [made])
+    made = benchmark("small", small(), {"minimal": METHODS["minimal"]}, (1e-3,))
+    monkeypatch.setattr(module, "benchmarks", lambda quick, step: [made])
     assert main(["chart", "--quick", "--json", "--out", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["chart-small.png", "chart-small.svg", "chart.json"]
     data = json.loads(capsys.readouterr().out)
     assert data == json.loads((tmp_path / "chart.json").read_text())
     (kept,) = data["charts"][0]["points"]
-    assert kept["method"] == "minimal" and kept["family"] == "core" and kept["knob"] == 1e-3
+    assert kept["method"] == "minimal" and kept["family"] == "core" and kept["setting"] == 1e-3
 
 
 def test_the_command_refuses_a_folder_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:

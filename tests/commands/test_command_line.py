@@ -14,7 +14,7 @@ import pytest
 
 import lagrotor
 from lagrotor.benchmark import scenes_and_methods as chart_module
-from lagrotor.benchmark.runner import Chart, Point
+from lagrotor.benchmark.runner import Benchmark, Point
 from lagrotor.commands import terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
@@ -391,8 +391,8 @@ def test_chart_names_what_it_wrote(
     small_paper: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     points = tuple(Point("minimal", "core", tol, tol, 10, 0.1, 0.1) for tol in (1e-3, 1e-6))
-    found = Chart("displaced", "a scene", points, (), {"minimal": 0.0}, 1e-12)
-    monkeypatch.setattr(chart_module, "charts", lambda quick, step: [found])
+    found = Benchmark("displaced", "a scene", points, (), {"minimal": 0.0}, 1e-12)
+    monkeypatch.setattr(chart_module, "benchmarks", lambda quick, step: [found])
     assert main(["chart"]) == 0
     files = {path.name for path in small_paper.iterdir()}
     assert files == {"chart.json", "chart-displaced.svg", "chart-displaced.png"}

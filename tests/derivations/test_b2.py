@@ -1,11 +1,11 @@
-"""The seconds on record: whole, told as they are, and the same bytes as often as they are read."""
+"""The recorded speeds: complete, shown unchanged, and the same bytes each time they are read."""
 
 import json
 
 import pytest
 
 from lagrotor.benchmark import recorded_speed as recorded
-from lagrotor.benchmark.scenes_and_methods import LADDERS
+from lagrotor.benchmark.scenes_and_methods import OURS
 from lagrotor.errors import LagrotorError
 from lagrotor.paper import scripts
 
@@ -30,9 +30,9 @@ def test_the_tables_are_the_record(made):
     assert row[1] == f"{1e3 * found['at_error']['1e-06']['minimal']:.3g}"
     assert all(len(row) == len(times.head) for row in times.rows)
     told = {row[0]: dict(zip(multiples.head, row, strict=True)) for row in multiples.rows}
-    for ladder in LADDERS:  # each is one of itself
-        assert told[f"best of {ladder}"][f"over {ladder}, 1e-06"] == "1"
-    assert told["minimal"]["over core, 1e-06"] == "1" != told["minimal"]["over any rung, 1e-06"]
+    for best in OURS:  # each is one of itself
+        assert told[f"best of {best}"][f"over {best}, 1e-06"] == "1"
+    assert told["minimal"]["over core, 1e-06"] == "1" != told["minimal"]["over any model, 1e-06"]
     assert len(rates.rows) == len(found["throughput"])
 
 

@@ -1,4 +1,4 @@
-"""Where coordinates and formulas run out of digits: Euler angles at the pole, the joint line, a printed projection."""
+"""Where coordinates and formulas lose digits: Euler angles at the pole, the joint line, the printed projection."""
 
 from functools import cache
 from math import cos, sin, sqrt
@@ -44,7 +44,7 @@ def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
 
 @cache
 def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[float, int]:
-    """Error of the axes (rad) after passing the pole by `miss` rad, and evaluations, by DOP853 with a local error of tol."""
+    """Error of the axes (rad) after passing the pole by `miss` rad, and nfev, by DOP853 with a local error of tol."""
     scene = passing(miss)
     states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
     seen = model.observe(scene, states[1:]).axes[:, 0]
@@ -52,7 +52,7 @@ def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[
 
 
 def euler_limits(quick: bool) -> list[Limit]:
-    """Cost and lost digits of the Euler angles on paths that miss theta = 0."""
+    """Evaluations and lost digits of the Euler angles on paths that miss theta = 0."""
     tol, wanted = 1e-12, 1e-10
     far, near, nearest = 1e-2, 1e-3, 1e-5
     spent = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
@@ -89,7 +89,7 @@ def joint_line_limits(quick: bool) -> list[Limit]:
     wanted, tol = 1e-6, 1e-10
 
     def lost(distance: float) -> bool:
-        """By the model's own start and its own reading of it."""
+        """By the model's own start and the axes that it reads off it."""
         off = []
         for d in distance * np.linspace(1, 1.5, 40):
             axis = (float(np.sqrt(1 - d * d)), 0.0, float(d))

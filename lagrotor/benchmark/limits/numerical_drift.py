@@ -1,4 +1,4 @@
-"""What grows with time: constraints that are only kept as accelerations, energy and phase over thousands of turns."""
+"""What grows with time: constraints that hold only as accelerations, energy and phase over thousands of turns."""
 
 from dataclasses import dataclass
 from math import pi
@@ -119,7 +119,7 @@ def long_run(turns: int, solver: str, tol: float) -> LongRun:
 
 
 def long_limits(quick: bool) -> list[Limit]:
-    """Energy, momentum and phase after 10,000 turns (200 when quick) against what the first tenth promises."""
+    """Energy, momentum and phase after 10,000 turns (200 when quick) against the extrapolation of the first tenth."""
     turns = 200 if quick else 10_000
     runs = [("simulate", 1e-9), ("DOP853", 1e-8)]
     runs += [] if quick else [("Adams (VODE)", 1e-8), ("Dormand–Prince 5", 1e-7)]
@@ -138,7 +138,7 @@ def long_limits(quick: bool) -> list[Limit]:
                     law,
                     float(values[:11].max()) * 10**power,
                     float(values.max()),
-                    f"auto takes the closed form where one holds; else the run's own integrals tell ({run.evaluations:,} "
+                    f"auto takes the closed form where one holds; else compare the run's own integrals ({run.evaluations:,} "
                     "evaluations)",
                 )
             )

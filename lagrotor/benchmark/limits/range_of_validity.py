@@ -1,4 +1,4 @@
-"""How far closed forms, and predictions at all, reach: amplitude, spins that are not quite opposite, no spin, time."""
+"""Range of validity of the closed forms, and of any prediction: amplitude, spins not quite opposite, no spin, time."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -66,7 +66,7 @@ def amplitude_limits(quick: bool) -> list[Limit]:
                 f"(error / c)^(1/{order + 1}), c the next coefficient",
                 predicted,
                 exp(brentq(beyond, near, far, xtol=0.02 if quick else 1e-4)),
-                "states its order; refuses |r0| >= 1",
+                "states its order and error; refuses |r0| >= 1",
             )
         )
     return rows
@@ -144,7 +144,7 @@ def horizon_limits(quick: bool) -> list[Limit]:
                 "log(1/delta)/lambda, lambda of the exact Floquet multipliers",
                 predicted,
                 _parting(orbit.scene, turn * np.arange(0, 1.1 * predicted, 0.02), apart, lost) / turn,
-                "nothing goes beyond it: only means hold there",
+                "beyond it no run predicts more than means",
             )
         )
     return rows

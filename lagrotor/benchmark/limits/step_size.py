@@ -1,4 +1,4 @@
-"""Where methods fail: each threshold predicted by a formula, and found by trying."""
+"""Where methods fail: each threshold predicted by a formula, and measured."""
 
 from collections.abc import Callable
 from copy import deepcopy
@@ -89,7 +89,7 @@ LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
 def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Limit]:
     """Every limit: in a minute or two, or in seconds, with shorter runs and coarser thresholds, when `quick`.
 
-    step: called with the name of each regime before it is tried.
+    step: called with the name of each regime before it is measured.
     """
     rows = []
     for name, tried in LIMITS.items():

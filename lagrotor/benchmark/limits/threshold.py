@@ -1,4 +1,4 @@
-"""What a limit is: where a method stops being of use, by a formula, and as found by trying."""
+"""A limit of a method: by a formula, and as measured."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from math import exp, log
 
 @dataclass(frozen=True)
 class Limit:
-    """One row: the regime, what is limited (with its unit), the formula, its value, the value found, what the tool does."""
+    """One row: the regime, the quantity (with its unit), the formula, its value, the measured value, what lagrotor does there."""
 
     regime: str
     what: str

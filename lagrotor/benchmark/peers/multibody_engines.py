@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.method import Method, Runner, tips
 from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
-from lagrotor.benchmark.runner import Method, Run, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models.spring_link.rigid_body import rotation_between
 from lagrotor.pair.scene import Scene
@@ -40,7 +40,7 @@ def _turns(scene: Scene) -> list[tuple[Array, Array]]:
     ]
 
 
-def mujoco(scene: Scene, times: Array) -> Run:
+def mujoco(scene: Scene, t_eval: Array) -> Runner:
     """MuJoCo: ball joints, the bar a tendon of fixed length, RK4 for its accuracy, equal output times.
 
     solref: the stiffest that its documentation advises, a time constant of two steps, critically damped; solimp: its
@@ -48,7 +48,7 @@ def mujoco(scene: Scene, times: Array) -> Run:
     """
     import mujoco as mj
 
-    rotor, every = scene.rotor, times[1] - times[0]
+    rotor, every = scene.rotor, t_eval[1] - t_eval[0]
     rotors = "".join(
         _ROTOR.format(x=x, middle=rotor.length / 2, M=rotor.mass, I1=rotor.I1, I3=rotor.I3, R=rotor.length, i=i)
         for i, x in enumerate((-_half(scene), _half(scene)))
@@ -62,30 +62,30 @@ def mujoco(scene: Scene, times: Array) -> Run:
             data.qvel[3 * i : 3 * i + 3] = R.T @ Omega
         mj.mj_kinematics(model, data)
         found = [data.site_xpos.copy()]
-        for _ in times[1:]:
+        for _ in t_eval[1:]:
             mj.mj_step(model, data, count)
             mj.mj_kinematics(model, data)
             found.append(data.site_xpos.copy())
-        return np.array(found).swapaxes(0, 1), 4 * count * (len(times) - 1)
+        return np.array(found).swapaxes(0, 1), 4 * count * (len(t_eval) - 1)
 
     return run
 
 
-def _solve(scene: Scene, times: Array, rate: Any) -> Run:
+def _solve(scene: Scene, t_eval: Array, rhs: Any) -> Runner:
     """rate(angles and speeds (12,)) → speeds and accelerations (12,), by odeint."""
     from scipy.integrate import odeint
 
     start = angles(scene)
 
     def run(tol: float) -> tuple[Array, int]:
-        states, log = odeint(rate, start, times, rtol=tol, atol=tol, full_output=True)
+        states, log = odeint(rhs, start, t_eval, rtol=tol, atol=tol, full_output=True)
         check_odeint(log)
         return tips(scene, axes_of(states)), int(log["nfe"][-1])
 
     return run
 
 
-def pinocchio(scene: Scene, times: Array) -> Run:
+def pinocchio(scene: Scene, t_eval: Array) -> Runner:
     """Pinocchio: three hinges a rotor, forwardDynamics with the bar's Jacobian and its drift, odeint."""
     import pinocchio as pin
 
@@ -102,7 +102,7 @@ def pinocchio(scene: Scene, times: Array) -> Run:
         tip.append(model.addFrame(pin.Frame(f"tip {i}", joint, 0, end, pin.FrameType.OP_FRAME)))
     data, none, world = model.createData(), np.zeros(6), pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
-    def rate(y: Array, t: float) -> Array:
+    def rhs(y: Array, t: float) -> Array:
         q, v = y[:6], y[6:]
         pin.computeAllTerms(model, data, q, v)
         pin.forwardKinematics(model, data, q, v, none)
@@ -115,7 +115,7 @@ def pinocchio(scene: Scene, times: Array) -> Run:
         bar = (gap @ (second - first))[None]
         return np.concatenate([v, pin.forwardDynamics(model, data, none, bar, np.array([drift]))])
 
-    return _solve(scene, times, rate)
+    return _solve(scene, t_eval, rhs)
 
 
 def _drake_plant(scene: Scene, step: float) -> tuple[Any, list[Any], list[Any]]:
@@ -154,7 +154,7 @@ def _drake_plant(scene: Scene, step: float) -> tuple[Any, list[Any], list[Any]]:
     return plant, bodies, joints
 
 
-def drake_discrete(scene: Scene, times: Array) -> Run:
+def drake_discrete(scene: Scene, t_eval: Array) -> Runner:
     """Drake: ball joints, AddDistanceConstraint of infinite stiffness, a rigid rod, with the SAP solver in its steps."""
     from pydrake.math import RollPitchYaw, RotationMatrix
     from pydrake.systems.analysis import Simulator
@@ -168,18 +168,18 @@ def drake_discrete(scene: Scene, times: Array) -> Run:
         for joint, (R, Omega) in zip(joints, _turns(scene), strict=True):
             joint.set_angles(context, RollPitchYaw(RotationMatrix(R)).vector())
             joint.set_angular_velocity(context, Omega)
-        for t in times:
+        for t in t_eval:
             try:
                 simulator.AdvanceTo(t)
             except RuntimeError as refusal:
                 raise IntegrationError(f"Drake stopped before t = {t:.3g} s: {str(refusal).split('.')[0]}") from None
             found.append([plant.EvalBodyPoseInWorld(context, body).multiply(tip) for body in bodies])
-        return np.array(found).swapaxes(0, 1), round(times[-1] / step)
+        return np.array(found).swapaxes(0, 1), round(t_eval[-1] / step)
 
     return run
 
 
-def drake_multipliers(scene: Scene, times: Array) -> Run:
+def drake_multipliers(scene: Scene, t_eval: Array) -> Runner:
     """Drake: a continuous plant, which takes no such constraint; its mass matrix, bias and Jacobians, solved by numpy."""
     from pydrake.multibody.tree import JacobianWrtVariable
 
@@ -187,7 +187,7 @@ def drake_multipliers(scene: Scene, times: Array) -> Run:
     context, world, tip = plant.CreateDefaultContext(), plant.world_frame(), np.array([0, 0, scene.rotor.length])
     speeds, frames = JacobianWrtVariable.kV, [body.body_frame() for body in bodies]
 
-    def rate(y: Array, t: float) -> Array:
+    def rhs(y: Array, t: float) -> Array:
         plant.SetPositionsAndVelocities(context, y)
         start, end = (plant.EvalBodyPoseInWorld(context, body).multiply(tip) for body in bodies)
         first, second = (plant.CalcJacobianTranslationalVelocity(context, speeds, f, tip, world, world) for f in frames)
@@ -201,7 +201,7 @@ def drake_multipliers(scene: Scene, times: Array) -> Run:
         right[:6], right[6] = -plant.CalcBiasTerm(context), -(apart @ apart + (end - start) @ (two - one))
         return np.concatenate([y[6:], np.linalg.solve(matrix, right)[:6]])
 
-    return _solve(scene, times, rate)
+    return _solve(scene, t_eval, rhs)
 
 
 BODIES: dict[str, Method] = {

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.runner import Method, Prepare, Run, tips
+from lagrotor.benchmark.method import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.pair.scene import Scene
 
@@ -59,7 +59,7 @@ def check_odeint(log: dict[str, Any]) -> None:
         raise IntegrationError(log["message"])
 
 
-def lagranges_method(scene: Scene, times: Array) -> Run:
+def lagranges_method(scene: Scene, t_eval: Array) -> Runner:
     """sympy.physics.mechanics: LagrangesMethod with a multiplier, lambdify with cse, numpy.linalg.solve, odeint."""
     import sympy as sp
     from scipy.integrate import odeint
@@ -74,26 +74,26 @@ def lagranges_method(scene: Scene, times: Array) -> Run:
     by_name = dict(zip([s.diff(t) for s in q], named[6:], strict=True)) | dict(zip(q, named[:6], strict=True))
     full = [m.xreplace(by_name) for m in (method.mass_matrix_full, method.forcing_full)]
     function = sp.lambdify([named], full, "numpy", cse=True)
-    start, calls = angles(scene), 0
+    start, nfev = angles(scene), 0
 
-    def rate(t: float, y: Array) -> Array:
-        nonlocal calls
-        calls += 1
+    def rhs(t: float, y: Array) -> Array:
+        nonlocal nfev
+        nfev += 1
         matrix, force = function(y)
         return np.linalg.solve(matrix, force)[:12, 0]
 
     def run(tol: float) -> tuple[Array, int]:
-        nonlocal calls
-        calls = 0
-        states, log = odeint(rate, start, times, tfirst=True, rtol=tol, atol=tol, full_output=True)
+        nonlocal nfev
+        nfev = 0
+        states, log = odeint(rhs, start, t_eval, tfirst=True, rtol=tol, atol=tol, full_output=True)
         check_odeint(log)
-        return tips(scene, axes_of(states)), calls
+        return tips(scene, axes_of(states)), nfev
 
     return run
 
 
 def _pydy(generator: str) -> Prepare:
-    def prepare(scene: Scene, times: Array) -> Run:
+    def prepare(scene: Scene, t_eval: Array) -> Runner:
         import sympy as sp
         from pydy.system import System
 
@@ -120,7 +120,7 @@ def _pydy(generator: str) -> Prepare:
         kane.kanes_equations(made["bodies"], [])
         values = {mass: scene.rotor.mass}
         system = System(
-            kane, constants=values, times=times, initial_conditions=dict(zip([*q, *u], angles(scene), strict=True))
+            kane, constants=values, times=t_eval, initial_conditions=dict(zip([*q, *u], angles(scene), strict=True))
         )
         system.generate_ode_function(generator=generator, linear_sys_solver="numpy")
         order = [list(map(sp.sympify, system.states)).index(s) for s in [*q, *u]]
