@@ -76,7 +76,12 @@ def twist_growth() -> ClosedForm:
         "5",
         1,
         rho,
+        _twist_bound,
     )
+
+
+def _twist_bound(*arguments: Array) -> Array:
+    return np.asarray(twist_growth_error()(*arguments))
 
 
 @cache
@@ -88,7 +93,9 @@ def twist_growth_error() -> ClosedForm:
     """
     form, beta = twist_growth(), b / (a - b)
     error = form.expressions[0] * rho**2 * (sp.Rational(3, 4) + sp.Abs(beta) / 16) / (1 - rho**2)
-    return replace(form, name="twist_growth_error", outputs=("error",), expressions=(error,), order=None, small=None)
+    return replace(
+        form, name="twist_growth_error", outputs=("error",), expressions=(error,), order=None, small=None, bound=None
+    )
 
 
 @cache

@@ -74,7 +74,9 @@ def test_the_error_of_the_twists_growth_is_its_next_term(link):
     for angle in (0.1, 0.2, 0.4):
         arguments = np.sin(angle), 10.0, *scene.inertias
         off = twist_multiplier_growth(scene, angle) - float(twist_growth()(*arguments))
-        assert off < float(twist_growth_error()(*arguments)) < 1.2 * off / (1 - np.sin(angle) ** 2)
+        given = float(twist_growth_error()(*arguments))
+        assert off < given < 1.2 * off / (1 - np.sin(angle) ** 2)
+        assert float(twist_growth().error(*arguments)) == given
 
 
 def test_light_stiff_bar_keeps_the_axes_parallel():
