@@ -39,9 +39,9 @@ from lagrotor.pair.symbols import (
     sigma,
 )
 from lagrotor.paper.ledger import verdict
-from lagrotor.paper.notebook import Formula, Remark
+from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, Premise, in_parameters
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Formula, prove
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 

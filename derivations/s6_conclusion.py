@@ -17,7 +17,7 @@ from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
 from lagrotor.paper.ledger import verdict
-from lagrotor.paper.notebook import Formula, Remark
+from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import (
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,
@@ -27,7 +27,7 @@ from lagrotor.paper.premises import (
     TWO_MODES,
     in_parameters,
 )
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Formula, prove
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
