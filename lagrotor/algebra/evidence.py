@@ -90,9 +90,20 @@ def sign_at(expression: sp.Expr, point: Point) -> int | None:
     return int(mp.sign(value)) if abs(abs(value) - 1) < 1e-9 else None
 
 
-def value_at(node: sp.Expr, point: Point) -> Any:
+def value_at(expression: sp.Expr, point: Point) -> Any:
     """The value at the precision in force; raise NotExactError where a function has no value here or one too large."""
-    if node.is_Symbol:
+    known: dict[sp.Expr, Any] = {}
+
+    def value(node: sp.Expr) -> Any:
+        if node not in known:
+            known[node] = _combined(node, [value(part) for part in node.args]) if node.args else _leaf(node, point)
+        return known[node]
+
+    return value(expression)
+
+
+def _leaf(node: sp.Expr, point: Point) -> Any:
+    if node in point:
         return value_at(point[node], {})
     if node.is_Rational:
         return mp.mpf(node.p) / node.q
@@ -102,14 +113,18 @@ def value_at(node: sp.Expr, point: Point) -> Any:
         return mp.mpc(0, 1)
     if node in _CONSTANTS:
         return +_CONSTANTS[node]
+    raise NotExactError(f"{node} is not evaluated.")
+
+
+def _combined(node: sp.Expr, arguments: list[Any]) -> Any:
+    """The value of a node whose parts have these values."""
     if node.is_Add or node.is_Mul:
-        total, *others = (value_at(part, point) for part in node.args)
+        total, *others = arguments
         for other in others:
             total = total + other if node.is_Add else total * other
         return total
     if (function := mp.power if node.is_Pow else _FUNCTIONS.get(node.func)) is None:
         raise NotExactError(f"{node.func} is not evaluated.")
-    arguments = [value_at(part, point) for part in node.args]
     if abs(arguments[-1]) > _LARGEST:
         raise NotExactError(f"An argument of {node.func} is larger than {_LARGEST:.0e}.")
     return function(*arguments)

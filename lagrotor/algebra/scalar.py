@@ -6,8 +6,8 @@ import sympy as sp
 
 from lagrotor.errors import InputError, NotExactError
 
-# Deeper expressions exhaust the stack.
-_MOST_DEPTH = 150
+# Deeper expressions exhaust the stack, larger ones the memory; equal parts count as often as they occur.
+_MOST_DEPTH, _MOST_NODES = 150, 1_000_000
 
 
 def sympified(given: Any, name: str) -> Any:
@@ -19,22 +19,27 @@ def sympified(given: Any, name: str) -> Any:
 
 
 def scalar(given: Any, name: str) -> sp.Expr:
-    """A scalar expression; raise InputError where there is none, NotExactError where it is nested too deep."""
+    """A scalar expression; raise InputError where there is none, NotExactError where it is too large or too deep."""
     expression = sympified(given, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {given!r} is not a scalar expression: give a sympy expression or a number")
-    _check_depth(expression)
+    _check_size(expression)
     zeros = {symbol: sp.S.Zero for symbol in expression.free_symbols if symbol.is_zero}
     return expression.xreplace(zeros) if zeros else expression
 
 
-def _check_depth(expression: sp.Basic) -> None:
-    left = [(expression, 0)]
-    seen: set[sp.Basic] = set()
+def _check_size(expression: sp.Basic) -> None:
+    sizes: dict[sp.Basic, tuple[int, int]] = {}  # nodes of the tree and its depth
+    left = [(expression, False)]
     while left:
-        node, depth = left.pop()
-        if depth > _MOST_DEPTH:
-            raise NotExactError(f"The expression is nested more than {_MOST_DEPTH} deep.")
-        if node not in seen:
-            seen.add(node)
-            left += [(part, depth + 1) for part in node.args]
+        node, ready = left.pop()
+        if ready:
+            parts = [sizes[part] for part in node.args]
+            sizes[node] = 1 + sum(n for n, _ in parts), 1 + max((depth for _, depth in parts), default=0)
+        elif node not in sizes:
+            left += [(node, True), *((part, False) for part in node.args)]
+    nodes, depth = sizes[expression]
+    if depth > _MOST_DEPTH:
+        raise NotExactError(f"The expression is nested more than {_MOST_DEPTH} deep.")
+    if nodes > _MOST_NODES:
+        raise NotExactError(f"The expression has more than {_MOST_NODES:,} parts.")

@@ -233,6 +233,12 @@ def test_arguments_and_depth_are_bounded() -> None:
         assert decision.answer == "undecided" and "nested" in decision.reason
     with pytest.raises(NotExactError, match="nested"):
         normal_form(deep)
+    shared, few = x, x
+    for step in range(60):
+        shared = sp.Mul(sp.Add(shared, 1, evaluate=False), sp.Add(shared, 2, evaluate=False), evaluate=False)
+        few = few if step > 13 else sp.log(few) + sp.cbrt(few)
+    assert "more than 1,000,000 parts" in decide_zero(shared).reason
+    assert decide_zero(few).evidence is not None  # 2**14 equal parts are evaluated once
     assert decide_equal(sin((x + y) ** 2), sin(x**2 + y**2 + 2 * x * y)).answer == "zero"
     assert decide_equal(sin((x + y) ** 2 / x), sin(x + y**2 / x + y)).answer == "nonzero"
 
