@@ -277,9 +277,15 @@ def _fewest_premises(
     """The finding under the fewest premises that suffice.
 
     Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted tells
-    most about what is wrong.
+    most about what is wrong. Where the premises do not contradict each other, that case is looked at first, since no choice
+    of them can mend what it refutes.
     """
     failed: tuple[Premise, ...] = ()
+    put = [letter for premise in assumed for letter in premise.put]
+    if assumed and len(put) == len(set(put)):
+        granted = _find(relation.under(assumed) for relation in relations)
+        if granted.answer == "refuted":
+            return granted, ()
     for premises in subsets(assumed):
         found: list[_Finding] = []
         for relation in relations:

@@ -1,5 +1,7 @@
 """The ledger decides by identity or by order, under the fewest premises, and by nothing else."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 
@@ -53,6 +55,36 @@ def test_the_fewest_premises_are_reported() -> None:
     both = verdict_of(x * n + y, x, premises=(third, ONE, other))
     assert both.premises == (ONE, other)
     assert judge(Statement("5.01", (Relation(x * n + y, x),), (ONE, third))).verdict == "refuted"
+
+
+def test_premises_that_contradict_each_other_are_each_tried() -> None:
+    """With n = 1 put in first, n = 2 has nothing left to say: that the two together fail refutes neither alone."""
+    two = Premise("two of them", {n: sp.Integer(2)})
+    decided = verdict_of(x * n, 2 * x, premises=(ONE, two))
+    assert (decided.verdict, decided.premises) == ("holds-if", (two,))
+    assert verdict_of(x * n, 3 * x, premises=(ONE, two)).verdict == "refuted"
+
+
+def test_what_is_wrong_is_told_of_the_most_special_case() -> None:
+    """x n + y² against x + y³: with n = 1 the first difference is of second order in y, without it of order zero."""
+    near = Relation(x * n + y**2, x + y**3, y, 3)
+    assert any("order 2 in y" in line for line in judge(Statement("5.01", (near,), (ONE,))).evidence)
+    assert any("order 0 in y" in line for line in judge(Statement("5.01", (near,))).evidence)
+
+
+def test_the_values_of_the_scene_come_after_the_premises() -> None:
+    """Of x n with n = 1 and, in the text, x = 3."""
+    there = Relation(sp.Integer(3), x * n, scene={x: sp.Integer(3)})
+    assert judge(Statement("5.01", (there,), (ONE,))).premises == (ONE,)
+    assert judge(Statement("5.01", (replace(there, scene={x: sp.Integer(4)}),), (ONE,))).verdict == "refuted"
+
+
+def test_a_number_read_off_is_held_to_a_rate_with_roots_and_to_its_sign() -> None:
+    rate = n * sp.sqrt((n**2 + 2 * n + 1) / (4 * n**2 * (n + 1) ** 2))  # 1/2 for every positive n
+    read = Relation(sp.Rational(1, 2), rate, within=sp.Rational(1, 100))
+    assert judge(Statement("5.24", (read,), measured=True)).verdict == "measured"
+    for wrong in (sp.Rational(-1, 2), sp.Rational(52, 100), n):
+        assert judge(Statement("5.24", (replace(read, printed=wrong),), measured=True)).verdict == "refuted"
 
 
 def test_a_premise_that_the_paper_breaks_says_by_how_much() -> None:
