@@ -49,17 +49,24 @@ prove((y_1 / width, y_2 / width), across, "the components across it, over √σ"
 # %% [markdown]
 # ## The inclinations
 #
-# $\sin^2\theta_i = x_i^2 + y_i^2$. To leading order the axes go round ellipses; the second order of $\sin\theta_i$ is the
-# third of its square.
+# To leading order the axes go round ellipses, with $D^2 = \cos^2\Phi + \sigma\sin^2\Phi$; the second order follows from the
+# third of $\sin^2\theta_i = x_i^2 + y_i^2$:
 
 # %%
-amplitude = {r0: sp.sin(theta_0)}
-squares = tuple(sp.expand(x**2 + y**2).subs(amplitude) for x, y in ((x_1, y_1), (x_2, y_2)))
 s = sp.sin(theta_0)
-corrected = tuple(
-    s**2 * (cosine**2 + sigma * sine**2) + sign * s**3 * sigma * R / ell * sine**2 * cosine for sign in (1, -1)
+D = sp.sqrt(1 + (sigma - 1) * sine**2)
+prove(D**2, cosine**2 + sigma * sine**2, "the leading order of the squared sines, over r₀²")
+
+# %%
+change = sigma * R / (2 * ell) * sine**2 * cosine / D
+sines = s * D + s**2 * change, s * D - s**2 * change
+prove(
+    tuple(sp.expand((e**2).subs(s, r0)) for e in sines),
+    (x_1**2 + y_1**2, x_2**2 + y_2**2),
+    "the squares of the inclinations' sines",
+    small=r0,
+    order=3,
 )
-prove(squares, corrected, "the squares of the inclinations' sines", small=theta_0, order=3)
 
 # %% [markdown]
 # The paper's correction removes the swing of the bar's length but keeps the bar at the wrong one: it sets it where constant
@@ -76,9 +83,9 @@ prove(
 lengths = [float(sp.sqrt(length_squared.subs({r0: PAPER_R0, Phi: angle}))) for angle in (0, sp.pi / 2)]
 verdict(
     "5.20",
-    dict(zip((r"\sin^2\theta_1", r"\sin^2\theta_2"), squares, strict=True)),
+    {r"\sin\theta_1": sines[0], r"\sin\theta_2": sines[1]},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
-    correction=dict(zip((r"\sin^2\theta_1", r"\sin^2\theta_2"), corrected, strict=True)),
+    correction={r"\sin\theta_1": s * D + s**2 * change, r"\sin\theta_2": s * D - s**2 * change},
     wrong="The correction keeps the bar's length nearly constant, but longer than the bar by 2r₀².",
     uses=["5.19"],
     evidence=[

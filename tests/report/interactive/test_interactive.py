@@ -145,8 +145,8 @@ def test_the_series_is_that_of_the_precession_orbit(order: int) -> None:
 @node
 def test_the_papers_formula_is_the_one_printed() -> None:
     at = np.column_stack([RANDOM.uniform(0, 0.5, 20), RANDOM.uniform(-10, 10, 20)])
-    squares, in_x = ([relation.printed for relation in printed(name).relations[:2]] for name in ("5.20", "5.22"))
-    sines = np.sqrt(sp.lambdify([theta_0, Phi], squares)(np.arcsin(at[:, 0]), at[:, 1]))
+    sines, in_x = ([relation.printed for relation in printed(name).relations[:2]] for name in ("5.20", "5.22"))
+    sines = np.array(sp.lambdify([theta_0, Phi], sines)(np.arcsin(at[:, 0]), at[:, 1]))
     in_x = np.array(sp.lambdify([r0, Phi], in_x)(*at.T))
     found = np.reshape(called("paper", at.tolist()), (20, 2, 3))
     for i, azimuth in enumerate((at[:, 1], -at[:, 1])):
