@@ -67,7 +67,7 @@ def test_evaluations_are_those_of_an_order_of_eight():
 @pytest.mark.parametrize(
     "scene",
     [
-        Scene((30.0, -2.0), rates=((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))),
+        Scene((60.0, -2.0), Rotor(I1=8.0), rates=((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))),
         Scene((-2.0, 30.0), rates=((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))),
         Scene((0.0, 0.0), rates=((0.0, 8.0, 0.0), (0.0, 1.0, 0.0))),
         Scene((0.0, 0.0), rates=((0.0, 1.0, 0.0), (0.0, 8.0, 0.0))),
