@@ -29,11 +29,24 @@ class Equilibrium:
 def equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol] = ()) -> tuple[Equilibrium, ...]:
     """Configurations at rest where no force is left: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
 
-    unknowns: what to solve for, the coordinates unless others are named, as the momentum of a steady precession:
-    `top.routh("phi psi").equilibria("p_phi")`. Angles in sines and cosines are found between −π and π.
+    unknowns: what to solve for, the coordinates unless others are named. Where these are not solved exactly in a system
+    from `routh`, the momentum is found that a steady motion needs at any value of them, as p_phi for a top at an
+    inclination. Angles in sines and cosines are found between −π and π.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly.
     """
+    if unknowns:
+        return _equilibria(system, unknowns)
+    try:
+        return _equilibria(system, ())
+    except InputError:
+        for momentum in sorted((s for s in system.L.free_symbols if str(s).startswith("p_")), key=str):
+            if len(system.c.q) == 1:
+                return _equilibria(system, (momentum,))
+        raise
+
+
+def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[Equilibrium, ...]:
     c = system.c
     still = dict.fromkeys((*c.v, *c.a), 0)
     lam = sp.Matrix(system.multipliers)

@@ -60,9 +60,15 @@ class LinearSystem:
         for factor, _ in sp.factor_list(sp.numer(sp.together(self.characteristic(_S))))[1]:
             if factor.has(_S):
                 for rate in _roots(sp.Poly(factor, _S)):
-                    space = self._pencil(rate).applyfunc(_reduce).nullspace(iszerofunc=_is_zero)
-                    found += [Mode(rate, (self.basis * vector).applyfunc(_reduce)) for vector in space]
+                    found += [Mode(rate, (self.basis * vector).applyfunc(_reduce)) for vector in self._shapes(rate)]
         return tuple(found)
+
+    def _shapes(self, rate: sp.Expr) -> list[sp.Matrix]:
+        """Null vectors at a root of the characteristic polynomial: a column of the adjugate, where one is not zero."""
+        pencil = self._pencil(rate).applyfunc(_reduce)
+        columns = [pencil.adjugate()[:, j] for j in range(pencil.cols)]
+        column = next((column for column in columns if not all(map(_is_zero, column))), None)
+        return [column] if column is not None else list(pencil.nullspace(iszerofunc=_is_zero))
 
     def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
         parts = [m.subs(dict(values)) for m in (self.mass, self.gyroscopic, self.stiffness, self.basis)]

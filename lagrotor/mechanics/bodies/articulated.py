@@ -36,7 +36,7 @@ class Stages:
     names: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
 
     def __call__(self, e: sp.Expr) -> sp.Expr:
-        if e.is_Atom or (-e).is_Atom:
+        if e.is_Atom or (e.is_Mul and e.args[0] is sp.S.NegativeOne and len(e.args) == 2 and e.args[1].is_Atom):
             return e
         if e not in self.names:
             self.names[e] = sp.Symbol(f"_a{len(self.made)}", real=True)
@@ -156,23 +156,6 @@ def _outcome(
         places.append((keep.each(w + own), v) if link.turns else (w, keep.each(v + own)))
         found[link.coordinate] = link.sign * a
     return found
-
-
-def tree_energy(tree: Tree, chain: Sequence[Joint], keep: Stages) -> sp.Expr:
-    """T + V."""
-    total, fields, depths = -tree.rest, list[Small](), list[sp.Expr]()
-    for joint in chain:
-        parent = joint.link.parent
-        field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
-        fields.append(joint.inward(field, keep))
-        depths.append(keep(depth + field.dot(joint.shift)))
-        w, v = joint.motion
-        for mass in joint.link.masses:
-            centre = Small.of(mass.centre)
-            at = keep.each(v + w.cross(centre))
-            total += keep(mass.mass * at.dot(at) / 2 + w.dot(Small.of(mass.inertia) * w) / 2)
-            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))
-    return total
 
 
 def _rigid(link: Link, keep: Stages) -> Inertia:

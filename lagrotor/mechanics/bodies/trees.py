@@ -3,13 +3,16 @@
 Fixed turns and shifts between two joints are taken together, and bodies are brought to the joint's frame that carries them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, turn_matrix
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import t
+
+Place = tuple[int, sp.Matrix, sp.Matrix]
 
 
 @dataclass(frozen=True)
@@ -75,75 +78,66 @@ def tree_of(system: Equations) -> Tree | None:
     return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.rest)
 
 
-def _links(system: Equations, bodies: list[Body]) -> tuple[Link, ...] | None:
-    """The links on the way to the bodies; None where a step is not a joint of one coordinate of its own."""
-    q = system.c.q
-    moving = {*q, *system.c.v}
-    links: list[Link] = []
-    masses: list[list[Mass]] = []
-    # Of each frame: the link that carries it, and the fixed shift and rotation from there.
-    known: dict[MovingFrame, tuple[int, sp.Matrix, sp.Matrix]] = {}
+class _NoTreeError(Exception):
+    """A step that is not a joint of one coordinate of its own."""
 
-    def carried(frame: MovingFrame) -> tuple[int, sp.Matrix, sp.Matrix] | None:
+
+def _links(system: Equations, bodies: list[Body]) -> tuple[Link, ...] | None:
+    """The links on the way to the bodies; None where they do not make a tree of joints."""
+    walk = _Walk(system.c.q, {*system.c.q, *system.c.v})
+    try:
+        for body in bodies:
+            number, d, R = walk.reached(body.frame)
+            if number >= 0:
+                walk.masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
+    except _NoTreeError:
+        return None
+    if len(walk.links) != len(system.c.q):
+        return None
+    return tuple(replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True))
+
+
+class _Walk:
+    """The links found so far, and of each frame the link that carries it with the fixed shift and rotation from there."""
+
+    def __init__(self, q: tuple[sp.Symbol, ...], moving: set[sp.Symbol]) -> None:
+        self.q, self.moving = q, moving
+        self.links: list[Link] = []
+        self.masses: list[list[Mass]] = []
+        self.known: dict[MovingFrame, Place] = {}
+
+    def reached(self, frame: MovingFrame) -> Place:
         if frame.parent is None:
             return -1, sp.zeros(3, 1), sp.eye(3)
-        if frame not in known:
-            before = carried(frame.parent)
-            after = before and _stepped(frame, *before)
-            if after is None:
-                return None
-            known[frame] = after
-        return known[frame]
+        if frame not in self.known:
+            self.known[frame] = self.stepped(frame, *self.reached(frame.parent))
+        return self.known[frame]
 
-    def joint(parent: int, d: sp.Matrix, R: sp.Matrix, turns: bool, axis: int, amount: sp.Expr) -> int | None:
-        sign = 1 if amount in q else -1
-        if sign * amount not in q or any(q.index(sign * amount) == link.coordinate for link in links):
-            return None
-        links.append(Link(parent, d, R, turns, axis, q.index(sign * amount), sign, ()))
-        masses.append([])
-        return len(links) - 1
-
-    def _stepped(
-        frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix
-    ) -> tuple[int, sp.Matrix, sp.Matrix] | None:
-        symbols = sp.sympify(frame.amount).free_symbols
+    def stepped(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
+        """One step of frames on from a place."""
+        symbols = frame.amount.free_symbols
+        if t in symbols:
+            raise _NoTreeError
         if frame.axis is not None:
-            if not symbols & moving:
-                return (parent, d, R * turn_matrix(frame.axis, frame.amount)) if not _timed(symbols) else None
-            number = joint(parent, d, R, True, frame.axis, frame.amount)
-            return None if number is None else (number, sp.zeros(3, 1), sp.eye(3))
-        if _timed(symbols) or (symbols & moving and frame.amount.cols == 3):
-            return None
+            if symbols & self.moving:
+                return self.joint(parent, d, R, True, frame.axis, frame.amount)
+            return parent, d, R * turn_matrix(frame.axis, frame.amount)
         if frame.amount.cols == 3:
+            if symbols & self.moving:
+                raise _NoTreeError
             return parent, d, R * frame.amount
-        for axis, amount in enumerate(frame.amount):
-            if not amount.free_symbols & moving:
-                d = d + R[:, axis] * amount
-        for axis, amount in enumerate(frame.amount):
-            if amount.free_symbols & moving:
-                number = joint(parent, d, R, False, axis, amount)
-                if number is None:
-                    return None
-                parent, d, R = number, sp.zeros(3, 1), sp.eye(3)
-        return parent, d, R
+        slides = [axis for axis, amount in enumerate(frame.amount) if amount.free_symbols & self.moving]
+        fixed = sp.Matrix([0 if axis in slides else amount for axis, amount in enumerate(frame.amount)])
+        place: Place = (parent, d + R * fixed, R)
+        for axis in slides:
+            place = self.joint(*place, False, axis, frame.amount[axis])
+        return place
 
-    for body in bodies:
-        place = carried(body.frame)
-        if place is None:
-            return None
-        number, d, R = place
-        if number >= 0:
-            masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
-    if len(links) != len(q):
-        return None
-    return tuple(_with(link, bodies_) for link, bodies_ in zip(links, masses, strict=True))
-
-
-def _with(link: Link, masses: list[Mass]) -> Link:
-    return Link(
-        link.parent, link.shift, link.rotation, link.turns, link.axis, link.coordinate, link.sign, tuple(masses)
-    )
-
-
-def _timed(symbols: set[sp.Basic]) -> bool:
-    return any(str(s) == "t" for s in symbols)
+    def joint(self, parent: int, d: sp.Matrix, R: sp.Matrix, turns: bool, axis: int, amount: sp.Expr) -> Place:
+        """A new link, its amount a coordinate of its own or the negative of one."""
+        sign = 1 if amount in self.q else -1
+        if sign * amount not in self.q or any(self.q.index(sign * amount) == link.coordinate for link in self.links):
+            raise _NoTreeError
+        self.links.append(Link(parent, d, R, turns, axis, self.q.index(sign * amount), sign, ()))
+        self.masses.append([])
+        return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)

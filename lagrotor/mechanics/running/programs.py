@@ -14,7 +14,8 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.bodies.articulated import Stages, joints, tree_accelerations, tree_energy
+from lagrotor.mechanics.bodies.articulated import Stages, joints, tree_accelerations
+from lagrotor.mechanics.bodies.tree_energies import tree_energy
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
