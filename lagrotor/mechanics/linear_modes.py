@@ -154,7 +154,12 @@ def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol
     """A matrix at the point, parameters first; an entry that is 0/0 there is reduced before."""
     parameters = {s: value for s, value in still.items() if s not in q}
 
+    rest = {s: value for s, value in still.items() if value == 0 and s not in q}
+    general = any(sp.sympify(value).free_symbols for value in still.values())
+
     def value(entry: sp.Expr) -> sp.Expr:
+        if general:  # reduced while its symbols are independent, before roots are put in
+            entry = _reduce(entry.subs(rest, simultaneous=True))
         entry = entry.subs(parameters, simultaneous=True)
         found = entry.subs(still, simultaneous=True)
         if found.has(sp.nan, sp.zoo, sp.oo):
