@@ -16,10 +16,10 @@ import sympy as sp
 from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair.lagrangians import axis, rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, J, R, m, omega_1, omega_2
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import rotation, vector
 from lagrotor.paper.premises import Premise, parameter_premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

@@ -15,10 +15,10 @@ import sympy as sp
 
 from lagrotor.pair.symbols import I3, J, R, m, omega_1, omega_2
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import cross, vector
 from lagrotor.paper.premises import EQUAL_SPINS, Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 rotors = scripts.run("derivations", "s2a_angular_momentum")
 pair = scripts.run("derivations", "s2b_linear_pair")

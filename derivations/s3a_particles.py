@@ -15,10 +15,10 @@ from itertools import permutations
 
 import sympy as sp
 
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import cross, rate, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 NUMBERS = (1, 2, 3)
 m1, m2, m3 = masses = sp.symbols("m_1 m_2 m_3", positive=True)

@@ -17,10 +17,10 @@ import sympy as sp
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.symbols import ROTOR
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import cross, rotation, symmetric, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 particles = scripts.run("derivations", "s3a_particles")
 masses, places, velocities, arms, L = (particles[name] for name in ("masses", "places", "velocities", "arms", "L"))

@@ -14,10 +14,10 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order
 from lagrotor.pair.symbols import M
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import cross, cross_matrix, inverse, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 dt = sp.Symbol("Delta_t", positive=True)
 

@@ -17,10 +17,10 @@ import sympy as sp
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import PAIR, ROTOR
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import cross, cross_matrix, inverse, rotation, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 body = scripts.run("derivations", "s3b_rigid_body")
 theta, phi, _ = ROTOR.q

@@ -14,9 +14,9 @@ import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ROTOR
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import rate, vector
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 S, D, s = sp.symbols("S D s", positive=True)
 theta, phi, _ = ROTOR.q

@@ -10,9 +10,9 @@
 # %%
 import sympy as sp
 
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 M, n, omega_s, m_eff = sp.symbols("M n omega_s m_eff", positive=True)
 kilogram, second, metre = sp.symbols("kilogram second metre", positive=True)

@@ -10,9 +10,9 @@
 # %%
 import sympy as sp
 
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import prove
+from lagrotor.paper.stating import verdict
 
 # %% [markdown]
 # ## The pulse

@@ -17,10 +17,10 @@ import sympy as sp
 from lagrotor.mechanics import System, accelerations, momenta, total_derivative
 from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import rotation
 from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

@@ -16,11 +16,11 @@ from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import norm
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import ABOUT_JOINT, BAR_AS_LONG_AS_ROTORS, MASSLESS_BAR, UNIT_LENGTH, in_parameters
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 from lagrotor.theory.paired_precession.series import paired_series
 
 theta_1, phi_1, psi_1, theta_2, phi_2, psi_2 = PAIR.q

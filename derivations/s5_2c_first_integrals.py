@@ -21,9 +21,9 @@ from lagrotor.pair.lagrangians import pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, I3, PAIR
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.ansatz_premises import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS, MASSLESS_BAR
 from lagrotor.paper.proof import prove
+from lagrotor.paper.stating import verdict
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q
 _, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v

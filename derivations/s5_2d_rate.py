@@ -17,10 +17,10 @@ from lagrotor.pair.lagrangians import ansatz_integrals, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
 from lagrotor.paper import audit
 from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, Premise
 from lagrotor.paper.proof import prove
+from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta_1, theta_2 = ANSATZ.q[:2]

@@ -17,10 +17,10 @@ from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ANSATZ, PAIR, R, ell, r0, theta_0
 from lagrotor.paper.ansatz_premises import one_inclination, opposite_azimuths
 from lagrotor.paper.claims.precession_runs import PAPER_R0
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.letters import norm
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH, Premise
 from lagrotor.paper.proof import prove
+from lagrotor.paper.stating import verdict
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q
 phi = ANSATZ.q[2]

@@ -16,9 +16,9 @@ from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair, rotor_lagrangian
 from lagrotor.pair.symbols import AXES, G_1, G_2, I3, ROTOR, G, J, Omega, Phi, R, a, b, m, omega, omega_1, omega_2
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.premises import EQUAL_SPINS, ONE_KILOGRAM_BAR, PAPERS_ROTOR, Premise, in_parameters
 from lagrotor.paper.proof import prove
+from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
 
 # %% [markdown]

@@ -38,10 +38,10 @@ from lagrotor.pair.symbols import (
     r0,
     sigma,
 )
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, Premise, in_parameters
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 

@@ -16,7 +16,6 @@ import sympy as sp
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
-from lagrotor.paper.ledger import verdict
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import (
     HEAVY_BAR,
@@ -28,6 +27,7 @@ from lagrotor.paper.premises import (
     in_parameters,
 )
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 

@@ -1,8 +1,8 @@
 """The ledger: it holds what the paper prints, is given what was derived and what was assumed, and decides.
 
-A derivation never says that an equation is right, and it cannot touch what is printed: `verdict("5.15", derived, …)` takes
-the printed lines from the catalogue. `judge` tries the premises, fewest first, on both sides at once, and decides by exact
-identity or by the order of the first term that differs; nothing else can.
+A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. `judge` tries the
+premises, fewest first, on both sides at once, and decides by exact identity or by the order of the first term that differs;
+nothing else can.
 """
 
 import time
@@ -15,9 +15,8 @@ import sympy as sp
 from lagrotor.algebra import Decision, agreement_order, decide_equal
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.pair.symbols import GLOSSARY
-from lagrotor.paper.catalogue import Equation, Line, equation
-from lagrotor.paper.letters import components, scalars
-from lagrotor.paper.premises import Premise, in_parameters, subsets
+from lagrotor.paper.catalogue import equation
+from lagrotor.paper.premises import Premise, subsets
 from lagrotor.paper.tables import Cell, Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
@@ -84,93 +83,6 @@ class Statement:
 
     def _repr_html_(self) -> str:
         return verdict_table([judge(self)])._repr_html_()
-
-
-def verdict(
-    identifier: str,
-    derived: Side | Mapping[str, Side] = None,
-    premises: Iterable[Premise] = (),
-    correction: Side | Mapping[str, Side] = None,
-    wrong: str = "",
-    uses: Iterable["str | Statement"] = (),
-    evidence: Iterable[str] = (),
-) -> Statement:
-    """What the paper prints as `identifier`, from the catalogue, against what was derived under no premise.
-
-    derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is
-    given without any premise put in. correction: likewise, what should stand there; it is judged against `derived`, which
-    may hold quantities besides the printed ones. uses: ids of equations that this one rests on, or their statements, which
-    give the letters that are defined there their derived meaning. Raises InputError for a quantity that is printed and not
-    derived, or corrected and not derived, and for a definition that something is held against.
-    """
-    entry = equation(identifier)
-    quantities = _by_quantity(derived, entry.lines)
-    names = bool(entry.lines) and all(line.names for line in entry.lines)
-    if names and quantities:
-        raise InputError(f"verdict: {identifier} only introduces a letter, and nothing can be held against it")
-    uses = tuple(uses)
-    meanings = _defined_elsewhere(entry, uses)
-    relations = [
-        r for line in entry.lines if not line.names for r in _relations(identifier, line, quantities, meanings)
-    ]
-    return Statement(
-        identifier,
-        tuple(relations),
-        tuple(premises),
-        tuple(_corrected(identifier, entry.lines, quantities, _by_quantity(correction, entry.lines))),
-        wrong,
-        names,
-        entry.measured,
-        tuple(used if isinstance(used, str) else used.id for used in uses),
-        tuple(evidence),
-    )
-
-
-def _defined_elsewhere(entry: Equation, uses: tuple["str | Statement", ...]) -> dict[sp.Symbol, Side]:
-    """Letters of a line that another equation defines → what was derived for that one; of vectors, every component."""
-    stated = {used.id: used.relations[0].derived for used in uses if isinstance(used, Statement)}
-    names = {**scalars(), **entry.declared}
-    meanings: dict[sp.Symbol, Side] = {}
-    for letter, other in entry.refers.items():
-        if other not in stated:
-            raise InputError(f"verdict: {entry.id}: {letter} is defined in {other}: give its statement among `uses`")
-        meanings |= zip(components([names[letter]]), components([stated[other]]), strict=True)
-    return meanings
-
-
-def _by_quantity(given: Side | Mapping[str, Side], lines: tuple[Line, ...]) -> dict[str, Side]:
-    if given is None:
-        return {}
-    if isinstance(given, Mapping):
-        return {name: sp.sympify(value) for name, value in given.items()}
-    return {lines[0].quantity if lines else "": sp.sympify(given)}
-
-
-def _relations(
-    identifier: str, line: Line, quantities: Mapping[str, Side], meanings: Mapping[sp.Symbol, Side]
-) -> Iterable[Relation]:
-    if line.quantity not in quantities:
-        raise InputError(
-            f"verdict: {identifier} prints {line.quantity}: derive it ({', '.join(quantities) or 'nothing is'})"
-        )
-    derived = quantities[line.quantity]
-    if line.scene:
-        derived = in_parameters(derived)
-    for member in line.members:
-        printed = member.subs(meanings)
-        yield Relation(printed, derived, line.small, line.order, line.within, line.quantity, line.scene)
-
-
-def _corrected(
-    identifier: str, lines: tuple[Line, ...], quantities: Mapping[str, Side], correction: Mapping[str, Side]
-) -> Iterable[Relation]:
-    by_name = {line.quantity: line for line in lines}
-    for name, right in correction.items():
-        if name not in quantities:
-            raise InputError(f"verdict: {identifier}: the correction gives {name}, which was not derived")
-        line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
-        small, order = (line.small, line.order) if line else (None, 0)
-        yield Relation(right, quantities[name], small, order, None, name)
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ from lagrotor.pair.symbols import I1, I3, ROTOR, J, r0
 from lagrotor.paper import letters
 from lagrotor.paper.audit import record
 from lagrotor.paper.catalogue import claims, equations, figures
-from lagrotor.paper.ledger import Relation, Statement, chain, judge, verdict
+from lagrotor.paper.ledger import Relation, Statement, chain, judge
 from lagrotor.paper.premises import Premise, parameter_premise
 from lagrotor.paper.record import as_text, changes, reaches_result, recorded
+from lagrotor.paper.stating import verdict
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)

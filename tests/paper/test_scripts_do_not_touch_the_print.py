@@ -111,7 +111,7 @@ def test_no_premise_is_put_in_before_the_ledger_looks(stem: str, monkeypatch: py
 BY_HAND = """
 from lagrotor.pair.lagrangians import rotor_lagrangian
 from lagrotor.pair.symbols import I3, J
-from lagrotor.paper.ledger import verdict
+from lagrotor.paper.stating import verdict
 
 L = rotor_lagrangian()
 verdict("5.01", L)
