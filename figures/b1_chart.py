@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Figure b1: error against evaluations
 #
-# What derivations/b1_chart.py computed: each rung and solver of the core packages on the displaced pair, at every tolerance.
+# The points of derivations/b1_chart.py: each model and solver of the core packages on the displaced pair, at every tolerance.
 
 # %%
 from functools import cache
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from lagrotor.drawing.style import OKABE_ITO
 from lagrotor.paper import scripts
 
-# Method → colour and marker: rungs as `simulate` runs them, engines on the minimal rung, other solvers of scipy on it.
+# Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.
 LOOKS = {
     "minimal": ("blue", "o"),
     "spheres": ("blue", "s"),
@@ -29,8 +29,9 @@ CLOSED = "closed form"
 TITLE = "Error against evaluations, the displaced pair"
 ALT = (
     "In logarithms, largest error of a tip over ten seconds against evaluations of the right-hand side, a curve for each "
-    "method from a crude to the tightest tolerance. All fall to the right; Adams in equal steps and the rungs fall steepest, "
-    "Runge–Kutta of order 5 least. A grey band follows the front; a dashed line is the closed form, which needs no evaluation."
+    "method from the coarsest to the finest tolerance. All fall to the right; Adams in equal steps and the models of simulate "
+    "fall steepest, Runge–Kutta of order 5 least. "
+    "A grey band follows the front; a dashed line is the closed form, which needs no evaluation."
 )
 
 
@@ -75,8 +76,8 @@ def measure() -> dict[str, float]:
 CAPTION = (
     "Ten seconds of the paired precession with r_0 = 0.204, spins ±10 rad/s, massless bar, 1001 output times; tolerances from "
     f"1e-3 to 1e-13. For 1e-9 m the best needs {min(needed(1e-9).values()):,} evaluations, "
-    f"Runge–Kutta of order 5 {needed(1e-9)['solve_ivp, RK45']:,}. Dotted: the reference's own floor. ode is "
-    "called for every output time, where DOP853, which has no memory, begins anew; solve_ivp and ode run the minimal model."
+    f"Runge–Kutta of order 5 {needed(1e-9)['solve_ivp, RK45']:,}. Dotted: error of the reference. ode is "
+    "called for every output time, where DOP853, a one-step method, starts anew; solve_ivp and ode run the minimal model."
 )
 
 
@@ -92,7 +93,7 @@ def figure() -> Figure:
     panel.axhline(
         np.nanmin(d["closed"]), color=OKABE_ITO["reddish purple"], linestyle="--", label="closed form, no evaluation"
     )
-    panel.axhline(d["floor"][0], color="#888888", linestyle=":", linewidth=0.9, label="floor of the reference")
+    panel.axhline(d["floor"][0], color="#888888", linestyle=":", linewidth=0.9, label="error of the reference")
     panel.set(xlabel="evaluations [1]", ylabel="largest error of a tip [m]", title="10 s, 1001 output times")
     panel.margins(0.05)
     picture.suptitle(TITLE)

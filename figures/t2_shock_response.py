@@ -28,7 +28,7 @@ ALT = (
 
 # %%
 def scene(factor: float = 1.0) -> Scene:
-    """The bar of section 5.2.1 struck by `factor` times the force."""
+    """The bar of section 5.2.1 under `factor` times the force."""
     force = tuple(factor * f for f in FORCE)
     return Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=Shock(force, AT, WIDTH))
 

@@ -35,7 +35,7 @@ def scene(force: float) -> Scene:
 
 
 def followed(force: float) -> float:
-    """Time (s) until the mean of x reaches the bound, followed on an exact run."""
+    """Time (s) until the mean of x over six swings reaches the bound on an exact run."""
     one = scene(force)
     return time_to_wander(one, BOUND, 1.5 * BOUND / abs(wander_after_shock(one)))
 
@@ -75,9 +75,10 @@ def measure() -> dict[str, float]:
 
 _lean, _leave, *_ratios = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m². Left: time to lean by {LEAN:g} rad and for the mean x "
-    f"to move by {BOUND:g} R; measured powers of the force −{-_lean:.3f} and −{-_leave:.3f}. Circles: from the mean rate of "
-    f"exact runs of 16 swings; crosses: followed until x is there, {min(_ratios):.2f} to {max(_ratios):.2f} of the law's time. "
+    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m². Left: time to lean by {LEAN:g} rad and for the mean "
+    f"of x to move by {BOUND:g} R, at the initial rates; measured powers of the force −{-_lean:.3f} and −{-_leave:.3f}. "
+    f"Circles: from the mean rate of exact runs of 16 swings; crosses: until the mean of x is there, "
+    f"{min(_ratios):.2f} to {max(_ratios):.2f} of the law's time. "
     f"Right: {SHOWN:g} N. The shock leaves a twist p_x/G; leaning about the joint line turns it into x."
 )
 
@@ -93,8 +94,8 @@ def figure() -> Figure:
     times.loglog(FORCES, d["leave_law"], color=CORRECTED, label="closed form: x, cube of the force")
     for name in ("lean", "leave"):
         times.loglog(FORCES, d[name], "o", color=EXACT, mfc="none", ms=6, label="exact mean rates", clip_on=False)
-    times.loglog(FOLLOWED, d["followed"], "x", color=EXACT, ms=7, label="exact, followed to the bound")
-    times.set(xlabel="force along x [N]", ylabel="time [s]", title="Time until it has left", xlim=(1.9, 21))
+    times.loglog(FOLLOWED, d["followed"], "x", color=EXACT, ms=7, label="exact, mean of x at the bound")
+    times.set(xlabel="force along x [N]", ylabel="time [s]", title="Time to reach the bound", xlim=(1.9, 21))
     times.set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
     times.set_xticks([], minor=True)
     run.plot(d["t"], d["x"], color=MODEL, lw=1.1, label="mean x of both axes, exact [1]")

@@ -1,4 +1,4 @@
-"""Rung 2: normal modes. Small motion about the upright rest state at any time at once, for any spins and any bar.
+"""Normal modes. Small motion about the upright rest state at any time at once, for any spins and any bar.
 
 The coordinates are those of `minimal`, q = (U, chi, alpha): the bar keeps its length and the axes stay unit vectors, and
 turning about the joint line, a symmetry, may be large. To first order M q'' + C q' = Q(t); with N = M⁻¹ C and

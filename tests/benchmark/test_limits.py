@@ -1,4 +1,4 @@
-"""Limits: what the formulas promise is found, and the tool does what the table says."""
+"""Limits: the predicted thresholds are measured, and lagrotor does what the table says."""
 
 import json
 from dataclasses import replace
@@ -166,7 +166,7 @@ def test_a_long_run_keeps_what_it_should():
 
 
 @pytest.mark.slow
-def test_ten_thousand_turns_go_as_the_first_thousand_promise():
+def test_the_drift_over_ten_thousand_turns_extrapolates_the_first_thousand():
     for limit in long_limits(False):
         assert limit.ratio == pytest.approx(1, abs=0.5), limit
 

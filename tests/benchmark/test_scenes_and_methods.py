@@ -1,4 +1,4 @@
-"""The chart: its reference, its error ceilings, its bookkeeping and its figure. No times."""
+"""The benchmark: its reference, its error ceilings, its bookkeeping and its figure. No times."""
 
 import json
 from dataclasses import replace
@@ -139,7 +139,7 @@ def test_ratios_compare_at_equal_error() -> None:
     assert row["PyDy, Cython / core"] == row["PyDy, Cython / any model"] == pytest.approx(20)
     assert row["core / fast"] == pytest.approx(10)
     assert row["CasADi CVODES / core"] is None
-    # The closed form is a rung, and no integration.
+    # The closed form is one of the models, and no integration.
     whole = replace(found, points=(*points, point("closed form", 1e-6, 0, 0.002, "closed")))
     row = ratios(whole, [1e-6, 1e-7])["1e-06"]
     assert (row["PyDy, Cython / core"], row["PyDy, Cython / any model"]) == pytest.approx((20, 100))

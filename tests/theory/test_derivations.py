@@ -10,7 +10,7 @@ from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Step
 
 STEMS = [stem for stem in scripts.names("derivations") if stem.startswith("t")]
-STEPWISE = ["t1_normal_modes", "t2_shock_response", "t6_shock_drift", "t8_toppling", "t9_twist"]
+STEPWISE = ["t1_normal_modes", "t2_shock_response", "t6_shock_drift", "t7_duration", "t8_toppling", "t9_twist"]
 
 
 @pytest.mark.parametrize("stem", STEMS)
@@ -40,6 +40,8 @@ MUTANTS = [
     ("t2_shock_response", "prove(M * S, C * D", "prove(M * S, -C * D"),
     ("t6_shock_drift", "(2 + att**2) * P_X**2 + att**2 * sigma", "(2 - att**2) * P_X**2 + att**2 * sigma"),
     ("t6_shock_drift", "-k * apart + (y1 - y2) ** 2 / 2", "-k * apart + (y1 - y2) ** 2"),
+    ("t7_duration", "(P - G * Delta**2 / (2 * k)) / (2 * A)", "(P + G * Delta**2 / (2 * k)) / (2 * A)"),
+    ("t7_duration", "- att**2 * b / D)", "+ att**2 * b / D)"),
     ("t8_toppling", "e = b * nu**2 - G * nu / k", "e = b * nu**2 + G * nu / k"),
     ("t8_toppling", "(-(G_1 + G_2) * nu, 0, 0)", "(0, 0, 0)"),
     ("t9_twist", "2 * mu_1 * mu_3 - mu_1**2 / 2", "2 * mu_1 * mu_3"),
