@@ -76,19 +76,6 @@ def test_error_beside_a_fast_toppling_is_foreseen(lean: tuple[float, float], lin
     assert found < linear_error(scene, 5.0) < 1e3 * found
 
 
-def test_axes_bar_and_rates_are_consistent() -> None:
-    scene = replace(started(0.05), shock=Shock((3, 2, 1), 0.8, 0.05, 2))
-    h, t = 1e-5, np.linspace(0.1, 2, 20)
-    run = simulate(scene, t, "linear")
-    assert run.model == "linear" and run.evaluations == 0
-    assert np.linalg.norm(run.axes, axis=-1) == pytest.approx(1, abs=1e-14)
-    assert run.link_length == pytest.approx(BAR.length, abs=1e-14)
-    ahead, behind = (simulate(scene, t + s, "linear").axes for s in (h, -h))
-    assert (ahead - behind) / (2 * h) == pytest.approx(run.rates, abs=1e-7)
-    # Any time at once: a single time is what it is among others.
-    assert simulate(scene, [t[7]], "linear").axes[:, 0] == pytest.approx(run.axes[:, 7], abs=1e-14)
-
-
 def test_turning_about_the_joint_line_may_be_large() -> None:
     """A start turned by 2 rad about the joint line is the same motion, turned; with a shock turned too."""
     c, s = np.cos(2), np.sin(2)

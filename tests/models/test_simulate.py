@@ -3,8 +3,7 @@
 import re
 from dataclasses import replace
 from functools import lru_cache
-from math import cos, inf, nan, pi, sin, sqrt
-from typing import Any
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -18,45 +17,16 @@ TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
 
 
-@pytest.mark.parametrize(
-    ("t", "message"),
-    [
-        ([1, 0.5], "must increase; sort them"),
-        ([0, 1, 1], "must increase; sort them and drop repeated"),
-        ([0, nan], "not finite"),
-        ([0, inf], "not finite"),
-        ([], r"shape \(0,\): give a row"),
-        ([[0, 1], [2, 3]], r"shape \(2, 2\): give a row"),
-        ([-1, 1], "starts at -1 s"),
-        ("soon", "t = 'soon' is not an array of times"),
-        (None, "not finite|is not an array of times"),
-        ([0, "x"], "is not an array of times"),
-        ([[0], [1, 2]], "is not an array of times"),
-    ],
-)
-def test_times_that_make_no_sense_are_refused(t: Any, message: str) -> None:
-    with pytest.raises(InputError, match=f"simulate: .*({message})"):
-        simulate(UPRIGHT, t)
-
-
 def test_times_that_make_sense_are_kept() -> None:
     assert simulate(UPRIGHT, 0).t.tolist() == [0]
     assert simulate(UPRIGHT, (0, 1)).t.tolist() == [0, 1]
     assert simulate(UPRIGHT, [0.5]).t.tolist() == [0.5]
 
 
-@pytest.mark.parametrize("tol", [0, 1e-14, 0.11, -1e-9, nan, "tight"])
-def test_tolerances_out_of_range_are_refused(tol: Any) -> None:
-    with pytest.raises(InputError, match="simulate: tol = "):
-        simulate(UPRIGHT, [0, 1], tol=tol)
-
-
-def test_unknown_models_and_scenes_are_refused_by_name() -> None:
+def test_unknown_models_are_refused_by_name() -> None:
     known = "auto, closed_form, linear, minimal, spheres, euler"
     with pytest.raises(InputError, match=f"model = 'maximal' is not one of {known}"):
         simulate(UPRIGHT, [0, 1], model="maximal")
-    with pytest.raises(InputError, match="scene = 'two rotors' must be a Scene"):
-        simulate("two rotors", [0, 1])  # type: ignore[arg-type]
 
 
 def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:

@@ -1,0 +1,379 @@
+"""What a figure claims is true of the data it draws, and untrue of changed data.
+
+One row a claim: figure, sentence, whether it is true of the figure's facts (constants, arrays and measured numbers by
+name), and the twin: an array and a change that makes the claim false.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from lagrotor import Rotor, natural_rate
+from lagrotor.models.spring_link.system import RigidBodySystem
+from lagrotor.paper import scripts
+from lagrotor.pictures import figures
+
+
+def near(found, expected, share=1e-9):
+    """Equal to within a share of the larger of the two."""
+    return np.abs(found - expected).max() <= share * max(np.abs(found).max(), np.abs(expected).max())
+
+
+def off(d, name, other):
+    """Largest distance of two arrays."""
+    return np.abs(d[name] - d[other]).max()
+
+
+def length(vectors):
+    return np.linalg.norm(vectors, axis=-1)
+
+
+def apart(tips):
+    """Distance of the tips."""
+    return length(tips[1] - tips[0])
+
+
+def sense(arc):
+    """Sign of the turning of a curve about the vertical."""
+    steps = np.diff(arc, axis=0)
+    return np.sign(np.cross(steps[:-1], steps[1:])[:, 2].sum())
+
+
+def opening(arc):
+    """Angle (deg) from the first to the last point of an arc about the origin."""
+    return np.degrees(np.arccos(arc[0] @ arc[-1] / length(arc[0]) / length(arc[-1])))
+
+
+def after(d, name, since=2.2):
+    return d[name][d["t"] > since]
+
+
+def reach(centre):
+    return np.ptp(centre, axis=0)
+
+
+def wider(factor):
+    return lambda values: factor * values
+
+
+def moved(by):
+    return lambda values: values + by
+
+
+def rolled(values):
+    return np.roll(values, 3)
+
+
+def swapped(values):
+    return values[::-1]
+
+
+def growing(values):
+    """By a hundredth from the first to the last."""
+    return values * np.linspace(1, 1.01, values.shape[-1])
+
+
+def x_and_y(values):
+    return values[..., [1, 0, 2]]
+
+
+PUBLIC = {name for name, value in vars(RigidBodySystem).items() if callable(value) and not name.startswith("_")}
+
+SETUP = [
+    (1, "the bar joins two upright axes, one bar's length apart",
+     lambda d: near(apart(d["tips"]), 1) and near(d["tips"] - d["joints"], np.array([[0, 0, 1.0]] * 2)),
+     ("tips", wider(1.01))),
+    (1, "the spins are opposite", lambda d: sense(d["spins"][0]) * sense(d["spins"][1]) == -1,
+     ("spins", lambda arcs: arcs[[0, 0]])),
+    (2, "the force is shared in the ratio of the spins",
+     lambda d: near(d["forces"].sum(0), d["force"]) and near(d["forces"][0] * d["SPINS"][1], d["forces"][1] * d["SPINS"][0]),
+     ("forces", swapped)),
+    (2, "both tips move along r × F", lambda d: d["r' of rotor 1 against 2"] < 1e-12, ("forces", swapped)),
+    (3, "every public method of the simulator is named",
+     lambda d: {line.split("(")[0] for line in d["RigidBodySystem"]} == PUBLIC | {"RigidBodySystem"},
+     ("RigidBodySystem", lambda lines: lines[:-1])),
+    (4, "the force on vertex 1 is −S (X_1 − X_2), on vertex 2 its opposite",
+     lambda d: near(d["force"][0], -d["S"] * (d["vertices"][0, 1] - d["vertices"][1, 0])) and not d["force"].sum(0).any(),
+     ("force", swapped)),
+    (5, "the spring pulls the rotor's vertex back to the ground's",
+     lambda d: near(d["force"], d["S"] * (d["ground"] - d["vertices"][0])) and near(d["gap (m)"], length(np.array(d["MOVED"]))),
+     ("force", wider(-1))),
+    (6, "four links of no length, every centre half way", lambda d: d["gaps"].shape == (4, 3) and not d["gaps"].any()
+     and near(d["centres"], d["vertices"].mean(1)), ("gaps", moved(1e-6))),
+    (7, "the wheels turn at the spin, the axes stay upright",
+     lambda d: near(d["rate of the wheel (rad/s)"], 10) and d["tips, largest movement (m)"] < 1e-12, ("angle", wider(1.01))),
+    (7, "a quarter of a turn lies between the pictures",
+     lambda d: np.abs(10 * np.diff(d["shown"]) - np.pi / 2).max() < 10 * d["STEP"], ("shown", wider(1.1))),
+    (8, "with the springs' share the run begins at 2600 J, which the dampers only take away",
+     lambda d: near(d["total"][0], 100 + 2 * d["STIFFNESS"] * 0.5**2 / 2) and (np.diff(d["total"]) < 1e-9).all(),
+     ("total", swapped)),
+    (8, "the kinetic energy doubles in a spike and comes back to 100 J",
+     lambda d: d["kinetic"].max() > 200 and near(d["kinetic"][[0, -1]], np.array([100.0, 100])), ("kinetic", wider(1.01))),
+    (8, "it decays as the joints' mobility says, not at 2 S/D",
+     lambda d: near(d["decay of the kinetic energy (1/s)"], d["decay by the joints' mobility (1/s)"], 1e-2)
+     and not near(d["decay of the kinetic energy (1/s)"], 2 * d["STIFFNESS"] / d["DAMPING"], 1e-2),
+     ("kinetic", lambda energy: 100 + (energy - 100) ** 1.1)),
+    (9, "the energy stays at 100 J", lambda d: near(d["kinetic"], d["exact"]) and near(d["kinetic"], 100.0),
+     ("kinetic", growing)),
+    (10, "the shock lifts 100 J to the paper's 100.45 J, as in the exact model",
+     lambda d: abs(d["kinetic"].max() - 100.45) < 0.005 and abs(d["exact"][-1] - 100.45) < 0.005, ("kinetic", moved(0.01))),
+    (10, "after the shock the dampers take energy, the exact model none",
+     lambda d: after(d, "total")[-1] < after(d, "total")[0] and near(after(d, "exact"), d["exact"][-1]),
+     ("total", growing)),
+    (10, "the paper's step is stable", lambda d: d["longest stable step (s)"] > d["STEP"], None),
+    (11, "without spin the pair falls in x, and y stays at zero",
+     lambda d: reach(d["centre"])[0] > 0.8 and reach(d["centre"])[1] == 0, ("centre", x_and_y)),
+    (11, "the exact model is less than a millimetre away until the bar is in line",
+     lambda d: d["centre, off the exact model at its end (m)"] < 1e-3, ("exact_centre", moved(1e-3))),
+    *[(n, "x is held and y moves, by both models", lambda d: all(
+        reach(d[name])[0] < 0.2 and reach(d[name])[1] > 1.5 * reach(d[name])[0] for name in ("centre", "exact_centre")),
+       ("centre", x_and_y)) for n in (12, 13)],
+    *[(n, "the springs stay near the exact model, in place and in energy",
+       lambda d: length(d["centre"][-1] - d["exact_centre"][-1]) < 0.1 * reach(d["exact_centre"]).max()
+       and abs(d["energy after the shock (J)"] - d["exact energy after the shock (J)"]) < 0.05 * np.ptp(d["exact_energy"]),
+       ("centre", moved(0.1)))
+      for n in (12, 13)],
+    (14, "the angles are 60°, 40° and 43°, between the frames",
+     lambda d: [round(opening(d[name])) for name in ("varphi", "theta", "psi")] == [60, 40, 43]
+     and near(d["body"] @ d["body"].T, np.eye(3)), ("theta", lambda arc: arc[:-5])),
+    (14, "e_3 lies at the azimuth varphi − 90°", lambda d: d["e_3 against r(theta, varphi - pi/2)"] < 1e-12, ("body", swapped)),
+    (15, "the bar has its length, the axes their angles",
+     lambda d: near(apart(d["tips"]), 1) and d["axes against r(theta, phi)"] < 1e-12, ("theta", wider(1.01))),
+    (16, "the bar's shadow is shorter than the bar by the difference in height",
+     lambda d: apart(d["tips"]) < 0.999 and near(np.hypot(apart(d["tips"]), np.ptp(d["heights"])), 1), ("heights", wider(1.1))),
+    (16, "shadows are the sines of the inclinations long",
+     lambda d: near(length(d["tips"] - d["joints"]), d["sines"]), ("sines", swapped)),
+]  # fmt: skip
+
+THEORY = [
+    (17, "the ansatz needs a bar of up to √(1 + 4 r_0²), the exact orbit one of 1 m",
+     lambda d: near(d["ansatz_length"].max(), np.hypot(1, 2 * d["R0"]), 1e-4) and near(d["exact_length"], 1.0),
+     ("ansatz_length", wider(1.01))),
+    (17, "both meet on the x-axis and nowhere else",
+     lambda d: d["distance"][:, [0, 90, 180]].max() < 1e-6 < 1e-3 < d["distance"][:, 10:80].min(), ("distance", rolled)),
+    (18, "at constant inclination the length is √(1 + 4 r_0² sin²φ)",
+     lambda d: near(d["constant"], np.hypot(1, 2 * d["R0"] * np.sin(d["phi"]))), ("constant", rolled)),
+    (18, "the paper's correction is nearly constant and too long",
+     lambda d: np.ptp(d["paper"]) < np.ptp(d["constant"]) / 10 and near(d["paper"].min(), d["constant"].max()),
+     ("paper", moved(-0.08))),
+    (18, "the series stay near 1 m, order 3 nearest",
+     lambda d: np.abs(d["order_3"] - 1).max() < np.abs(d["order_2"] - 1).max() < np.abs(d["paper"] - 1).max() / 20,
+     ("order_3", moved(0.01))),
+    *[(n, "each order of the series is nearer to the exact orbit than the one before, all nearer than the paper",
+       lambda d, low=low, high=high: d[f"{high}_distance"].max() < d[f"{low}_distance"].max() / 4
+       and d[f"{low}_distance"].max() < d["paper_distance"].max() / 5 and near(apart(d["exact"]), 1.0),
+       (f"{high}_distance", moved(0.1))) for n, low, high in ((19, "order_2", "order_3"), (20, "order_3", "order_9"))],
+    (20, "a wide orbit is slower than the natural rate, and the paper's bar too long",
+     lambda d: d["exact_rate_ratio"][0] < 0.99 and d["paper_length"].min() > 1.4, ("exact_rate_ratio", wider(1.1))),
+    (21, "the corrected formula is nearer to the exact orbit than the paper's",
+     lambda d: off(d, "corrected", "exact") < off(d, "paper", "exact") / 5, ("corrected", moved(0.01))),
+    (21, "the paper's centre lacks r_0²", lambda d: abs(d["paper, mean residual of x_1 (m)"] + d["R0"] ** 2)
+     < d["R0"] ** 3 and abs(d["corrected, mean residual of x_1 (m)"]) < d["R0"] ** 4, ("paper", moved(0.01))),
+    (22, "nothing moves before the shock", lambda d: near(d["x"][:, d["t"] < 1.6], np.array([[-0.5], [0.5]]), 1e-6),
+     ("x", lambda x: x[:, ::-1])),
+    (22, "the rate is the natural one, but for the square of the amplitude",
+     lambda d: abs(d["rate (rad/s)"] / natural_rate(d["SCENE"]) - 1) < (np.ptp(after(d | {"x": d["x"][0]}, "x")) / 2) ** 2,
+     ("t", wider(1.1))),
+    (23, "the centres are skew, the left one above the x-axis, by 20° as the linear response says",
+     lambda d: d["centre 1, y (m)"] > 0.1 and d["centre 2, y (m)"] < -0.1 and near(d["angle"], d["predicted_angle"], 0.1),
+     ("centres", swapped)),
+    (23, "turn by turn the angle stays", lambda d: np.ptp(d["turn_angles"]) < abs(d["angle"] - d["predicted_angle"])[0] / 5,
+     ("turn_angles", growing)),
+    (24, "the rate with its amplitude is nearer to the measured one than the natural rate",
+     lambda d: off(d, "predicted_rate", "measured_rate") < off(d, "natural_rate", "measured_rate"),
+     ("predicted_rate", wider(1.01))),
+    (24, "the centres are 1 − r_0² apart, not 1 + r_0²", lambda d: abs(d["centre_distance"][0] - (1 - d["predicted_r0"][0] ** 2))
+     < abs(d["centre_distance"][0] - (1 + d["predicted_r0"][0] ** 2)) / 5, ("centre_distance", lambda c: 2 - c)),
+    (24, "half the distance of the tips is the series', not the paper's", lambda d:
+     d["corrected, half distance of the tips, largest residual (m)"]
+     < d["paper, half distance of the tips, largest residual (m)"] / 5, ("corrected", wider(1.1))),
+    *[(n, "the rate read off the exact spectrum is the closed form's, the springs' within a hundredth",
+       lambda d: near(d["rate, exact model (rad/s)"], d["closed_form_rate"], 1e-4)
+       and near(d["rate, spring model (rad/s)"], d["closed_form_rate"], 1e-2), ("exact_amplitude", rolled)) for n in (25, 27)],
+    *[(n, "the sine of the closed form fits better than the printed one",
+       lambda d: d["closed form, largest residual (m)"] < d["printed rate, largest residual (m)"] / 5,
+       ("corrected", wider(1.5))) for n in (25, 27)],
+    (26, "both methods swing alike, but not in step", lambda d: near(d["amplitude, exact model (m)"],
+     d["amplitude, paper's method (m)"], 1e-2) and off(d, "springs", "exact") > d["amplitude, exact model (m)"] / 2,
+     ("springs", lambda x: 1.05 * (x + 0.5) - 0.5)),
+    *[(28, f"the {bar} bar turns at its natural rate, not at 5.7", lambda d, bar=bar: near(d[f"{bar} bar, rate (rad/s)"],
+       d[f"{bar} bar, natural rate (rad/s)"], 1e-2) and abs(d[f"{bar} bar, rate (rad/s)"] - d["rate to match (rad/s)"]) > 1,
+       (f"{bar}_amplitude", rolled)) for bar in ("heavy", "light")],
+    *[(28, f"the sine at the natural rate of the {bar} bar keeps its phase",
+       lambda d, bar=bar: np.ptp(d[f"{bar}_natural_drift"]) < np.ptp(d[f"{bar}_printed_drift"]) / 20,
+       (f"{bar}_natural_drift", wider(100))) for bar in ("heavy", "light")],
+]  # fmt: skip
+
+PAST = [
+    ("t1", "equal spins do not feel the bar's inertia, opposite ones do",
+     lambda d: np.ptp(d["equal_by_inertia"]) < 1e-12 and np.ptp(d["opposite_by_inertia"]) > 0.1,
+     ("equal_by_inertia", growing)),
+    ("t1", "the paper's constant is J/(J + m R²/2) of equal spins", lambda d: near(
+        d["equal_by_inertia"], Rotor().J / (Rotor().J + d["MASS"] / 2)) and abs(d["equal_by_inertia"][0] - d["PRINTED"]) < 2e-3,
+     ("equal_by_inertia", moved(0.01))),
+    ("t1", "small exact motions have the natural frequency", lambda d: d["largest distance of the exact model (G/J)"] < 1e-4,
+     ("opposite_by_mass_tried", moved(0.001))),
+    ("t2", "the difference falls as the square of the force", lambda d: abs(d["power of the force"] - 2) < 0.02,
+     ("errors", lambda errors: errors**1.1)),
+    ("t2", "closed form and exact motion start at rest and part by less than the swing",
+     lambda d: np.abs(d["closed"][0]).max() < 1e-12 and off(d, "closed", "exact") < np.abs(d["exact"]).max() / 3,
+     ("closed", rolled)),
+    ("t3", "an order n has an error of order n + 1",
+     lambda d: all(abs(d[f"slope of order {n}"] - (n + 1)) < 0.1 for n in d["orders"]),
+     ("errors", lambda errors: errors**0.95)),
+    ("t3", "the errors stay below the bounds that the series give themselves",
+     lambda d: (d["errors"][[n - 1 for n in d["BOUNDED"]], :5] < d["bounds"]).all(), ("bounds", wider(0.3))),
+    *[("t4", f"bar {i}: order 9 is nearer to the exact frequency than order 3, both than the paper", lambda d, i=i: (
+        lambda e: abs(e("order 9")) < abs(e("order 3")) / 5 < abs(e("paper")) / 20)(
+            lambda name: d[f"{list(d['BARS'])[i]}: {name}, error at 0.4"]), (f"order 9, {i}", wider(1.1))) for i in range(3)],
+    ("t4", "a short bar slows the wide orbit, a long one speeds it up",
+     lambda d: (np.diff(d["exact, 1"]) < 0).all() and (np.diff(d["exact, 2"]) > 0).all(), ("exact, 1", swapped)),
+    ("t5", "the strength is near the leading term, and of its power",
+     lambda d: all(abs(d[f"power, b {sign} 0"] - power) < 0.2 for sign, power in (("=", 4), ("<", 3), (">", 3)))
+     and all(near(abs(s[0]), np.interp(0.08, d["fine"], law), 0.1) for s, law in zip(d["strength"], d["law"], strict=True)),
+     ("strength", wider(1.3))),
+    ("t5", "the orbits tried are elliptic below the edge and hyperbolic above", lambda d: all(
+        (strength > 0) == (r0 > np.interp(sigma, d["edge_sigma"], d["edge_r0"])) for sigma, r0, strength in d["tried"]),
+     ("edge_r0", wider(1.2))),
+    ("t6", "the drift vanishes near the paper's −11 N, on exact runs and to second order",
+     lambda d: abs(d["cancelling force, exact runs (N)"] + 11) < 0.1 and abs(d["cancelling force, second order (N)"] + 11) < 0.5,
+     ("exact", moved(0.05))),
+    ("t6", "the paper's force leaves less than a hundredth of the drift", lambda d: abs(
+        d["exact rate with the paper's force (rad/s)"]) < abs(d["exact rate without a force along y (rad/s)"]) / 100,
+     ("exact", moved(0.05))),
+    ("t6", "the closed form runs beside the exact drift", lambda d: off(d, "closed_tried", "exact") < np.ptp(d["exact"]) / 10,
+     ("closed_tried", wider(1.5))),
+    ("t7", "times fall as the square of the force and as its cube", lambda d: abs(d["power of the force, leaning"] + 2) < 0.05
+     and abs(d["power of the force, x"] + 3) < 0.05, ("leave", lambda times: times**1.1)),
+    ("t7", "laws and exact times agree to a tenth, more closely for weak shocks", lambda d: all(
+        abs(d[name] / d[f"{name}_law"] - 1)[0] < abs(d[name] / d[f"{name}_law"] - 1)[-1] < 0.1 for name in ("lean", "leave")),
+     ("lean", swapped)),
+    ("t8", "unstable exactly where b nu² < G nu/k", lambda d: all(
+        (np.abs(growth[edge := np.abs(d["rates"] * (d["SPIN"] - b * d["rates"])) > 1e-6] > 0)
+         == (d["rates"] * (d["SPIN"] - b * d["rates"]) > 0)[edge]).all()
+        for growth, b in zip(d["growth"], (0, -0.75, 0.25), strict=True)), ("growth", lambda growth: growth[:, ::-1])),
+    ("t8", "the exact tilt grows as the closed form", lambda d: d["largest relative distance, measured growth"] < 0.01,
+     ("measured", wider(1.02))),
+    ("t8", "one sense of the shock is stable, the other not",
+     lambda d: np.ptp(d["x"][0]) < np.ptp(d["x"][1]) / 2, ("x", swapped)),
+    ("t9", "a twist is stable up to K = m ell²/4 and grows above", lambda d: all(
+        not growth[d["inertia"] <= d["EDGE"]].any() and (growth[d["inertia"] > 1.1 * d["EDGE"]] > 0).all()
+        for growth in (*d["closed"], *d["hill"])), ("inertia", wider(1.2))),
+    ("t9", "exact growth is Hill's; the closed form is nearer on the narrow cone",
+     lambda d: d["largest relative distance from Hill's equation"] < 1e-4
+     and np.abs(d["closed"] / np.maximum(d["hill"], 1e-9) - 1)[0, -1] < np.abs(d["closed"] / d["hill"].clip(1e-9) - 1)[1, -1],
+     ("exact", wider(1.001))),
+    ("t10", "E, G_1, P and B are conserved", lambda d: d["largest swing of E, G_1, P, B"] < 1e-9, ("P", moved(1e-8))),
+    ("t10", "the paper's A is not: it swings as the square of the amplitude",
+     lambda d: abs(d["power of A's swing"] - 2) < 0.1 and d["A"].min() > 1e-3, ("A", lambda swings: swings**1.5)),
+    ("b1", "no method lies below the front", lambda d: all(
+        any(n <= spent and error <= least for n, error in d["front"])
+        for spent, least in zip(d["evaluations"].ravel(), d["errors"].ravel(), strict=True) if least == least),
+     ("front", wider(2))),
+    ("b1", "for 1e-9 m Runge–Kutta of order 5 needs most evaluations, several times the best", lambda d: (lambda need: np.nanmax(
+        need) == need[list(d["LOOKS"]).index("solve_ivp, RK45")] > 5 * np.nanmin(need))(
+            np.nanmin(np.where(d["errors"] <= 1e-9, d["evaluations"], np.nan), axis=1)), ("evaluations", swapped)),
+    ("m1", "for opposite spins each order is better up to r_0 = 0.4", lambda d: (
+        np.diff(d["errors"][:, 0, (d["amplitudes"] > 0.02) & (d["amplitudes"] < 0.4)], axis=0) < 0).all(), ("errors", swapped)),
+    ("m1", "a departure of the spins does as much at every order", lambda d: all(near(
+        errors[d["departures"] > 0.015, 0], d["errors"][1, d["departures"] > 0.015, 0], 0.05) for errors in d["errors"]),
+     ("errors", lambda errors: errors * np.array([1, 2, 3])[:, None, None])),
+]  # fmt: skip
+
+CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
+
+DIAGRAMS = {"1": 1, "2": 1, "3": 1, "4": 1, "5": 1, "6": 1, "7": 4, "14": 1, "15": 1}  # key → panels, without axes
+PLOTS = {  # key → panels, entries of the legend
+    **{"8": (3, 2), "9": (1, 2), "10": (2, 2), "11": (3, 4), "12": (3, 4), "13": (3, 4), "16": (1, 0)},
+    **{"17": (3, 6), "18": (2, 5), "19": (2, 5), "20": (2, 5), "21": (3, 3), "22": (3, 3)},
+    **{"23": (2, 5), "24": (3, 3), "25": (4, 4), "26": (3, 2), "27": (4, 4), "28": (4, 4)},
+    **{"t1": (2, 6), "t2": (3, 6), "t3": (2, 12), "t4": (3, 4), "t5": (2, 9)},
+    **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12)},
+}
+UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²"}
+
+
+def test_every_figure_makes_a_claim():
+    keys = [key for key in figures.stems() if key[0] != "m" or key == "m1"]
+    assert set(keys) == {key for key, *_ in CLAIMS} == set(DIAGRAMS) | set(PLOTS) | {"m1"}
+
+
+@pytest.mark.parametrize(
+    ("key", "sentence", "claim", "twin"), CLAIMS, ids=lambda value: value if isinstance(value, str) else ""
+)
+def test_the_claim_is_true_and_false_of_changed_data(drawn, key, sentence, claim, twin):
+    assert claim(drawn(key).facts())
+    if twin:
+        assert not claim(drawn(key).changed_facts(*twin))
+
+
+@pytest.mark.parametrize("key", [*DIAGRAMS, *PLOTS, "m1"])
+def test_text(drawn, key):
+    found = drawn(key).names
+    assert found["TITLE"]
+    for text, most in ((found["CAPTION"], 900), (found["ALT"], 600)):
+        assert 100 < len(text) < most and text.endswith(".") and not re.search(r"\bnan\b", text)
+    assert np.isfinite(list(drawn(key).measured.values())).all()
+
+
+@pytest.mark.parametrize("key", [str(n) for n in range(7, 14)])
+def test_captions_say_how_it_was_simulated(drawn, key):
+    """Model, step, stiffness and bar."""
+    words = ("Spring-link model", "step of 0.001 s", "N/m", "bar of 1 kg")
+    assert all(word in drawn(key).names["CAPTION"] for word in words)
+
+
+def unit(label):
+    return label.rpartition("[")[2].removesuffix("]") if label.endswith("]") else None
+
+
+@pytest.mark.parametrize("key", PLOTS)
+def test_structure_of_a_plot(drawn, key):
+    """A title where panels are several, units in square brackets, equal scales from above, one legend below the panels."""
+    (panels, entries), picture = PLOTS[key], drawn(key).picture
+    assert len(picture.axes) == panels
+    assert picture.get_suptitle() == drawn(key).names["TITLE"]
+    for panel in picture.axes:
+        assert panel.axison and panel.get_legend() is None
+        assert panel.get_title() or panels == 1
+        assert unit(panel.get_ylabel()) in UNITS
+        if panel.xaxis.get_tick_params().get("labelbottom", True):
+            assert unit(panel.get_xlabel()) in UNITS
+        if key == "16" or panel.get_title().startswith("Top view"):
+            assert panel.get_aspect() == 1
+    labels = [text.get_text() for legend in picture.legends for text in legend.get_texts()]
+    assert len(picture.legends) == min(entries, 1)
+    assert len(set(labels)) == len(labels) == entries
+    assert set(labels) <= {label for panel in picture.axes for label in panel.get_legend_handles_labels()[1]}
+
+
+@pytest.mark.parametrize("key", [str(n) for n in range(17, 29) if n not in (22, 23)])
+def test_analytical_curves_have_a_residual(drawn, key):
+    titles = [panel.get_title() for panel in drawn(key).picture.axes]
+    assert any("Residual" in title or "Phase of the sine" in title for title in titles)
+
+
+@pytest.mark.parametrize("key", DIAGRAMS)
+def test_structure_of_a_diagram(drawn, key):
+    picture = drawn(key).picture
+    assert len(picture.axes) == DIAGRAMS[key]
+    assert picture.get_suptitle().startswith(drawn(key).names["TITLE"])
+    assert picture.legends == []
+    for panel in picture.axes:
+        assert not panel.axison and panel.get_legend() is None
+        assert panel.get_aspect() == 1
+
+
+def test_every_derivation_past_the_paper_has_its_figure():
+    assert scripts.names("derivations", "t") == [stem for key, stem in figures.stems().items() if key.startswith("t")]
+
+
+def test_drawn_twice_is_the_same_bytes(tmp_path):
+    folders = [tmp_path / name for name in ("one", "two")]
+    for folder in folders:
+        folder.mkdir()
+    first, second = (figures.draw("17", folder) for folder in folders)
+    assert first.svg.read_bytes() == second.svg.read_bytes()
+    assert first.png.read_bytes() == second.png.read_bytes()
+    assert first.measured == second.measured
