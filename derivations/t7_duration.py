@@ -127,7 +127,8 @@ Remark(
     f"After a shock F along x the pair turns about the joint line as F² (measured {slopes[0]:.3f}) and the mean of x leaves "
     f"as F³ (measured {slopes[1]:.3f}; exact mean rates over those of the closed form {', '.join(f'{v:.3f}' for v in ratios)}; "
     f"error given at 6.3 N {error:.0f} %). At the initial rates a turn by 0.5 rad takes "
-    f"{', '.join(f'{v:.3g}' for v in lean)} s and the mean of x keeps within {bound} for {', '.join(f'{v:.3g}' for v in leave)} s at F = {', '.join(map(str, forces))} N.",
+    f"{', '.join(f'{v:.3g}' for v in lean)} s and the mean of x keeps within {bound} "
+    f"for {', '.join(f'{v:.3g}' for v in leave)} s at F = {', '.join(map(str, forces))} N.",
 )
 
 # %% [markdown]
