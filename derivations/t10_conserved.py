@@ -141,7 +141,7 @@ for amplitude in amplitudes:
 order = measured_order(amplitudes, swings)
 Remark(
     "The paper's A",
-    f"B = G_1 − G_2 is exact; A swings on the paired precession by "
+    "B = G_1 − G_2 is exact; A swings on the paired precession by "
     + ", ".join(f"{value:.4f} at r_0 = {r}" for r, value in zip(amplitudes, swings, strict=True))
     + f" kg m²/s, as r_0^{order:.2f}.",
 )

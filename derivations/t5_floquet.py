@@ -318,5 +318,6 @@ Remark(
     "Elliptic to hyperbolic",
     "The edge at k = 1, its given error, and that of exact orbits: "
     + "; ".join(f"σ = {value}: {said:.4f} ± {given:.4f}, {seen:.4f}" for value, (said, given, seen) in edges.items())
-    + f". The law is asymptotic in σ − 1: its relative error grows from {100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
+    + ". The law is asymptotic in σ − 1: its relative error grows from "
+    + f"{100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
 )

@@ -63,7 +63,12 @@ prove(quartic, leaning + swinging, "the fourth order of the Lagrangian", names="
 
 # %%
 rate = (P - G * Delta**2 / (2 * k)) / (2 * (a + b))
-prove(quartic.diff(alpha_v).subs(alpha_v, rate), P, "the momentum about the joint line", names=r"\partial L_4/\partial\dot\alpha")
+prove(
+    quartic.diff(alpha_v).subs(alpha_v, rate),
+    P,
+    "the momentum about the joint line",
+    names=r"\partial L_4/\partial\dot\alpha",
+)
 
 # %% [markdown]
 # and leaves the Routhian $R_4=L_4-P\dot\alpha$ in $U$, $\Delta$:
@@ -132,12 +137,18 @@ prove(
 # The mean twist stays; turning about the joint line carries it into $x$.
 
 # %%
-prove(slow_rates(), (G * TWIST * bracket / (8 * (a + b)), 0), "which the library holds", names=(r"\dot X", r"\dot\Delta_s"))
+prove(
+    slow_rates(),
+    (G * TWIST * bracket / (8 * (a + b)), 0),
+    "which the library holds",
+    names=(r"\dot X", r"\dot\Delta_s"),
+)
 
 # %% [markdown]
 # ## After a shock
 #
-# The shock leaves $\Delta_s=p_x/G$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $d^2=A_w^2(p_x^2+\sigma p_y^2)/G^2$ (t6). Along $x$ alone:
+# The shock leaves $\Delta_s=p_x/G$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $d^2=A_w^2(p_x^2+\sigma p_y^2)/G^2$ (t6).
+# Along $x$ alone:
 
 # %%
 law = P_X**3 / (8 * (a + b) * G**2) * ((2 + att**2) / k**2 - att**2 * b / (a - b))
@@ -191,8 +202,8 @@ Remark(
 # ## Times: of the mean, and of an axis
 #
 # Two different quantities. The mean of $x$ over the swing, of both axes, reaches the bound after about $0.1/\dot X$, if the
-# initial rate lasts; an axis itself swings, by about $p_x\sqrt{\sigma}/(\dots)$ of first order, and may pass the bound within
-# the first swing.
+# initial rate lasts; an axis itself swings, in first order by $A_wp_x/(2G\sqrt\sigma)$, and may pass the bound within the
+# first swings.
 
 
 # %%
@@ -223,11 +234,13 @@ Remark(
     "How long x stays",
     f"By the initial rate the mean of x, over the swing and both axes, keeps within {BOUND:g} for "
     + "; ".join(
-        f"{time:.3g} s at {force:g} N ({'beyond the range of the law' if error is None else f'rate known to {100 * error:.0f} %'})"
+        f"{time:.3g} s at {force:g} N "
+        + ("(beyond the range of the law)" if error is None else f"(rate known to {100 * error:.0f} %)")
         for force, (time, error) in times.items()
     )
-    + f". Followed on the exact run at {strong:g} N it takes {followed:.2f} s. An axis itself passes {BOUND:g} much earlier there, "
-    f"by its swing: x_1 after {single[0]:.2f} s, x_2 after {single[1]:.2f} s. By the initial rate of turning the pair leans by "
+    + f". Followed on the exact run at {strong:g} N it takes {followed:.2f} s. An axis itself passes {BOUND:g} much "
+    f"earlier there, by its swing: x_1 after {single[0]:.2f} s, x_2 after {single[1]:.2f} s, counted from the pulse's peak. By "
+    "the initial rate of turning the pair leans by "
     f"{LEAN:g} rad after " + ", ".join(f"{time:.3g} s" for time in lean.values()) + ".",
 )
 

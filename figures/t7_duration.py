@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Figure t7: how long the x direction stays stable
 #
-# Times to lean by half a radian about the joint line and for the mean x to walk away by a tenth, against the force of
-# the shock over a decade; and one run, in which leaning carries the twist into x.
+# Times to lean by half a radian about the joint line and for the mean of x, over the swing and both axes, to move by a
+# tenth, against the force of the shock over a decade, by the initial rates; and one run, in which leaning carries the twist
+# into x.
 
 # %%
 from functools import cache
