@@ -36,6 +36,7 @@ TABLE = {
         "test_integrate.py::test_tolerances_out_of_reach_are_refused",
     ),
     "GIVEN_UP": Calibrated(1e-5, "local error beyond which no looser run is tried", _WIDE, _TRIAL),
+    "LOST": Calibrated(0.1, "error at which two runs have parted; where no tolerance keeps below it, none is tried", _WIDE, _TRIAL),
     "ROUNDING": Calibrated(2e-15, "error a turn that no tolerance avoids", _WIDE, _TRIAL),
     "KEPT": Calibrated(
         100.0,
@@ -62,7 +63,7 @@ TABLE = {
         "test_choose.py::test_the_fast_extra_misses_none_either_and_foresees_only_long_runs",
     ),
 }
-APART, CLEARLY, FIRST, LOOSEST, GIVEN_UP, ROUNDING, KEPT, LINEAR_MARGIN, GATHERED, SHORT = (
+APART, CLEARLY, FIRST, LOOSEST, GIVEN_UP, LOST, ROUNDING, KEPT, LINEAR_MARGIN, GATHERED, SHORT = (
     entry.value for entry in TABLE.values()
 )
 

@@ -7,7 +7,7 @@
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import exp, inf, pi, sqrt
 from typing import Any, NamedTuple
@@ -16,9 +16,10 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.errors import DomainError
+from lagrotor.errors import DomainError, LagrotorError
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.model import Array, Observed, constant_momenta
+from lagrotor.models.periodic_orbit import parting, periodic_orbit
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.theory.natural_frequency import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
@@ -30,6 +31,7 @@ FURTHER = (17, 19, 21)  # a second to derive: only where this model is asked for
 FARTHEST_APART = 1e-14  # of two axes that count as parallel: rounding; a twist grows in ways that depend on the bar
 FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
+LONG = 300.0  # rad beyond which a period is integrated where the series does not reach the tolerance
 LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 _ROUND = 4e-16  # relative, of an angle
@@ -251,7 +253,20 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     error += (mismatch + _ROUND) * (turned + growth)
     error = error if error < _SMALL else 2.0  # a large slip says nothing but that two axes are at most opposite
     frequency = signed * float(powers @ series.frequency)
-    return _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
+    answer = _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
+    return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)
+
+
+def _over_periods(scene: Scene, series: Answer, frequency: float, t_end: float) -> Answer:
+    """For a long run that the series cannot follow: one period integrated, where the start returns to itself."""
+    try:
+        orbit = periodic_orbit(replace(scene, shock=None), 2 * pi / abs(frequency))
+    except LagrotorError:
+        return series
+    error = (orbit.mismatch + _ROUND) * (abs(frequency) * t_end + parting(orbit, t_end))
+    if not error < min(series.error, _SMALL):
+        return series
+    return Answer(error, "on its paired precession: Fourier series of one integrated period", orbit.motion)
 
 
 @lru_cache(maxsize=64)

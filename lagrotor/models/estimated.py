@@ -5,13 +5,13 @@ what was promised, the run has reached its horizon.
 """
 
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, log
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
-from lagrotor.models.calibrated import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, ROUNDING
+from lagrotor.models.calibrated import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, LOST, ROUNDING
 from lagrotor.models.conserved import PulseNodes, conservation_defect, pulse_nodes
 from lagrotor.models.integrated import integrated
 from lagrotor.models.model import Array, Model, Observed
@@ -27,7 +27,7 @@ _SAMPLES = 65  # times at which a run is watched besides those it is read at
 class Estimated:
     """A run at its times: the largest error of an axis up to each of them (n,), the horizon, evaluations of all its runs.
 
-    tol: the local error of the better run.
+    tol: the local error of the better run. lost: when the estimate exceeds LOST.
     """
 
     seen: Observed
@@ -35,6 +35,7 @@ class Estimated:
     horizon: float
     nfev: int
     tol: float
+    lost: float = inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +100,7 @@ def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: 
             stopped = stopped or refusal
         if stopped and (best or bounded or loose > GIVEN_UP):
             break
-        if best and (best.errors[-1] <= wanted or loose <= 3 * TIGHTEST):
+        if best and (best.errors[-1] <= wanted or loose <= 3 * TIGHTEST or _hopeless(best, loose, float(watched.t[-1]))):
             break
         loose = loose * APART if best is None else max(min(tight, loose * wanted / best.errors[-1] / 2), 3 * TIGHTEST)
     if best is None:
@@ -127,8 +128,15 @@ def _estimated(
             f"{watched.model.name}: energy, momentum or the bar's length is off by as much as an error of {defect:.1e} "
             f"makes, although {error:.1e} is estimated: the run followed another motion; use another model or a smaller tol"
         )
-    beyond = errors > promised
-    horizon = float(t[np.argmax(beyond)]) if beyond.any() else inf
     read = watched.read
     seen = Observed(tight.axes[:, read], tight.rates[:, read], tight.momenta[:, read])
-    return Estimated(seen, errors[read], horizon, nfev, tol)
+    return Estimated(seen, errors[read], _first(t, errors > promised), nfev, tol, _first(t, errors > LOST))
+
+
+def _first(t: Array, where: NDArray[np.bool_]) -> float:
+    return float(t[np.argmax(where)]) if where.any() else inf
+
+
+def _hopeless(found: Estimated, loose: float, t_end: float) -> bool:
+    """Whether neighbours part so fast that no tolerance keeps LOST to the end: a difference loose e^(λt) has λ from `lost`."""
+    return found.lost * log(LOST / TIGHTEST) < t_end * log(LOST / loose)

@@ -34,14 +34,14 @@ class Direct:
     reason: str
 
 
-def _closed_form(scene: Scene, times: Array, tol: float) -> Direct:
-    answer = closed_form(scene, float(times[-1]), tol, best=True)
+def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
+    answer = closed_form(scene, float(times[-1]), tol, best)
     seen = Observed(*answer.motion(times), constant_momenta(scene, len(times)))
     missed = ", more than tol" if answer.error > tol else ""
     return Direct(seen, answer.error, f"asked for; {answer.reason}; estimated error {answer.error:.1e}{missed}")
 
 
-def _linear(scene: Scene, times: Array, tol: float) -> Direct:
+def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     seen = linear_run(scene, times)
     try:
         return Direct(seen, LINEAR_MARGIN * linear_error(scene, float(times[-1])), "asked for")
@@ -49,7 +49,8 @@ def _linear(scene: Scene, times: Array, tol: float) -> Direct:
         return Direct(seen, nan, "asked for")
 
 
-DIRECT: dict[str, Callable[[Scene, Array, float], Direct]] = {"closed_form": _closed_form, "linear": _linear}
+# (scene, times, tol, whether to give the best there is, by name, or what `choose` took)
+DIRECT: dict[str, Callable[[Scene, Array, float, bool], Direct]] = {"closed_form": _closed_form, "linear": _linear}
 
 
 def check_times(t: ArrayLike) -> Array:
@@ -99,7 +100,7 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     if model == "auto":
         return _automatic(scene, times, tolerance, engine)
     if model in DIRECT:
-        direct = DIRECT[model](scene, times, tolerance)
+        direct = DIRECT[model](scene, times, tolerance, True)
         return _direct(scene, model, direct.reason, times, direct, tolerance)
     if model not in MODELS:
         raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join((*DIRECT, *MODELS))}")
@@ -131,7 +132,7 @@ def _by_name(model: Model, scene: Scene, times: Array, tol: float, engine: str) 
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
     choice = choose(scene, float(times[-1]), tol, engine)
     if choice.model in DIRECT:
-        direct = DIRECT[choice.model](scene, times, tol)
+        direct = DIRECT[choice.model](scene, times, tol, False)
         return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tol)
     units, why = _in_units(scene, times), choice.reason
     if choice.model == "minimal":

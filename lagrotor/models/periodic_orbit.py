@@ -1,0 +1,91 @@
+"""A motion that returns to its start after one period: integrated once over that period, then a Fourier series at any time."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.models.integrated import integrated, problem_of
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.model import Array
+from lagrotor.models.natural_units import natural_units
+from lagrotor.numerics.integrate import TIGHTEST, integrate
+from lagrotor.pair.scene import Scene
+
+_SAMPLES = 256  # of one period: harmonics to 127
+_STEP = 1e-5  # of the central differences: their error is of order 1e-10
+_LEAST = 1e-16  # of a harmonic that is kept
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicOrbit:
+    """period (s); mismatch: how far axes, and rates over the frequency, are from the start after one period, and what the
+    series leaves out; monodromy (6, 6): of small deviations over one period, in the minimal model's natural units; motion:
+    times (n,) in s → axes and rates, each (2, n, 3)."""
+
+    period: float
+    mismatch: float
+    monodromy: Array
+    motion: Callable[[Array], tuple[Array, Array]]
+
+
+def periodic_orbit(scene: Scene, period: float) -> PeriodicOrbit:
+    """The scene's motion, its period known to a small share, as the Fourier series of one integrated period.
+
+    The period is corrected so that the axes return as nearly as they do: r(T) − r(0) + r'(0) dT is least. Raises
+    SingularError or IntegrationError where `minimal` cannot run the scene over a period.
+    """
+    units = natural_units(scene)
+    turn = period * units.rate
+    for _ in range(3):
+        seen = integrated(MODEL, units.scene, turn * np.linspace(0.0, 1.0, _SAMPLES + 1), TIGHTEST, bounded=True).seen
+        off, ahead = seen.axes[:, -1] - seen.axes[:, 0], seen.rates[:, 0]
+        shift = float((off * ahead).sum() / (ahead**2).sum())
+        last, turn = turn, turn - shift
+    turning = (seen.rates[:, -1] - seen.rates[:, 0]) * last / (2 * np.pi)
+    waves = np.fft.rfft(seen.axes[:, :-1], axis=1) / _SAMPLES
+    sizes = np.abs(waves).max(axis=(0, 2))
+    kept = int(np.flatnonzero(sizes > _LEAST).max()) + 1
+    tail = float(sizes[_SAMPLES // 4 :].sum())
+    return PeriodicOrbit(
+        last / units.rate,
+        float(np.abs(off).max() + np.abs(turning).max()) + tail,
+        _monodromy(units.scene, last),
+        _series(waves[:, :kept], 2 * np.pi * units.rate / last),
+    )
+
+
+def parting(orbit: PeriodicOrbit, t_end: float) -> float:
+    """How far deviations from the orbit grow up to t_end (s): the largest norm of the monodromy's powers of 2ⁿ periods."""
+    power, most, count = orbit.monodromy, 1.0, t_end / orbit.period
+    while count >= 1 and most < 1e20:
+        most, power, count = max(most, float(np.linalg.norm(power, 2))), power @ power, count / 2
+    return 2 * most  # between two powers of two
+
+
+def _monodromy(scene: Scene, turn: float) -> Array:
+    """d state(T)/d state(0), by central differences of integrations over a period."""
+    problem = problem_of(MODEL, scene, turn)
+    ends = [
+        [
+            integrate(replace(problem, start=problem.start + sign * step), np.array([turn]), 1e-12).states[0]
+            for sign in (1, -1)
+        ]
+        for step in _STEP * np.eye(len(problem.start))
+    ]
+    return np.array([ahead - behind for ahead, behind in ends]).T / (2 * _STEP)
+
+
+def _series(waves: NDArray[np.complex128], frequency: float) -> Callable[[Array], tuple[Array, Array]]:
+    """t ↦ axes and rates from the waves (2, h, 3) of non-negative harmonics."""
+    weights = np.where(np.arange(waves.shape[1]) == 0, 1.0, 2.0)[:, None] * waves
+    slopes = 1j * frequency * np.arange(waves.shape[1])[:, None] * weights
+    table = np.concatenate([weights, slopes]).transpose(1, 0, 2).reshape(waves.shape[1], 12)
+
+    def motion(t: Array) -> tuple[Array, Array]:
+        turns = np.exp(1j * frequency * t[:, None] * np.arange(waves.shape[1]))
+        both = np.real(turns @ table).reshape(len(t), 2, 2, 3).transpose(1, 2, 0, 3)
+        return both[0], both[1]
+
+    return motion
