@@ -36,7 +36,9 @@ TABLE = {
         "test_integrate.py::test_tolerances_out_of_reach_are_refused",
     ),
     "GIVEN_UP": Calibrated(1e-5, "local error beyond which no looser run is tried", _WIDE, _TRIAL),
-    "LOST": Calibrated(0.1, "error at which two runs have parted; where no tolerance keeps below it, none is tried", _WIDE, _TRIAL),
+    "LOST": Calibrated(
+        0.1, "error at which two runs have parted; where no tolerance keeps below it, none is tried", _WIDE, _TRIAL
+    ),
     "ROUNDING": Calibrated(2e-15, "error a turn that no tolerance avoids", _WIDE, _TRIAL),
     "KEPT": Calibrated(
         100.0,

@@ -100,7 +100,9 @@ def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: 
             stopped = stopped or refusal
         if stopped and (best or bounded or loose > GIVEN_UP):
             break
-        if best and (best.errors[-1] <= wanted or loose <= 3 * TIGHTEST or _hopeless(best, loose, float(watched.t[-1]))):
+        if best and (
+            best.errors[-1] <= wanted or loose <= 3 * TIGHTEST or _hopeless(best, loose, float(watched.t[-1]))
+        ):
             break
         loose = loose * APART if best is None else max(min(tight, loose * wanted / best.errors[-1] / 2), 3 * TIGHTEST)
     if best is None:

@@ -1,9 +1,6 @@
 """What a derivation says besides its proofs and verdicts."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-
-from lagrotor.paper.tables import Table
 
 
 @dataclass(frozen=True)
@@ -15,8 +12,3 @@ class Remark:
 
     def _repr_markdown_(self) -> str:
         return f"**{self.title}.** {self.text}"
-
-
-def findings_table(findings: Iterable[tuple[str, str]]) -> Table:
-    """What a script found beyond the judged equations."""
-    return Table("Findings", ("what", "found"), tuple(findings))

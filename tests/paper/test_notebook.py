@@ -6,9 +6,9 @@ import pytest
 import sympy as sp
 
 from lagrotor.paper import ledger
-from lagrotor.paper import notebook as shown
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.notebook import Remark
 
 x = sp.Symbol("x", real=True)
 HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))
@@ -56,6 +56,5 @@ def test_a_claim_is_evaluated_once() -> None:
     assert calls == [(1, 1)]
 
 
-def test_findings_are_a_table() -> None:
-    html = shown.findings_table([("twist", "it grows")])._repr_html_()
-    assert html.index(">twist<") < html.index(">it grows<")
+def test_a_remark_is_shown_under_its_heading() -> None:
+    assert Remark("Twist", "it grows")._repr_markdown_() == "**Twist.** it grows"

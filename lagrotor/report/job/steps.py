@@ -47,10 +47,10 @@ def derive(stem: str, folder: Path) -> Derived:
     """Run a derivation and judge what it states."""
     verdicts = audit.judged(stem)
     script = scripts.executed("derivations", stem)
-    remarks = [*script.names.get("findings", ()), *((r.title, r.text) for r in script.shown(Remark))]
+    remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = script.names.get("tables", ()) if stem[0] in "mpb" else ()
     html = derivation_html(stem, {v.id: v.verdict for v in verdicts})
-    return Derived(stem, title(stem), tuple(verdicts), tuple(map(tuple, remarks)), tuple(tables), html)
+    return Derived(stem, title(stem), tuple(verdicts), remarks, tuple(tables), html)
 
 
 def measure(identifier: str, folder: Path) -> dict[str, float]:
