@@ -6,20 +6,20 @@ import tempfile
 from collections.abc import Callable, Mapping
 from hashlib import sha256
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any, TypeAlias
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
-
-import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.about import __version__
 from lagrotor.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4")
 # Bytes of one array and of the description; larger ones are not read.
 _LARGEST, _LARGEST_ABOUT = 2**31, 2**20
 
-Arrays = dict[str, NDArray[Any]]
+Arrays: TypeAlias = "dict[str, NDArray[Any]]"
 
 
 def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
@@ -52,6 +52,8 @@ def write_text(target: Path, text: str) -> Path:
 
 def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Path:
     """Write arrays as .npz with a description: `about`, the version, and a digest of the whole, as JSON."""
+    import numpy as np
+
     described = {**about, "lagrotor": __version__}
     described["digest"] = _digest(described, arrays)
     return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(described), **arrays))
@@ -80,8 +82,10 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
     return about, found
 
 
-def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> NDArray[Any]:
+def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
     """One array, read once its header has been found to agree with its size."""
+    import numpy as np
+
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
         raise InputError(f"{path}: {name} is compressed in an unknown way: make it anew")
     with held.open(entry) as file:
@@ -98,7 +102,9 @@ def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> NDArray
     return np.frombuffer(data, dtype).reshape(shape).copy()
 
 
-def _digest(about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:
+def _digest(about: Mapping[str, Any], arrays: "Mapping[str, NDArray[Any]]") -> str:
+    import numpy as np
+
     whole = sha256(json.dumps(about, sort_keys=True).encode())
     for name, values in sorted(arrays.items()):
         whole.update(f"{name} {values.dtype.str} {values.shape}".encode())
