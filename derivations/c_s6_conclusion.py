@@ -10,6 +10,8 @@
 
 # %%
 from lagrotor.paper.claims.freedoms_and_modes import C24
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.premises import TWO_MODES
 
 # %% [markdown]
 # ## C24
@@ -20,7 +22,10 @@ from lagrotor.paper.claims.freedoms_and_modes import C24
 # $x_1 : x_2 = 1 : 1$ and $y_1 : y_2 = 1 : -1$. What is left of the largest motion must be below 10⁻³. Equal spins have neither:
 # their axes precess together, and it is the twist that turns steadily.
 #
-# Equation 6.01 prints the same sentence and is judged under the same condition.
+# Equation 6.01 prints the same sentence and is judged under the same condition:
+
+# %%
+Remark("Condition", TWO_MODES.says)
 
 # %%
 C24

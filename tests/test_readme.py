@@ -1,6 +1,5 @@
 """The README is true: its Python runs, its table is that of the record, its commands exist."""
 
-import json
 import re
 import subprocess
 import sys
@@ -48,9 +47,10 @@ def test_the_shell_commands_are_understood(capsys: pytest.CaptureFixture[str], t
 
 
 def test_the_table_of_verdicts_is_the_record() -> None:
-    record = json.loads((ROOT / "lagrotor/paper/recorded.json").read_text(encoding="utf-8"))
+    from lagrotor.paper.record import recorded
+
     for kind, pattern in (("equations", r"\d"), ("claims", "C")):
-        counts = Counter(verdict for name, verdict in record.items() if re.match(pattern, name))
+        counts = Counter(row.verdict for name, row in recorded().items() if re.match(pattern, name))
         said = re.search(rf"\| {kind} \| (.*) \|", text())
         assert said, kind
         assert said[1] == ", ".join(f"{n} {verdict}" for verdict, n in counts.most_common())

@@ -39,6 +39,9 @@ def program(massive: bool, body: int) -> Program:
             force[i + j] += sp.Matrix(FORCE).dot(tip.diff(PAIR.q[i + j]))
     mass, force, G = mass.extract(ORDER, ORDER), force.extract(ORDER, [0]), G.extract([0], ORDER)
     stages, free = solve_symmetric(mass, force.row_join(G.T), "m")
+    # I_3 cos² theta cancels from the azimuth's pivot here: in floating point it would leave more than a sin² theta is.
+    ratios = {name: e for name, e in stages if e in (sp.cos(PAIR.q[0]), sp.cos(PAIR.q[3]))}
+    stages = [(name, sp.expand(e.subs(ratios)) if e.has(*ratios) else e) for name, e in stages]
     lam = sp.Symbol("lam", real=True)
     row, acceleration, pull = G.row(0), free[:, 0], free[:, 1]
     gamma = system.gamma[0]

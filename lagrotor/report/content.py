@@ -185,10 +185,15 @@ def counted(counts: dict[str, int]) -> str:
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
-def sides(relations: Iterable[Relation], side: Literal["printed", "derived"]) -> tuple[str, ...]:
-    """Equations in LaTeX, quantity = the printed or the derived expression of some relations, each once."""
-    lines = ((relation.quantity, latex(getattr(relation, side))) for relation in relations)
-    return tuple(dict.fromkeys(f"{quantity} = {right}" if quantity else right for quantity, right in lines))
+def sides(relations: Iterable[Relation], side: Literal["printed", "derived"]) -> tuple[tuple[str, sp.Basic], ...]:
+    """(quantity in LaTeX, its printed or derived expression) of some relations, each once."""
+    found = ((relation.quantity, getattr(relation, side)) for relation in relations)
+    return tuple(dict.fromkeys((name, e.as_immutable() if isinstance(e, sp.MatrixBase) else e) for name, e in found))
+
+
+def equation_line(quantity: str, expression: sp.Basic) -> str:
+    """quantity = expression, in LaTeX."""
+    return f"{quantity} = {latex(expression)}" if quantity else latex(expression)
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:

@@ -23,6 +23,7 @@ from lagrotor.report.content import (
     Report,
     anchor,
     contents,
+    equation_line,
     facts,
     figure_facts,
     linked_facts,
@@ -114,7 +115,7 @@ def _equation(verdict: Verdict, report: Report) -> str:
         _display(entry.latex),
     ]
     if derived := sides(statement.relations, "derived"):
-        parts += ["As derived:", *map(_display, derived)]
+        parts += ["As derived:", *(_display(equation_line(quantity, right)) for quantity, right in derived)]
     parts += [_fact(fact) for fact in facts(verdict, report)]
     return "\n\n".join(parts)
 

@@ -27,6 +27,7 @@ from lagrotor.report.content import (
     made_beside,
     notation,
     note,
+    sides,
     word,
 )
 from lagrotor.report.errata import errata, latex_block
@@ -80,7 +81,7 @@ def _derived(quantity: str, expression: sp.Basic) -> str:
 
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
-    found = dict.fromkeys((relation.quantity, relation.derived) for relation in statement.relations)
+    found = sides(statement.relations, "derived")
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
         rf"\textbf{{As printed.}} {printed(entry.latex)}",

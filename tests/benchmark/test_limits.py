@@ -215,8 +215,8 @@ def test_the_command_refuses_a_missing_folder(tmp_path, capsys):
 
 
 def test_what_passes_where_bar_and_axes_are_in_line():
-    assert coordinates.passes(0.02)
-    assert not coordinates.passes(0.002)
+    assert coordinates.passes(2e-5)
+    assert not coordinates.passes(5e-6), "nearer than 1e-5 rad the run is refused"
 
 
 def test_spins_not_quite_equal_twist_as_their_difference():

@@ -53,14 +53,15 @@ def test_the_reference_says_how_far_its_formulations_are_apart() -> None:
     assert found.tips.shape == (2, 11, 3)
 
 
-# Largest error of an axis over 10 s for a tolerance; four times what was measured.
+# Largest error of an axis over 10 s for a tolerance: four times what was measured, or what the reference is good for.
 CEILINGS = {
-    "minimal": {1e-4: 5e-5, 1e-6: 1.1e-6, 1e-8: 7e-8, 1e-10: 1e-10, 1e-12: 2e-13},
-    "spheres": {1e-4: 7e-4, 1e-6: 2e-5, 1e-8: 1e-7, 1e-10: 3e-10, 1e-12: 3e-12},
+    "minimal": {1e-4: 1e-5, 1e-6: 5.8e-6, 1e-8: 1.5e-8, 1e-10: 1.7e-10, 1e-12: 2e-13},
+    "spheres": {1e-4: 1.8e-4, 1e-6: 8.4e-6, 1e-8: 1.3e-7, 1e-10: 1.5e-9, 1e-12: 2e-13},
 }
+# Evaluations, those of the companion run included.
 EVALUATIONS = {
-    "minimal": {1e-6: 2410, 1e-8: 3522, 1e-10: 4972, 1e-12: 5344},
-    "spheres": {1e-6: 2900, 1e-8: 3940, 1e-10: 5400, 1e-12: 4400},
+    "minimal": {1e-4: 2432, 1e-6: 4010, 1e-8: 5682, 1e-10: 8467, 1e-12: 17199},
+    "spheres": {1e-4: 3062, 1e-6: 4694, 1e-8: 6570, 1e-10: 9140, 1e-12: 16140},
 }
 
 
@@ -69,12 +70,13 @@ def test_errors_and_evaluations_stay_under_their_ceilings(model: str) -> None:
     for tol, ceiling in CEILINGS[model].items():
         run = simulate(displaced(), TIMES, model, tol)
         assert off(run.axes) < ceiling
-        assert run.evaluations < 1.15 * EVALUATIONS[model].get(tol, 2500)
+        assert run.evaluations < 1.15 * EVALUATIONS[model][tol]
 
 
 def test_an_error_that_is_asked_for_less_gets_smaller_down_to_the_floor() -> None:
     found = [off(simulate(displaced(), TIMES, "minimal", tol).axes) for tol in (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)]
-    assert found == sorted(found, reverse=True)
+    above = [max(error, 1e-13) for error in found]  # the reference is no nearer than that
+    assert above == sorted(above, reverse=True)
     assert found[0] / found[-1] > 1e9
 
 

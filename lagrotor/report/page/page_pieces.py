@@ -7,7 +7,7 @@ import sympy as sp
 
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
-from lagrotor.report.content import Fact, Report, anchor, word
+from lagrotor.report.content import Fact, Report, anchor, equation_line, word
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
 
@@ -72,9 +72,15 @@ def formulas(expressions: Iterable[sp.Basic]) -> str:
     return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
 
 
-def equations(sources: Iterable[str]) -> str:
-    """Equations in LaTeX, each on a line of its own; folded when they would fill a page."""
-    drawn = "".join(map(typeset, sources))
+def equations(lines: Iterable[tuple[str, sp.Basic]]) -> str:
+    """(quantity, expression) as equations, each on a line of its own; a matrix below its quantity, broken where it is wide;
+    folded when they would fill a page."""
+    drawn = "".join(
+        (typeset(f"{quantity} =") if quantity else "") + formulas([expression])
+        if isinstance(expression, sp.MatrixBase)
+        else typeset(equation_line(quantity, expression))
+        for quantity, expression in lines
+    )
     return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
 
 

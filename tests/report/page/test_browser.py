@@ -19,10 +19,11 @@ from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.paper.ledger import judge
-from lagrotor.report.content import Report, sides
+from lagrotor.report.content import Report, equation_line, sides
 from lagrotor.report.formulas.font import FAMILY, font_face
 from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
+from lagrotor.report.page import page_pieces
 from lagrotor.report.page.whole_page import page
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -105,7 +106,13 @@ def every_formula() -> Iterator[str]:
         for statement in statements(stem):
             for relations in (statement.relations, statement.correction):
                 for side in ("printed", "derived"):
-                    yield from filter(None, map(from_latex, sides(relations, side)))
+                    for quantity, right in sides(relations, side):
+                        matrix = isinstance(right, sp.MatrixBase)
+                        drawn = mathml(right) if matrix else from_latex(equation_line(quantity, right)) or ""
+                        if (
+                            len(drawn) <= page_pieces._LONGEST
+                        ):  # what is longer is folded, and scrolls where it is opened
+                            yield drawn
 
 
 def test_the_page_fits_a_desk_and_a_phone(tmp_path: Path) -> None:

@@ -4,7 +4,8 @@ import re
 from base64 import b64decode
 
 import pytest
-from lagrotor.report.derivation_pages import derivation_html, title
+
+from lagrotor.report.page.derivation_pages import derivation_html, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 
