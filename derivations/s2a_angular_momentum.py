@@ -77,7 +77,12 @@ def angular_momentum(omega: sp.Expr) -> sp.Matrix:
     return J * r_hat.cross(rate(r_hat)) + I3 * omega * r_hat
 
 
-prove(Q * sp.diag(J, J, I3) * Omega_body, angular_momentum(spin), "the angular momentum is J r × r′ + I₃ ω r")
+prove(
+    Q * sp.diag(J, J, I3) * Omega_body,
+    angular_momentum(spin),
+    "the angular momentum is J r × r′ + I₃ ω r",
+    written=r"\vec L = Q\,\mathrm{diag}(J, J, I_3)\,\vec\Omega = J\,\hat r\times\dot{\hat r} + I_3\,\omega\,\hat r",
+)
 
 # %% [markdown]
 # The paper keeps the part along the axis. That is its leading part where the axis turns slowly against the spin:
@@ -111,7 +116,12 @@ verdict("2.03", angular_momentum(omega_2), premises=[slow_axis(omega_2)], eviden
 # %%
 push = [R * F.dot(r_hat.diff(angle)) for angle in ROTOR.q]
 motion = dict(zip(ROTOR.a, accelerations(rotor_lagrangian(), ROTOR, push), strict=True))
-prove(total_derivative(spin, ROTOR).subs(motion), 0, "ω is conserved: a force on the axis has no moment about it")
+prove(
+    total_derivative(spin, ROTOR).subs(motion),
+    0,
+    "ω is conserved: a force on the axis has no moment about it",
+    names=r"\dot\omega",
+)
 
 # %% [markdown]
 # Along the motion that Lagrange's equations give, the angular momentum changes by the moment of the force.
@@ -121,6 +131,7 @@ prove(
     rate(angular_momentum(spin)).subs(motion),
     R * r_hat.cross(F),
     "the torque is the rate of the angular momentum, exactly",
+    written=r"\dot{\vec L} = R\,\hat r\times\vec F",
 )
 
 # %% [markdown]
@@ -138,6 +149,7 @@ prove(
     torque(omega_1),
     J * r_hat.cross(rate(rate(r_hat))) + I3 * omega_1 * rate(r_hat),
     "the torque is J r × r″ + I₃ ω r′",
+    written=r"\dot{\vec L} = J\,\hat r\times\ddot{\hat r} + I_3\,\omega_1\,\dot{\hat r}",
 )
 
 # %% [markdown]

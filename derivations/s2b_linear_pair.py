@@ -90,7 +90,12 @@ once = {y1_a: y1_v, y2_a: y2_v, X_v: X_0 + X_1 * t, F[1]: F[1] * t}
 turning = sp.solve([e.subs(once, simultaneous=True) for e in reduced[1:]], [y1_v, y2_v], dict=True)[0]
 y_rates = sp.Matrix([turning[y1_v], turning[y2_v]])
 inertia, G = sp.Matrix([[a, b], [b, a]]), sp.Matrix([G_1, G_2])
-prove(inertia * y_rates, G * (X_0 + X_1 * t) + sp.Matrix([R * F[1] * t, 0]), "the integrated equations across the bar")
+prove(
+    inertia * y_rates,
+    G * (X_0 + X_1 * t) + sp.Matrix([R * F[1] * t, 0]),
+    "the integrated equations across the bar",
+    written=r"A\,\dot y = G\,(X_0 + X_1 t) + (R F_y t,\ 0)",
+)
 
 # %% [markdown]
 # The equation along the bar holds at all times for one choice of $X_0$ and $X_1$.
@@ -189,7 +194,12 @@ prove((X_area.diff(t), X_area.subs(t, 0)), (X_t, 0), "the area under X")
 
 # %%
 y_t = inertia.adjugate() / inertia.det() * (G * X_area + sp.Matrix([R * P_y * t, 0]))
-prove(tuple(y_t.diff(t)), tuple(y_after.subs(X, X_t)), "the rates of the axes across the bar")
+prove(
+    tuple(y_t.diff(t)),
+    tuple(y_after.subs(X, X_t)),
+    "the rates of the axes across the bar",
+    names=(r"\dot y_1", r"\dot y_2"),
+)
 
 # %%
 impulse_response = tuple(e.subs(X_c, centre) for e in (X_t, *y_t))

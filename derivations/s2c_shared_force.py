@@ -69,11 +69,16 @@ Formula(rate_1, r"\dot{\hat r}_1")
 
 # %%
 together = dict(zip([*r_2, *a_2], [*r, *a_1], strict=True))
-asked = (omega_1 + omega_2) * f - (omega_1 - omega_2) * (shared / 2 - J / R * a_1)
+bracket = (omega_1 + omega_2) * f - (omega_1 - omega_2) * (shared / 2 - J / R * a_1)
 prove(
     I3 * omega_1 * omega_2 * (rate_1 - rate_2).subs(together),
-    cross(r, asked),
+    cross(r, bracket),
     "the difference of the rates of two parallel axes",
+    written=(
+        r"I_3\,\omega_1\omega_2\,(\dot{\vec r}_1 - \dot{\vec r}_2) = \vec r\times\Big[(\omega_1"
+        r" + \omega_2)\,\vec f - (\omega_1 - \omega_2)\Big(\tfrac12(\vec F - m\vec A)"
+        r" - \tfrac JR\,\vec a\Big)\Big]"
+    ),
 )
 
 # %% [markdown]
@@ -87,6 +92,7 @@ prove(
     (rate_1 - rate_2).subs(dict(zip(f, f_parallel, strict=True))).subs(together),
     sp.zeros(3, 1),
     "with this f both axes turn alike",
+    written=r"\dot{\vec r}_1 - \dot{\vec r}_2 = 0",
 )
 
 # %% [markdown]
@@ -120,6 +126,10 @@ prove(
     cross(r, f_parallel).subs({m: 0, **dict.fromkeys(a_1, 0)}),
     (rho - 1) / (2 * (1 + rho)) * cross(r, F),
     "r × f under the premises",
+    written=(
+        r"\vec r\times\vec f = \frac{\rho - 1}{2(1 + \rho)}\,\vec r\times\vec F,\qquad \rho"
+        r" = \frac{\omega_1}{\omega_2}"
+    ),
 )
 
 # %%

@@ -117,7 +117,12 @@ verdict(
 # %%
 arms = [X - X_cm for X in places]
 L = summed(m * cross(d, U - U_cm) for m, d, U in zip(masses, arms, velocities, strict=True))
-prove(summed(m * d for m, d in zip(masses, arms, strict=True)), sp.zeros(3, 1), "the first moment about the centre")
+prove(
+    summed(m * d for m, d in zip(masses, arms, strict=True)),
+    sp.zeros(3, 1),
+    "the first moment about the centre",
+    written=r"\sum_i m_i\,(\vec X_i - \vec X) = 0",
+)
 
 # %%
 verdict("3.05", L, uses=[centre_of_mass])
@@ -155,7 +160,12 @@ for i, j in PAIRS:
 central = Premise("the internal forces are central, f_ij along X_i − X_j", put_central)
 torque_by_the_motion = summed(cross(d, F) for d, F in zip(arms, by_the_motion, strict=True))
 twisting = summed(cross(d, inside(i)) for i, d in zip(NUMBERS, arms, strict=True))
-prove(central.on(action_and_reaction.on(twisting)), sp.zeros(3, 1), "the moment of opposite, central forces")
+prove(
+    central.on(action_and_reaction.on(twisting)),
+    sp.zeros(3, 1),
+    "the moment of opposite, central forces",
+    written=r"\sum_i (\vec X_i - \vec X)\times\sum_{j\neq i}\vec f_{ij} = 0",
+)
 
 # %% [markdown]
 # The paper asks for the first of these only. Two particles a unit apart along $x$ that push each other across that line

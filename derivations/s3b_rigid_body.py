@@ -40,11 +40,11 @@ def rate(expression: sp.Matrix) -> sp.Matrix:
 
 # %%
 Q = rotation(phi, theta, psi)
-prove(Q * Q.T, sp.eye(3), "Q is a rotation")
+prove(Q * Q.T, sp.eye(3), "Q is a rotation", written=r"Q\,Q^T = 1")
 
 # %%
 skew = rate(Q) * Q.T
-prove(skew, -skew.T, "the rate of a rotation is skew")
+prove(skew, -skew.T, "the rate of a rotation is skew", written=r"\dot Q\,Q^T = -(\dot Q\,Q^T)^T")
 
 # %%
 theta_v, phi_v, psi_v = ROTOR.v
@@ -59,6 +59,7 @@ prove(
         ]
     ),
     "the angular velocity in Euler angles",
+    names=r"\vec\Omega",
 )
 
 # %% [markdown]
@@ -102,7 +103,12 @@ verdict(
 # %%
 turning = sum(m * cross(Omega, arm).dot(cross(Omega, arm)) / 2 for m, arm in zip(masses, arms, strict=True))
 inertia = sp.hessian(turning, list(Omega))
-prove(turning, (Omega.T * inertia * Omega)[0] / 2, "the energy of turning")
+prove(
+    turning,
+    (Omega.T * inertia * Omega)[0] / 2,
+    "the energy of turning",
+    written=r"\sum_i \tfrac{m_i}{2}\,\big|\vec\Omega\times(\vec X_i - \vec X)\big|^2 = \tfrac12\,\vec\Omega\cdot I\,\vec\Omega",
+)
 
 # %%
 verdict("3.11", inertia, uses=["3.10", centre_of_mass])
@@ -146,7 +152,12 @@ Formula(right, "R I_0 R^T"), Formula(wrong, "R^T I_0 R")
 
 # %%
 isotropic = sp.Symbol("I", positive=True) * sp.eye(3)
-prove(Q * isotropic * Q.T, Q.T * isotropic * Q, "with equal principal inertias both are the same")
+prove(
+    Q * isotropic * Q.T,
+    Q.T * isotropic * Q,
+    "with equal principal inertias both are the same",
+    written=r"Q\,(I\,1)\,Q^T = Q^T(I\,1)\,Q",
+)
 
 # %%
 verdict(

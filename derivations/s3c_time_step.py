@@ -33,7 +33,12 @@ tensor = sp.diag(*principal)
 exact_L = tensor * Omega + tau * dt + tau_v * dt**2 / 2
 exact_U = U + F / M * dt + F_v / M * dt**2 / 2
 exact_X = X_cm + U * dt + F / M * dt**2 / 2 + F_v / M * dt**3 / 6
-prove(exact_X.diff(dt), exact_U, "the centre moves with U")
+prove(
+    exact_X.diff(dt),
+    exact_U,
+    "the centre moves with U",
+    written=r"\frac{d\vec X}{d\Delta_t} = \vec U + \frac{\vec F}{M}\,\Delta_t + \frac{\dot{\vec F}}{2M}\,\Delta_t^2",
+)
 
 # %% [markdown]
 # The tensor turns with the body, $I' = \Omega_\times I - I\,\Omega_\times$, the rate of $R I_0 R^T$. Differentiating
@@ -42,7 +47,12 @@ prove(exact_X.diff(dt), exact_U, "the centre moves with U")
 # %%
 tensor_rate = cross_matrix(Omega) * tensor - tensor * cross_matrix(Omega)
 acceleration = inverse(tensor) * (tau - tensor_rate * Omega)
-prove(tensor * acceleration + cross(Omega, tensor * Omega), tau, "Euler's equations")
+prove(
+    tensor * acceleration + cross(Omega, tensor * Omega),
+    tau,
+    "Euler's equations",
+    written=r"I\,\dot{\vec\Omega} + \vec\Omega\times I\,\vec\Omega = \vec\tau",
+)
 
 # %%
 exact_Omega = Omega + acceleration * dt

@@ -65,14 +65,19 @@ verdict(
 n = axis(theta, phi)
 N = cross_matrix(n)
 P = sp.eye(3) + N**2
-prove((P * P, P * n), (P, n), "P is a projector, and n stays")
+prove((P * P, P * n), (P, n), "P is a projector, and n stays", written=(r"P^2 = P", r"P\,n = n"))
 
 # %% [markdown]
 # The paper's product lacks the norm of $\vec\Omega$:
 
 # %%
 w = sp.Symbol("Omega_norm", positive=True)
-prove((w * n) * (w * n).T, w**2 * P, "the outer product of Ω with itself")
+prove(
+    (w * n) * (w * n).T,
+    w**2 * P,
+    "the outer product of Ω with itself",
+    written=r"\vec\Omega\,\vec\Omega^T = |\vec\Omega|^2\,P",
+)
 
 # %%
 projection = verdict(
@@ -95,7 +100,7 @@ projection
 # $dR' = \Omega_\times dR$ from $dR = 1$. As $n_\times^3 = -n_\times$, its power series closes.
 
 # %%
-prove(N**3, -N, "the cube of the cross matrix of a unit vector")
+prove(N**3, -N, "the cube of the cross matrix of a unit vector", written=r"n_\times^3 = -n_\times")
 
 # %%
 angle = w * dt
@@ -104,6 +109,7 @@ prove(
     (exact_dR.diff(dt), exact_dR.subs(dt, 0)),
     (w * N * exact_dR, sp.eye(3)),
     "the equation of the rotation, and its start",
+    written=(r"\frac{d}{d\Delta_t}\,dR = |\vec\Omega|\,n_\times\,dR", r"dR\,\big|_{\Delta_t = 0} = 1"),
 )
 
 # %% [markdown]
@@ -141,7 +147,7 @@ Formula(in_body, r"R^T\vec\Omega")
 # It belongs to $\vec L$ by the tensor of the turned body (3.12 corrected), so that only $I_0$ was inverted:
 
 # %%
-prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω")
+prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω", written=r"R\,I_0\,R^T\,\vec\Omega = \vec L")
 
 # %%
 verdict(
@@ -159,7 +165,12 @@ verdict(
 # A row is the transpose of a column, and $(AB)' = B'A'$. The paper transposes rightly, also in the update of the vertices:
 
 # %%
-prove((R.T * stored * R * L).T, L.T * R.T * stored * R, "the transposition of 3.17 as printed")
+prove(
+    (R.T * stored * R * L).T,
+    L.T * R.T * stored * R,
+    "the transposition of 3.17 as printed",
+    written=r"\big(R^T I_0^{-1} R\,\vec L\big)^T = \vec L^T R^T I_0^{-1} R",
+)
 
 # %%
 theta_1, phi_1, psi_1 = PAIR.q[:3]

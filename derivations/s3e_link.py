@@ -37,6 +37,7 @@ prove(
     rate(length_squared, (X_1, X_2), (U_1, U_2)).subs(at_distance),
     2 * s * s_rate,
     "the rate of the squared length",
+    written=r"\frac{d}{dt}\,|\vec X_1 - \vec X_2|^2 = 2 s\,\dot s,\qquad \dot s = (\vec U_1 - \vec U_2)\cdot\hat e",
 )
 
 # %%
@@ -58,7 +59,12 @@ def force_on(X: sp.Matrix, U: sp.Matrix) -> sp.Matrix:
 
 on_1, on_2 = force_on(X_1, U_1), force_on(X_2, U_2)
 tension = S * s + D * s_rate
-prove(on_1.dot(e_hat), -tension, "along ê the force on vertex 1 is the tension, towards vertex 2")
+prove(
+    on_1.dot(e_hat),
+    -tension,
+    "along ê the force on vertex 1 is the tension, towards vertex 2",
+    written=r"\vec F_1\cdot\hat e = -(S\,s + D\,\dot s)",
+)
 
 # %% [markdown]
 # The print sets a number equal to a vector. The number is the tension, if $\hat e_{21}$ points from 2 to 1. With the force
@@ -67,7 +73,12 @@ prove(on_1.dot(e_hat), -tension, "along ê the force on vertex 1 is the tension,
 # %%
 power = on_1.dot(U_1) + on_2.dot(U_2)
 growing = rate(stored, (X_1, X_2), (U_1, U_2)).subs(at_distance)
-prove(power + growing, -D * s_rate**2, "work of the forces and growth of the spring's energy: what is lost")
+prove(
+    power + growing,
+    -D * s_rate**2,
+    "work of the forces and growth of the spring's energy: what is lost",
+    written=r"\vec F_1\cdot\vec U_1 + \vec F_2\cdot\vec U_2 + \frac{d}{dt}\,\frac{S s^2}{2} = -D\,\dot s^2",
+)
 
 # %% [markdown]
 # Read with $\hat e_{21}$ from 1 to 2, and with the force along it, the damper would feed the link with the power $P$:

@@ -65,6 +65,7 @@ prove(
     K[0],
     M_1 * dot(velocities[0], velocities[0]) / 2 + dot(inertias[0] * turns[0], turns[0]) / 2,
     "translation of the centre and rotation about it",
+    written=r"K_1 = \tfrac12 M_1\,|\vec U_1|^2 + \tfrac12\,\vec\Omega_1\cdot I_1\,\vec\Omega_1",
 )
 
 # %% [markdown]
@@ -81,7 +82,12 @@ rates = components([*velocities, *turns])
 bodies = coordinates([f"q_{i}" for i in range(len(rates))])
 lagrangian = (sum(K) - held).subs(dict(zip(rates, bodies.v, strict=True)))
 total = energy(lagrangian, bodies).subs(dict(zip(bodies.v, rates, strict=True)))
-prove(total, sum(K) + held, "the energy: what moves, and what the springs hold")
+prove(
+    total,
+    sum(K) + held,
+    "the energy: what moves, and what the springs hold",
+    written=r"E = \sum_i K_i + \frac S2\sum_j s_j^2",
+)
 
 # %% [markdown]
 # The paper records the kinetic part as "the energy of the system". That is all of it only while no link is stretched. In its

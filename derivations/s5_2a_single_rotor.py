@@ -56,6 +56,7 @@ prove(
     centre_velocity.dot(centre_velocity),
     R**2 / 4 * (theta_v**2 + phi_v**2 * s**2),
     "the square of the centre's velocity",
+    names=r"\tfrac{R^2}{4}\,|\dot r|^2",
 )
 
 # %% [markdown]

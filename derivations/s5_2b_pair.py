@@ -40,6 +40,11 @@ prove(
     bar_energy,
     in_parameters((a - J) / 2 * (v_1.dot(v_1) + v_2.dot(v_2)) + b * v_1.dot(v_2)),
     "the kinetic energy of the bar",
+    written=(
+        r"\tfrac m2\,\tfrac{R^2}{4}\,|\dot r_1 + \dot r_2|^2"
+        r" + \tfrac K2\,\tfrac{R^2}{\ell^2}\,|\dot r_2 - \dot r_1|^2"
+        r" = \tfrac{a - J}{2}\,\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2"
+    ),
 )
 
 # %% [markdown]
@@ -48,7 +53,16 @@ prove(
 # %%
 system = pair_with_bar()
 L = system.L
-prove(in_parameters(L), in_parameters(pair_lagrangian()) + bar_energy, "the Lagrangian of the pair")
+prove(
+    in_parameters(L),
+    in_parameters(pair_lagrangian()) + bar_energy,
+    "the Lagrangian of the pair",
+    written=(
+        r"\mathcal L = \sum_i\tfrac J2\big(\dot\theta_i^2 + \dot\phi_i^2\sin^2\theta_i\big)"
+        r" + \tfrac{I_3}{2}\big(\dot\psi_i + \dot\phi_i\cos\theta_i\big)^2"
+        r" + \tfrac{a - J}{2}\,\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2"
+    ),
+)
 
 # %% [markdown]
 # The paper has the two rotors alone, in the angles of the nodes:
@@ -64,7 +78,12 @@ verdict("5.07", L, premises=[ABOUT_JOINT, MASSLESS_BAR], uses=["5.01"])
 # %%
 shift = sp.Symbol("gamma", real=True)
 shifted = L.subs({phi_1: phi_1 + shift, phi_2: phi_2 + shift}, simultaneous=True)
-prove(shifted, L, "the Lagrangian after a shift of both azimuths")
+prove(
+    shifted,
+    L,
+    "the Lagrangian after a shift of both azimuths",
+    written=r"\mathcal L(\phi_1 + \gamma,\ \phi_2 + \gamma) = \mathcal L(\phi_1,\ \phi_2)",
+)
 
 # %%
 verdict("5.08", L, premises=[ABOUT_JOINT, MASSLESS_BAR], uses=["5.07"])
@@ -94,7 +113,12 @@ joint = sp.Matrix([ell / 2, 0, 0])
 tip_1, tip_2 = -joint + R * r_1, joint + R * r_2
 distance_squared = (tip_2 - tip_1).dot(tip_2 - tip_1)
 constraint = system.constraints[0].subs(k, ell / R)
-prove(distance_squared, ell**2 + 2 * R**2 * constraint, "the squared distance of the tips")
+prove(
+    distance_squared,
+    ell**2 + 2 * R**2 * constraint,
+    "the squared distance of the tips",
+    written=r"\big|\ell\,e_x + R\,(r_2 - r_1)\big|^2 = \ell^2 + 2 R^2\,g",
+)
 
 # %% [markdown]
 # It is the distance that the tips have upright:

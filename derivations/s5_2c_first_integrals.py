@@ -48,6 +48,10 @@ prove(
     (ansatz_lagrangian.diff(phi_v), ansatz_lagrangian.diff(psi_v)),
     (of_ansatz_A, of_ansatz_B),
     "the momenta of the ansatz Lagrangian as differences of the pair's",
+    written=(
+        r"\frac{\partial\mathcal L}{\partial\dot\phi} = p_{\phi_1} - p_{\phi_2}",
+        r"\frac{\partial\mathcal L}{\partial\dot\psi} = p_{\psi_1} - p_{\psi_2}",
+    ),
 )
 
 # %% [markdown]
@@ -81,6 +85,7 @@ prove(
     MASSLESS_BAR.on(of_A),
     BAR_FORCE * (constraint.diff(phi_1) - constraint.diff(phi_2)),
     "the rate of A, the bar massless",
+    written=r"\dot A = \lambda_1\Big(\frac{\partial g}{\partial\phi_1} - \frac{\partial g}{\partial\phi_2}\Big)",
 )
 
 # %% [markdown]

@@ -37,7 +37,7 @@ S = sp.cos(theta_1) + sp.cos(theta_2)
 integral_A, integral_B = ansatz_integrals()
 rate = sp.solve([integral_A - A, integral_B - B], [phi_v, psi_v], dict=True)[0][phi_v]
 tilting = J * (sp.sin(theta_1) ** 2 + sp.sin(theta_2) ** 2) + I3 * (sp.cos(theta_1) ** 2 + sp.cos(theta_2) ** 2)
-prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two integrals")
+prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two integrals", names=r"\dot\phi")
 
 # %% [markdown]
 # With $J = I_3$ the bracket is $I(4 - S^2)$, the paper's. The printed line is held with $A$ and $B$ as they are on the pair,

@@ -60,7 +60,7 @@ verdict(
 C_squared = projected.dot(projected)
 x_1, x_2 = (R * sp.sin(theta) * sp.cos(azimuth) for theta, azimuth in ((theta_1, phi_1), (theta_2, phi_2)))
 y_1, y_2 = (R * sp.sin(theta) * sp.sin(azimuth) for theta, azimuth in ((theta_1, phi_1), (theta_2, phi_2)))
-prove(C_squared, (ell + x_2 - x_1) ** 2 + (y_2 - y_1) ** 2, "the square of the projected length")
+prove(C_squared, (ell + x_2 - x_1) ** 2 + (y_2 - y_1) ** 2, "the square of the projected length", names=r"C^2")
 
 # %%
 verdict("5.18", {"C^2": C_squared}, premises=[*units, opposite_azimuths()], uses=["5.17"])

@@ -39,12 +39,19 @@ bar_ratio = {k: ell / R}
 # %%
 x_1, y_1, _, x_2, y_2, _ = (e.subs(bar_ratio) for e in corrected_trajectories(3).expressions)
 second = (r0 * cosine + r0**2 * sigma * R / ell * sine**2, r0 * cosine - r0**2 * sigma * R / ell * sine**2)
-prove((x_1, x_2), second, "the components along the joint line", small=r0, order=2)
+prove((x_1, x_2), second, "the components along the joint line", names=(r"x_1", r"x_2"), small=r0, order=2)
 
 # %%
 across = (r0 * sine - r0**2 * R / (2 * ell) * sine * cosine, -r0 * sine - r0**2 * R / (2 * ell) * sine * cosine)
 width = sp.sqrt(sigma)
-prove((y_1 / width, y_2 / width), across, "the components across it, over √σ", small=r0, order=2)
+prove(
+    (y_1 / width, y_2 / width),
+    across,
+    "the components across it, over √σ",
+    names=(r"y_1/\sqrt\sigma", r"y_2/\sqrt\sigma"),
+    small=r0,
+    order=2,
+)
 
 # %% [markdown]
 # ## The inclinations
@@ -64,6 +71,10 @@ prove(
     tuple(sp.expand((e**2).subs(s, r0)) for e in sines),
     (x_1**2 + y_1**2, x_2**2 + y_2**2),
     "the squares of the inclinations' sines",
+    written=(
+        r"\Big(r_0 D + \frac{\sigma R}{2\ell}\,r_0^2\,\frac{\sin^2\Phi\cos\Phi}{D}\Big)^2 = x_1^2 + y_1^2",
+        r"\Big(r_0 D - \frac{\sigma R}{2\ell}\,r_0^2\,\frac{\sin^2\Phi\cos\Phi}{D}\Big)^2 = x_2^2 + y_2^2",
+    ),
     small=r0,
     order=3,
 )

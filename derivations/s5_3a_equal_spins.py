@@ -88,7 +88,15 @@ exact = euler_lagrange(system.L, AXES) - system.push.subs({G_1: G, G_2: G}) - sy
 together = exact.subs(parallel)
 turning = {Omega: G / ((a + b) * sp.cos(theta))}
 (lift,) = sp.solve(together[2], mu)
-prove(together.subs(mu, lift).subs(turning), sp.zeros(6, 1), "the equations of motion along parallel axes")
+prove(
+    together.subs(mu, lift).subs(turning),
+    sp.zeros(6, 1),
+    "the equations of motion along parallel axes",
+    written=(
+        r"\frac{d}{dt}\frac{\partial\mathcal L}{\partial\dot r_i}"
+        r" - \frac{\partial\mathcal L}{\partial r_i} - Q_i - \mu\,r_i = 0,\qquad i = 1, 2"
+    ),
+)
 
 # %%
 prove(system.constraints[2].subs(parallel), 0, "the bar's constraint along parallel axes")

@@ -135,7 +135,15 @@ Formula(kept)
 
 # %%
 moved = kept.jacobian([first, x, second]) * velocity + kept.jacobian(velocity) * acceleration
-prove(moved, sp.zeros(2, 1), "their rates along the linear motion")
+prove(
+    moved,
+    sp.zeros(2, 1),
+    "their rates along the linear motion",
+    written=(
+        r"\frac{d}{dt}\Big(x - \frac{a - b}{2G}\,(\dot y_1 - \dot y_2)\Big) = 0"
+        r",\qquad \frac{d}{dt}\Big(y_1 - y_2 + \frac{2(a + b)}{G}\,\dot x\Big) = 0"
+    ),
+)
 
 # %%
 Remark(

@@ -90,7 +90,12 @@ for i, (u, al) in enumerate(((u1, al1), (u2, al2))):
     rates = r.jacobian(MERCATOR.q) * sp.Matrix(MERCATOR.v)
     where |= dict(zip(AXES.q[3 * i : 3 * i + 3], r, strict=True))
     where |= dict(zip(AXES.v[3 * i : 3 * i + 3], rates, strict=True))
-prove(turned, joint_line_momentum().subs(where), "the momentum about the joint line", names="P")
+prove(
+    turned,
+    joint_line_momentum().subs(where),
+    "the momentum about the joint line",
+    written=r"P = \sum_i (a\,\dot r_i + b\,\dot r_j)\cdot(e_x\times r_i) + G_i\,x_i,\qquad j \neq i",
+)
 
 # %%
 Formula(joint_line_momentum(), "P")
@@ -105,7 +110,12 @@ Formula(joint_line_momentum(), "P")
 quadratic = reduced.L - sum(
     (v * reduced.L.diff(v).subs(dict.fromkeys(MERCATOR.v, 0)) for v in MERCATOR.v), sp.Integer(0)
 )
-prove(energy(reduced.L, MERCATOR), quadratic, "the energy", names="E")
+prove(
+    energy(reduced.L, MERCATOR),
+    quadratic,
+    "the energy",
+    written=r"E = \tfrac a2\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2",
+)
 
 # %% [markdown]
 # ## On the exact models

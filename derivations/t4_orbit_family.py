@@ -45,7 +45,7 @@ prove(
     (L.subs(mirrored, simultaneous=True), bar.subs(mirrored, simultaneous=True)),
     (L, bar),
     "Lagrangian and bar with time reversed and y → −y",
-    names=("L^*", "g^*"),
+    written=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]
@@ -59,7 +59,7 @@ prove(
     (L.subs(exchanged, simultaneous=True), bar.subs(exchanged, simultaneous=True)),
     (L, bar),
     "Lagrangian and bar with the rotors exchanged and time reversed",
-    names=("L^*", "g^*"),
+    written=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]

@@ -79,7 +79,10 @@ swing = (twist * matrices.swing * impulse)[0].subs(opposite)
 squared = matrices.frequency_squared.subs(opposite)
 sigma = (a + b) / (a - b)
 prove(
-    (offset, swing**2 / squared), (P_X / G, sigma * p_y**2 / G**2), "the offset, and the square of the sine's amplitude"
+    (offset, swing**2 / squared),
+    (P_X / G, sigma * p_y**2 / G**2),
+    "the offset, and the square of the sine's amplitude",
+    names=(r"\text{offset}", r"\text{amplitude}^2"),
 )
 
 # %% [markdown]
@@ -122,7 +125,7 @@ prove(cancelling_impulse().domain[-1].lhs, inside, "ρ², the domain of the canc
 # %%
 small_root = -(2 + att**2) * P_X**2 / (2 * k * G * (1 + root))
 held = sp.cancel(small_root * (1 + root) / cancelling_impulse().expressions[0]) - 1
-prove(sp.expand(held**2), inside, "ρ² of the library's cancelling impulse")
+prove(sp.expand(held**2), inside, "ρ² of the library's cancelling impulse", names=r"\rho^2")
 
 # %% [markdown]
 # It is a root: with $\rho^2$ for its value, the rate there has no remainder.

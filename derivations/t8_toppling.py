@@ -83,6 +83,7 @@ prove(
     sp.expand(quadratic),
     A * u_v**2 + D * d_v**2 / 4 - A * nu**2 * u**2 - e * d**2 / 2 - G * u * d_v + A * beta_v**2,
     "the quadratic Lagrangian of a disturbance",
+    names=r"\mathcal L_2",
 )
 
 # %% [markdown]
@@ -96,6 +97,7 @@ prove(
     characteristic,
     A * D * s**4 + (G**2 + A * D * nu**2 + 2 * A * e) * s**2 + 2 * A * nu**2 * e,
     "the characteristic polynomial",
+    names=r"\det",
 )
 
 # %%
@@ -107,6 +109,7 @@ prove(
     linear_toppling().characteristic(s).subs({G_1: G, G_2: -G}),
     2 * A * s**2 * characteristic,
     "the third coordinate adds a double zero root",
+    written=r"\det{}_3(s) = 2A\,s^2\,\det(s)",
 )
 
 # %% [markdown]

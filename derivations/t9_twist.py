@@ -43,7 +43,16 @@ from lagrotor.theory.toppling import twisted_lagrangian
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
 motion = [e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED)]
 along, across, about = parallel_residual()
-prove((along, across, about), motion, "what a parallel motion leaves, as the library has it")
+prove(
+    (along, across, about),
+    motion,
+    "what a parallel motion leaves, as the library has it",
+    written=(
+        r"\text{along} = \mathcal E_U\big|_{\Delta = 0}",
+        r"\text{across} = \mathcal E_\Delta\big|_{\Delta = 0}",
+        r"\text{about} = \mathcal E_\alpha\big|_{\Delta = 0}",
+    ),
+)
 
 # %%
 prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the twist")
@@ -56,7 +65,12 @@ prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the
 one_rotor = (a + b) / 2 * (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2 + G * sp.tanh(U) * alpha_v
 rotor = euler_lagrange(one_rotor, TWISTED)
 equal = {G_1: G, G_2: G}
-prove((along.subs(equal), about.subs(equal)), (2 * rotor[0], 2 * rotor[2]), "the pair is two of one rotor")
+prove(
+    (along.subs(equal), about.subs(equal)),
+    (2 * rotor[0], 2 * rotor[2]),
+    "the pair is two of one rotor",
+    written=(r"\text{along} = 2\,\mathcal E_U^{\text{rotor}}", r"\text{about} = 2\,\mathcal E_\alpha^{\text{rotor}}"),
+)
 
 # %% [markdown]
 # ## The equation of a small twist
@@ -72,7 +86,12 @@ inertia, stiffness = twist_coefficients()
 prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist")
 
 # %%
-prove(stiffness, b * (speed + x * x_a), "its stiffness, b (|r′|² + x x″)")
+prove(
+    stiffness,
+    b * (speed + x * x_a),
+    "its stiffness, b (|r′|² + x x″)",
+    written=r"\text{stiffness} = b\,\big(|\dot r|^2 + x\,\ddot x\big)",
+)
 
 # %% [markdown]
 # ## Hill's equation

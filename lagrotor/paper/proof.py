@@ -28,14 +28,15 @@ class Formula:
         return rf"$\displaystyle {self.tex}$"
 
 
-# Characters of LaTeX beyond which a left side is not shown: it is what the code computed, and the right side says it.
+# Characters of LaTeX beyond which a side cannot be read: it is to be named, or the equation written in vectors.
 _LONGEST = 240
 
 
 @dataclass(frozen=True)
 class Step:
     """Equations that were proved. pairs: (left, right). names: LaTeX of the left sides, where they are better named than
-    written out. domain: factors that must not vanish. order: of a series in `small`."""
+    written out. written: LaTeX of the equations, where vectors read better than the components that were compared. domain:
+    factors that must not vanish. order: of a series in `small`."""
 
     pairs: tuple[tuple[Any, Any], ...]
     says: str
@@ -43,15 +44,16 @@ class Step:
     names: tuple[str, ...] = ()
     small: sp.Symbol | None = None
     order: int | None = None
+    written: tuple[str, ...] = ()
 
     @property
     def tex(self) -> str:
         """The equations below each other, as LaTeX."""
         end = rf" + O\left({latex(self.small)}^{{{(self.order or 0) + 1}}}\right)" if self.small is not None else ""
         names = self.names or tuple(latex(left) for left, _ in self.pairs)
-        lines = [
-            f"{name if len(name) <= _LONGEST else chr(92) + 'cdots'} &= {latex(right)}{end}"
-            for name, (_, right) in zip(names, self.pairs, strict=True)
+        sides = zip(names, self.pairs, strict=True)
+        lines = [f"{line}{end}" for line in self.written] or [
+            f"{name} &= {latex(right)}{end}" for name, (_, right) in sides
         ]
         return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
 
@@ -66,16 +68,21 @@ def prove(
     small: sp.Symbol | None = None,
     order: int | None = None,
     names: str | Sequence[str] = (),
+    written: str | Sequence[str] = (),
 ) -> Step:
     """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
 
-    says: what is proved, in words. names: LaTeX shown for the left sides. Raises ProofError with the difference where it
-    does not hold or is not decided.
+    says: what is proved, in words. names: LaTeX shown for the left sides. written: LaTeX shown for the whole equations, in
+    vectors and sums where what is compared are components. Raises ProofError with the difference where it does not hold or
+    is not decided, and where a left side is too long to be read and neither named nor written.
     """
     pairs = _pairs(left, right)
-    named = (names,) if isinstance(names, str) else tuple(names)
-    if named and len(named) != len(pairs):
-        raise ProofError(f"prove: {len(named)} names for {len(pairs)} equations")
+    named, shown = ((given,) if isinstance(given, str) else tuple(given) for given in (names, written))
+    for given, what in ((named, "names"), (shown, "equations are written")):
+        if given and len(given) != len(pairs):
+            raise ProofError(f"prove: {len(given)} {what} for {len(pairs)} equations")
+    if not (named or shown) and any(len(latex(a)) > _LONGEST for a, _ in pairs):
+        raise ProofError(f"prove: {says or 'this step'}: a left side is too long to be read; give `names` or `written`")
     domain: dict[sp.Expr, None] = {}
     for a, b in pairs:
         if small is not None:
@@ -85,7 +92,7 @@ def prove(
         if decision.answer != "zero":
             raise ProofError(f"prove: {says or 'this step'} is {decision.answer}: {a} against {b}: {decision.reason}")
         domain |= dict.fromkeys(f for f in decision.domain if not (f.is_positive or f.is_number))
-    return Step(pairs, says, tuple(domain), named, small, order)
+    return Step(pairs, says, tuple(domain), named, small, order, shown)
 
 
 def _pairs(left: Any, right: Any) -> tuple[tuple[Any, Any], ...]:

@@ -41,10 +41,15 @@ def test_a_series_is_held_to_its_order() -> None:
         prove(sp.cos(theta_0), 1 - theta_0**2 / 2, "the cosine", small=theta_0, order=4)
 
 
-def test_a_left_side_is_named_or_left_out_where_it_is_long() -> None:
+def test_a_long_left_side_is_named_or_the_equation_written() -> None:
     assert prove(SQUARES, 1, names=r"|r|^2").tex == r"\begin{aligned} |r|^2 &= 1 \end{aligned}"
     long = sum(sp.Symbol(f"a_{n}") for n in range(60))
-    assert prove(long, long).tex.startswith(r"\begin{aligned} \cdots &=")
+    assert prove(long, long, names="A").tex.startswith(r"\begin{aligned} A &=")
+    assert prove(long, long, written=r"A = \sum_n a_n").tex == r"\begin{aligned} A = \sum_n a_n \end{aligned}"
+    with pytest.raises(ProofError, match="give `names` or `written`"):
+        prove(long, long)
+    with pytest.raises(ProofError, match="2 equations are written for 1"):
+        prove(x, x, written=("a", "b"))
     with pytest.raises(ProofError, match="2 names for 1"):
         prove(x, x, names=("a", "b"))
 
