@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from lagrotor.models.simulate import simulate
     from lagrotor.pair.initial_conditions import consistent_scene
     from lagrotor.paper.audit import audit
+    from lagrotor.structures.assembly import Brace
+    from lagrotor.structures.structure import Structure
     from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
     from lagrotor.theory.natural_frequency import natural_rate
     from lagrotor.theory.paired_precession.closed_forms import paired_momentum
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
 _LATER = {
+    "Brace": "lagrotor.structures.assembly",
+    "Structure": "lagrotor.structures.structure",
     "audit": "lagrotor.paper.audit",
     "cancelling_force": "lagrotor.theory.drift_after_shock",
     "consistent_scene": "lagrotor.pair.initial_conditions",
@@ -35,10 +39,12 @@ _LATER = {
 }
 
 __all__ = [
+    "Brace",
     "Link",
     "Rotor",
     "Scene",
     "Shock",
+    "Structure",
     "audit",
     "cancelling_force",
     "consistent_scene",

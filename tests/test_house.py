@@ -19,6 +19,7 @@ FLOORS = (
         "pair",
         "theory",
         "models",
+        "structures",
         "benchmark",
     ),
     *("paper", "pictures", "", "report", "commands"),  # "": the face of the package, which hands names on

@@ -1,0 +1,176 @@
+"""What a structure is made of: joints, bars, rotors, loads, braces. What makes no sense is refused here."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import hypot, isfinite
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.pair.scene import Link, Rotor
+
+Point = tuple[float, float, float]
+Bar = tuple[int, int, float]
+
+
+@dataclass(frozen=True)
+class Brace:
+    """A spring (N/m) and damper (N s/m) from a tip to another tip, or to a point (x, y, z) of the ground, in m.
+
+    It is unstrained when all axes are upright. Its forces are stiffness × extension and damping × its rate.
+    """
+
+    tip: int
+    to: int | Point
+    stiffness: float = 0.0
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """N rotors on ground joints, B bars between their tips, and what acts on them. SI units.
+
+    joints: (x, y) of each ground joint, m. bars: (i, j) or (i, j, length), rotors counted from 0; a bar without a length is
+    as long as its tips are apart when all axes are upright. spins: rad/s, signed. rotor, link: one for all or a list; of a
+    link only mass and inertia are read. gravity: m/s², along −z. load: kg on each tip. friction: N m s/rad on each axis'
+    tilting rate; spin_friction: N m s/rad on each spin. hinge: N m/rad towards upright. One number means one for all.
+    """
+
+    joints: tuple[tuple[float, float], ...]
+    bars: tuple[Bar, ...] = ()
+    spins: tuple[float, ...] = (0.0,)
+    rotor: tuple[Rotor, ...] = (Rotor(),)
+    link: tuple[Link, ...] = (Link(),)
+    gravity: float = 0.0
+    load: tuple[float, ...] = (0.0,)
+    friction: tuple[float, ...] = (0.0,)
+    hinge: tuple[float, ...] = (0.0,)
+    braces: tuple[Brace, ...] = ()
+    spin_friction: tuple[float, ...] = (0.0,)
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        put(self, "joints", tuple(_numbers(joint, 2, f"joints[{i}]", "m") for i, joint in enumerate(_row(self.joints))))
+        n = len(self.joints)
+        if not n:
+            raise InputError("Structure: joints is empty: give at least one ground joint (x, y) in m")
+        put(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
+        put(self, "gravity", _number(self.gravity, "gravity", "m/s²"))
+        put(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
+        for name, unit in (
+            ("load", "kg"),
+            ("friction", "N m s/rad"),
+            ("spin_friction", "N m s/rad"),
+            ("hinge", "N m/rad"),
+        ):
+            put(self, name, _amounts(getattr(self, name), n, name, unit))
+        bars = tuple(self._bar(k, bar) for k, bar in enumerate(_row(self.bars)))
+        seen: dict[frozenset[int], int] = {}
+        for k, (i, j, _) in enumerate(bars):
+            first = seen.setdefault(frozenset((i, j)), k)
+            if first != k:
+                raise InputError(
+                    f"Structure: bars[{k}] = ({i}, {j}) is bars[{first}] again: dependent constraints; leave one out"
+                )
+        put(self, "bars", bars)
+        put(self, "link", _each(self.link, len(bars), "link", Link))
+        put(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(_row(self.braces))))
+
+    def _bar(self, k: int, given: Any) -> Bar:
+        items = _row(given)
+        if len(items) not in (2, 3):
+            raise InputError(f"Structure: bars[{k}] = {given!r} must be (i, j) or (i, j, length)")
+        i, j = (self._tip(item, f"bars[{k}]") for item in items[:2])
+        if i == j:
+            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is a bar to itself: join two different tips")
+        reach = self.rotor[i].length, self.rotor[j].length
+        apart = hypot(self.joints[i][0] - self.joints[j][0], self.joints[i][1] - self.joints[j][1])
+        upright = hypot(apart, reach[0] - reach[1])
+        length = _number(items[2], f"bars[{k}] length", "m") if len(items) == 3 else upright
+        if length <= 0:
+            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart")
+        low, high = apart - sum(reach), apart + sum(reach)
+        if not low <= length <= high:
+            raise InputError(
+                f"Structure: bars[{k}] = ({i}, {j}), {length:g} m long, cannot close: the tips can be from {max(low, 0):g} to "
+                f"{high:g} m apart"
+            )
+        return i, j, length
+
+    def _brace(self, k: int, given: Any) -> Brace:
+        brace = given if isinstance(given, Brace) else Brace(*_row(given))
+        where = f"braces[{k}]"
+        tip = self._tip(brace.tip, where)
+        to = self._tip(brace.to, where) if isinstance(brace.to, int) else _numbers(brace.to, 3, f"{where} to", "m")
+        stiffness = _not_negative(brace.stiffness, f"{where} stiffness", "N/m")
+        damping = _not_negative(brace.damping, f"{where} damping", "N s/m")
+        ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
+        if tip == to or ends[0] == ends[1]:
+            raise InputError(f"Structure: {where} has both ends at one place: join two different points")
+        return Brace(tip, to, stiffness, damping)  # type: ignore[arg-type]
+
+    def _tip(self, value: Any, where: str) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < len(self.joints):
+            raise InputError(
+                f"Structure: {where}: {value!r} is no rotor: they are numbered 0 to {len(self.joints) - 1}"
+            )
+        return value
+
+    def upright_tip(self, i: int) -> Point:
+        """Where the tip of rotor i is when its axis is upright, m."""
+        return (*self.joints[i], self.rotor[i].length)
+
+    @property
+    def natural(self) -> bool:
+        """Whether every bar is as long as its tips are apart when all axes are upright."""
+        return all(
+            abs(hypot(*(p - q for p, q in zip(self.upright_tip(i), self.upright_tip(j), strict=True))) - length)
+            <= 1e-12 * length
+            for i, j, length in self.bars
+        )
+
+
+def _row(value: Any) -> list[Any]:
+    if not isinstance(value, Iterable) or isinstance(value, str | bytes):
+        raise InputError(f"Structure: {value!r} must be a list")
+    return list(value)
+
+
+def _number(value: Any, where: str, unit: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"Structure: {where} = {value!r} is not a number: give it in {unit}") from None
+    if isinstance(value, str | bool) or not isfinite(number) or abs(number) > 1e30:
+        raise InputError(f"Structure: {where} = {value!r} is not a finite number below 1e30: give it in {unit}")
+    return number
+
+
+def _not_negative(value: Any, where: str, unit: str) -> float:
+    number = _number(value, where, unit)
+    if number < 0:
+        raise InputError(f"Structure: {where} = {number:g} {unit} is below zero: give 0 or more")
+    return number
+
+
+def _numbers(value: Any, count: int, where: str, unit: str) -> tuple[Any, ...]:
+    items = _row(value)
+    if len(items) != count:
+        raise InputError(f"Structure: {where} = {value!r} must be {count} numbers in {unit}")
+    return tuple(_number(item, where, unit) for item in items)
+
+
+def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
+    """One number for all, or n of them; refused below zero unless `signed`."""
+    check = _number if signed else _not_negative
+    items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
+    if len(items) not in (1, n):
+        raise InputError(f"Structure: {where} has {len(items)} numbers for {n} rotors: give one for all, or {n}")
+    found = [check(item, f"{where}[{i}]", unit) for i, item in enumerate(items)]
+    return tuple(found * n if len(found) == 1 else found)
+
+
+def _each(value: Any, n: int, where: str, kind: type) -> tuple[Any, ...]:
+    items = list(value) if isinstance(value, Sequence) else [value]
+    if len(items) not in (1, n) or not all(isinstance(item, kind) for item in items):
+        raise InputError(f"Structure: {where} must be one {kind.__name__}, or a list of {n} of them")
+    return tuple(items * n if len(items) == 1 else items)

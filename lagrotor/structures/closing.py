@@ -1,0 +1,98 @@
+"""Whether the bars can close, and what freedoms they leave."""
+
+import numpy as np
+
+from lagrotor.errors import ConstraintError, InputError
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact_motion import ExactMotion, exact_motion
+
+_DENSE = 400  # unknowns up to which ranks are found by singular values
+_DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero
+
+
+def check_closure(s: Assembly) -> None:
+    """Raises InputError where no freedom is left, the bars cannot close, or the constraints are dependent."""
+    N, B = len(s.joints), len(s.bars)
+    if B >= 2 * N:
+        raise InputError(
+            f"Structure: {B} bars leave no freedom: {N} axes have {2 * N}, and each bar takes one; leave out "
+            f"{B - 2 * N + 1} at least"
+        )
+    motion = exact_motion(s)
+    r = motion.c.upright
+    if not s.natural:
+        try:
+            r = closed(motion, r)
+        except ConstraintError as error:
+            raise InputError(f"Structure: the bars cannot close: {error}; check their lengths") from None
+    loose = _dependent_bar(motion, r)
+    if loose is not None:
+        i, j, _ = s.bars[loose]
+        raise InputError(
+            f"Structure: dependent constraints: bars[{loose}] = ({i}, {j}) holds nothing that other bars do not hold "
+            f"{'when all axes are upright' if s.natural else 'where the bars close'}; leave it out"
+        )
+
+
+def closed(motion: ExactMotion, r: Array, most: int = 50) -> Array:
+    """The axes (N, 3) on the constraints that Newton steps in the metric of the masses reach from r.
+
+    Raises ConstraintError where they do not.
+    """
+    y = np.concatenate([r.ravel(), np.zeros(r.size)])
+    with np.errstate(all="ignore"):
+        for _ in range(most):
+            far = np.abs(motion.off(y[: r.size].reshape(r.shape))).max()
+            if far < 1e-15 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
+                break
+            step = motion.projected(y) - y
+            size = np.abs(step).max()
+            y = y + step * min(1.0, 0.5 / size) if size > 0 else y
+            if not np.isfinite(size) or size < 1e-16:
+                break
+    if not far < 1e-11 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
+        raise ConstraintError(f"no position of the axes satisfies them (nearest found: {far:.2g} m² off)")
+    return y[: r.size].reshape(r.shape)
+
+
+def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
+    """The first bar whose gradient depends on those before it, at the axes r; None where all are independent."""
+    c = motion.c
+    N, B = len(c.R), len(c.i)
+    if not B:
+        return None
+    across = tangents(r)
+    first, second = motion.pulls(r)
+    rows = np.concatenate([np.arange(B), np.arange(B)]).repeat(2)
+    columns = (2 * np.concatenate([c.i, c.j])[:, None] + [0, 1]).ravel()
+    scale = np.repeat(c.ell, 2)
+    entries = np.concatenate(
+        [np.einsum("bk,bkm->bm", part, across[end]).ravel() / scale for part, end in ((first, c.i), (second, c.j))]
+    )
+    if 2 * N <= _DENSE:
+        G = np.zeros((B, 2 * N))
+        np.add.at(G, (rows, columns), entries)
+        sizes = np.linalg.svd(G, compute_uv=False)
+        if sizes[-1] > _DEPENDENT * sizes[0]:
+            return None
+        return next(k for k in range(B) if np.linalg.matrix_rank(G[: k + 1], tol=_DEPENDENT * sizes[0]) <= k)
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.linalg import splu
+
+    sparse = csr_matrix((entries, (rows, columns)), shape=(B, 2 * N))
+    try:
+        factors = splu((sparse @ sparse.T).tocsc(), diag_pivot_thresh=0.0)
+    except RuntimeError:  # exactly singular
+        return B - 1
+    pivots = np.abs(factors.U.diagonal())
+    small = pivots < _DEPENDENT * pivots.max()
+    return int(factors.perm_c.argsort()[np.argmax(small)]) if small.any() else None
+
+
+def tangents(r: Array) -> Array:
+    """Two unit vectors across each axis as columns, (N, 3, 2); e_x and e_y where it is upright."""
+    first = np.cross(np.array([0.0, 1.0, 0.0]), r)
+    lengths = np.linalg.norm(first, axis=1, keepdims=True)
+    first = np.where(lengths > 1e-6, first / np.where(lengths > 1e-6, lengths, 1), [1.0, 0.0, 0.0])
+    return np.stack([first, np.cross(r, first)], axis=2)

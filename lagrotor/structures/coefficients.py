@@ -1,0 +1,105 @@
+"""The numbers of a structure's equations of motion: masses, moments, bars and braces as arrays.
+
+With r_i the unit vector of axis i and X_i = p_i + R_i r_i its tip, the kinetic energy is
+
+    T = 1/2 sum_ij A_ij r_i' . r_j',   A_ii = J_i + load_i R_i² + sum_bars R_i² (m/4 + K/ell²),
+                                       A_ij = R_i R_j (m/4 − K/ell²) for a bar between i and j,
+
+and the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m R_i/2.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.structures.assembly import Assembly
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Coefficients:
+    """Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
+
+    Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
+    ground point (3,), natural length, stiffness, damping, each with one row a brace.
+    """
+
+    R: Array
+    A: Array
+    S: Array
+    G: Array
+    decay: Array
+    friction: Array
+    hinge: Array
+    gravity: float
+    feet: Array
+    i: Index
+    j: Index
+    ell: Array
+    coupling: Array
+    brace_tip: Index
+    brace_to: Index
+    brace_point: Array
+    brace_length: Array
+    stiffness: Array
+    damping: Array
+
+    @property
+    def upright(self) -> Array:
+        """All axes upright, (N, 3)."""
+        return np.tile([0.0, 0.0, 1.0], (len(self.R), 1))
+
+    @property
+    def rate(self) -> float:
+        """The largest of the rates (rad/s) at which a single axis precesses, falls or swings; never zero."""
+        pull = np.abs(self.gravity) * np.abs(self.S) + self.hinge
+        stiff = np.zeros(len(self.R))
+        np.add.at(stiff, self.brace_tip, self.stiffness * self.R[self.brace_tip] ** 2)
+        joined = self.brace_to >= 0
+        np.add.at(stiff, self.brace_to[joined], self.stiffness[joined] * self.R[self.brace_to[joined]] ** 2)
+        return float(max((np.abs(self.G) / self.A).max(), np.sqrt((pull + stiff) / self.A).max(), 1e-6))
+
+
+@lru_cache(maxsize=64)
+def coefficients(s: Assembly) -> Coefficients:
+    """The arrays of a structure."""
+    R = np.array([rotor.length for rotor in s.rotor])
+    load = np.array(s.load)
+    A = np.array([rotor.J for rotor in s.rotor]) + load * R**2
+    S = np.array([rotor.mass for rotor in s.rotor]) * R / 2 + load * R
+    I3 = np.array([rotor.I3 for rotor in s.rotor])
+    i, j = (np.array([bar[end] for bar in s.bars], dtype=np.intp) for end in (0, 1))
+    ell = np.array([bar[2] for bar in s.bars], dtype=float)
+    m, K = (np.array([getattr(link, name) for link in s.link], dtype=float) for name in ("mass", "inertia"))
+    for end in (i, j):
+        np.add.at(A, end, R[end] ** 2 * (m / 4 + K / ell**2))
+        np.add.at(S, end, R[end] * m / 2)
+    to = np.array([b.to if isinstance(b.to, int) else -1 for b in s.braces], dtype=np.intp)
+    point = np.array([s.upright_tip(b.to) if isinstance(b.to, int) else b.to for b in s.braces]).reshape(-1, 3)
+    tip = np.array([b.tip for b in s.braces], dtype=np.intp)
+    start = np.array([s.upright_tip(b.tip) for b in s.braces]).reshape(-1, 3)
+    return Coefficients(
+        R=R,
+        A=A,
+        S=S,
+        G=I3 * np.array(s.spins),
+        decay=np.array(s.spin_friction) / I3,
+        friction=np.array(s.friction),
+        hinge=np.array(s.hinge),
+        gravity=s.gravity,
+        feet=np.column_stack([np.array(s.joints), np.zeros(len(R))]),
+        i=i,
+        j=j,
+        ell=ell,
+        coupling=R[i] * R[j] * (m / 4 - K / ell**2),
+        brace_tip=tip,
+        brace_to=to,
+        brace_point=point,
+        brace_length=np.linalg.norm(start - point, axis=1),
+        stiffness=np.array([b.stiffness for b in s.braces], dtype=float),
+        damping=np.array([b.damping for b in s.braces], dtype=float),
+    )

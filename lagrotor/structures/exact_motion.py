@@ -1,0 +1,128 @@
+"""The exact motion of N rotors and B bars: unit vectors with multipliers, large motion, every load and drive.
+
+    sum_j A_ij r_j'' = G_i r_i × r_i' − S_i (g e_z + a(t)) + R_i f_i(t) + hinge, friction, braces + sum_c lam_c grad_i g_c
+
+with |r_i|² = 1 and |X_j − X_i|² = ell² (X_i = p_i + R_i r_i), f_i the force on tip i, a(t) the ground's acceleration: the
+equations are those in the ground's frame. The hinge's energy is kappa theta²/2, friction is −c r_i', and the axial momentum
+decays by its own friction, G_i(t) = G_i exp(−c_s t / I3). For N = 2 without load: `lagrotor.models.spheres`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array, Coefficients, coefficients
+from lagrotor.structures.saddle import Saddle, saddle
+
+Drive = Callable[[float], Array]
+_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+
+
+@dataclass(frozen=True, eq=False)
+class ExactMotion:
+    """The right-hand side in the state y = (r, r'/rate), (6 N,), and the time s = rate t.
+
+    force: t → forces (N, 3) on the tips, N; ground: t → acceleration (3,) of the ground, m/s².
+    """
+
+    c: Coefficients
+    saddle: Saddle
+    force: Drive | None = None
+    ground: Drive | None = None
+
+    def rhs(self, s: float, y: Array) -> Array:
+        """y' at s, both without unit."""
+        N, rate = len(self.c.R), self.c.rate
+        r, v = y[: 3 * N].reshape(N, 3), y[3 * N :].reshape(N, 3) * rate
+        return np.concatenate([y[3 * N :], self.accelerations(s / rate, r, v).ravel() / rate**2])
+
+    def accelerations(self, t: float, r: Array, v: Array) -> Array:
+        """r'' (N, 3) in 1/s² of axes r and rates v (N, 3)."""
+        return self.solution(t, r, v)[: r.size].reshape(r.shape)
+
+    def solution(self, t: float, r: Array, v: Array) -> Array:
+        """[r'' (3 N), multipliers of the axes (N) and of the bars (B)]: the pull of a bar on its tips is −lam times d, in N."""
+        c = self.c
+        swing = c.R[c.j, None] * v[c.j] - c.R[c.i, None] * v[c.i]
+        right = np.concatenate([self.forces(t, r, v).ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
+        return self.saddle.solve(r, self.pulls(r), right)
+
+    def pulls(self, r: Array) -> tuple[Array, Array]:
+        """−R_i d and R_j d of the bars (B, 3), d from tip i to tip j: half the gradients of |d|²."""
+        c = self.c
+        d = c.feet[c.j] - c.feet[c.i] + c.R[c.j, None] * r[c.j] - c.R[c.i, None] * r[c.i]
+        return -c.R[c.i, None] * d, c.R[c.j, None] * d
+
+    def forces(self, t: float, r: Array, v: Array) -> Array:
+        """What acts on the axes besides the constraints, (N, 3), N m."""
+        c = self.c
+        G = c.G * np.exp(-c.decay * t) if c.decay.any() else c.G
+        F = G[:, None] * (r[:, _NEXT] * v[:, _AFTER] - r[:, _AFTER] * v[:, _NEXT]) - c.friction[:, None] * v
+        F[:, 2] -= c.gravity * c.S
+        if c.hinge.any():
+            theta = np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2])
+            F[:, 2] += c.hinge / np.sinc(theta / np.pi)
+        if len(c.stiffness):
+            self._brace(F, r, v)
+        if self.ground is not None:
+            F -= c.S[:, None] * np.asarray(self.ground(t), dtype=float)
+        if self.force is not None:
+            F += c.R[:, None] * np.asarray(self.force(t), dtype=float)
+        return F
+
+    def _brace(self, F: Array, r: Array, v: Array) -> None:
+        c = self.c
+        d, swing = self._brace_vectors(r), c.R[c.brace_tip, None] * v[c.brace_tip]
+        joined = c.brace_to >= 0
+        other = c.brace_to[joined]
+        swing[joined] -= c.R[other, None] * v[other]
+        length = np.linalg.norm(d, axis=1)
+        along = d / length[:, None]
+        pull = c.stiffness * (length - c.brace_length) + c.damping * (along * swing).sum(1)
+        np.add.at(F, c.brace_tip, -c.R[c.brace_tip, None] * pull[:, None] * along)
+        np.add.at(F, other, c.R[other, None] * (pull[:, None] * along)[joined])
+
+    def _brace_vectors(self, r: Array) -> Array:
+        """From the far end of each brace to its tip, (…, braces, 3), m; r (…, N, 3)."""
+        c = self.c
+        tips = c.feet + c.R[:, None] * r
+        joined = (c.brace_to >= 0)[:, None]
+        return tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
+
+    def energy(self, r: Array, v: Array) -> Array:
+        """T + V of states r, v (n, N, 3), (n,), in J, the spins' own energy left out."""
+        c = self.c
+        kinetic = (c.A * (v * v).sum(-1)).sum(-1) / 2 + (c.coupling * (v[:, c.i] * v[:, c.j]).sum(-1)).sum(-1)
+        theta = np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
+        potential = c.gravity * r[..., 2] @ c.S + (c.hinge * theta**2).sum(-1) / 2
+        stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
+        return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
+
+    def off(self, r: Array) -> Array:
+        """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (N + B,)."""
+        c = self.c
+        d = self.pulls(r)[1] / c.R[c.j, None]
+        return np.concatenate([(r * r).sum(1) - 1, (d * d).sum(1) - c.ell**2]) / 2
+
+    def rows_times(self, r: Array, v: Array) -> Array:
+        """G v, the rates of the constraints, (N + B,)."""
+        first, second = self.pulls(r)
+        return np.concatenate([(r * v).sum(1), (first * v[self.c.i]).sum(1) + (second * v[self.c.j]).sum(1)])
+
+    def projected(self, y: Array) -> Array:
+        """One Newton step onto the constraints and their rates in the metric of the masses: states (6 N,) or (6 N, n)."""
+        if y.ndim == 2:
+            return np.column_stack([self.projected(column) for column in y.T])
+        N = len(self.c.R)
+        r, v = y[: 3 * N].reshape(N, 3), y[3 * N :].reshape(N, 3)
+        right = np.zeros((4 * N + len(self.c.i), 2))
+        right[3 * N :, 0], right[3 * N :, 1] = -self.off(r), -self.rows_times(r, v)
+        moved = self.saddle.solve(r, self.pulls(r), right)[: 3 * N]
+        return y + moved.T.ravel()
+
+
+def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:
+    """The exact model of a structure, driven by forces on its tips and by its ground."""
+    return ExactMotion(coefficients(s), saddle(s), force, ground)

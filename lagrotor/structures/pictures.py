@@ -1,0 +1,53 @@
+"""Pictures of a structure: its plan, its roots, and a run over time."""
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lagrotor.drawing.run_figure import RunFigure
+from lagrotor.drawing.style import OKABE_ITO, paper_style
+from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+
+
+def draw_plan(panel: Axes, s: Assembly) -> None:
+    """The joints from above, bars, braces (dashed), each rotor coloured by the sense of its spin."""
+    for i, j, _ in s.bars:
+        panel.plot(*zip(s.joints[i], s.joints[j], strict=True), color=BAR, linewidth=4, zorder=1)
+    for brace in s.braces:
+        end = s.joints[brace.to] if isinstance(brace.to, int) else brace.to[:2]
+        panel.plot(*zip(s.joints[brace.tip], end, strict=True), "--", color=MARK, linewidth=1.5, zorder=1)
+    most = max(map(abs, s.spins)) or 1.0
+    for (x, y), spin in zip(s.joints, s.spins, strict=True):
+        ink = BAR if spin == 0 else ROTORS[spin < 0]
+        panel.plot(x, y, "o", color=ink, markersize=9, fillstyle="full" if spin else "none", zorder=2)
+        if len(s.joints) <= 16:
+            panel.annotate(f"{spin:.4g}".replace("-", "−"), (x, y), (6, 6), textcoords="offset points", color=INK)
+        panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
+    panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
+    panel.margins(0.25)
+
+
+def run_picture(s: Assembly, t: Array, tips: Array, energy: Array) -> Figure:
+    """x and y of the tips (N, n, 3) in m over t (n,) in s, their paths from above, and the change of the energy in J."""
+    inks = [OKABE_ITO[name] for name in ("blue", "vermillion", "bluish green", "reddish purple", "orange", "sky blue")]
+    with paper_style():
+        figure = RunFigure(figsize=(9.0, 6.0))
+        panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
+        for i, tip in enumerate(tips):
+            ink = inks[i % len(inks)]
+            for k, letter in enumerate("xyz"):
+                panels[letter].plot(t, tip[:, k] - tip[0, k], color=ink, linewidth=1.2)
+            panels["above"].plot(tip[:, 0], tip[:, 1], color=ink)
+        for i, j, _ in s.bars:
+            panels["above"].plot(*tips[[i, j], 0, :2].T, color=BAR, linewidth=3, zorder=0)
+        for letter in "xyz":
+            panels[letter].set_ylabel(f"Δ{letter} of the tips [m]")
+        panels["above"].set(
+            xlabel="x [m]", ylabel="y [m]", title="Tips from above", aspect="equal", adjustable="datalim"
+        )
+        panels["energy"].plot(t, energy - energy[0], color=INK)
+        panels["energy"].set_ylabel("change of the energy [J]")
+        for name in ("z", "energy"):
+            panels[name].set_xlabel("t [s]")
+    return figure

@@ -1,0 +1,68 @@
+"""A structure's run: axes, tips, energy, bars; its plot and its film."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array, coefficients
+from lagrotor.structures.exact_motion import exact_motion
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class StructureRun:
+    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), the estimated largest error of an axis, evaluations of all runs."""
+
+    structure: Assembly
+    t: Array
+    axes: Array
+    rates: Array
+    error: float
+    nfev: int
+
+    @cached_property
+    def tips(self) -> Array:
+        """Positions of the tips, (N, n, 3), m."""
+        c = coefficients(self.structure)
+        return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
+
+    @cached_property
+    def energy(self) -> Array:
+        """Kinetic and potential energy, (n,), J; the spins' own energy left out. Constant without friction and drive."""
+        return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
+
+    @cached_property
+    def bar_length(self) -> Array:
+        """Lengths of the bars, (B, n), m."""
+        c = coefficients(self.structure)
+        return np.asarray(np.linalg.norm(self.tips[c.j] - self.tips[c.i], axis=-1))
+
+    def plot(self) -> "Figure":
+        """Tips over time and from above, and the energy: a figure that a notebook shows."""
+        from lagrotor.structures.pictures import run_picture
+
+        return run_picture(self.structure, self.t, self.tips, self.energy)
+
+    def animate(self, path: str | Path, fps: float = 25.0) -> Path:
+        """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics.
+
+        Raises InputError for a name, a folder or a frame rate that will not do, before anything is drawn.
+        """
+        from lagrotor.drawing.film import check_film, frame_times
+        from lagrotor.drawing.skeleton import animate_lines
+        from lagrotor.numerics.rotations import between_samples
+
+        check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
+        times = frame_times(float(self.t[0]), float(self.t[-1]), fps)
+        axes, _ = between_samples(self.t, self.axes, self.rates, times)
+        c = coefficients(self.structure)
+        feet = np.broadcast_to(c.feet[:, None], axes.shape)
+        tips = feet + c.R[:, None, None] * axes
+        lines = [np.stack([tips[i], tips[j]], 1) for i, j in zip(c.i, c.j, strict=True)]
+        return animate_lines(path, times, [*lines, *np.stack([feet, tips], 2)], fps)

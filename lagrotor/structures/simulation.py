@@ -1,0 +1,124 @@
+"""A structure's run: exact motion from a tilt and its rates, with its error estimate."""
+
+import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError, LagrotorWarning, SingularError
+from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.closing import closed
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact_motion import Drive, ExactMotion, exact_motion
+from lagrotor.structures.run import StructureRun
+
+_APART = 30.0  # the two runs' tolerances: the difference is the error of the looser one
+_FIRST = 1e-2  # of tol: the local error that the first run is given
+
+
+def simulate(
+    s: Assembly,
+    t: ArrayLike,
+    tilt: ArrayLike | None = None,
+    rates: ArrayLike | None = None,
+    drive: Drive | None = None,
+    ground: Drive | None = None,
+    tol: float = 1e-9,
+) -> StructureRun:
+    """The exact motion from t = 0, read at the increasing times t (n,), s.
+
+    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s. Both are
+    brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and `run.rates[:, 0]` show.
+    drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
+    tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
+    tolerance, and a LagrotorWarning says when it exceeds tol.
+
+    Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
+    where bars and axes are in line, IntegrationError where the motion cannot go on.
+    """
+    times, wanted = _times(t), check_tolerance(tol)
+    motion = exact_motion(s, _checked(drive, "drive", (len(s.joints), 3)), _checked(ground, "ground", (3,)))
+    start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
+    coarse, first = _integrated(motion, start, times, local)
+    while True:
+        fine, second = _integrated(motion, start, times, max(local / _APART, 1e-13))
+        error = float(np.linalg.norm(fine[0] - coarse[0], axis=-1).max()) + 1e-15
+        first += second
+        if error <= wanted or local <= 3e-12:
+            break
+        local, coarse = max(local / _APART, 3e-12), fine
+    if error > wanted:
+        warnings.warn(
+            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, as neighbouring motions part; shorten the run",
+            LagrotorWarning,
+            stacklevel=2,
+        )
+    return StructureRun(s, times, fine[0], fine[1], error, first)
+
+
+def _integrated(motion: ExactMotion, start: Array, times: Array, local: float) -> tuple[Array, int]:
+    """Axes and rates (2, N, n, 3), and evaluations."""
+    rate, N = motion.c.rate, len(motion.c.R)
+    most = 50_000 + 2_000 * rate * float(times[-1])
+    problem: Any = Problem(motion.rhs, start, most, project=motion.projected, typical_rate=1.0)
+    found = integrate(problem, rate * times, local)
+    states = found.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
+    states[1] *= rate
+    return states, found.evaluations
+
+
+def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
+    """The state (r, r'/rate) on the constraints."""
+    N = len(motion.c.R)
+    x = _vectors("tilt", tilt, N)
+    if x.shape[1] == 2:
+        height = 1 - (x**2).sum(1)
+        if (height < 0).any():
+            raise InputError(f"simulate: tilt of rotor {int(np.argmin(height))} exceeds 1, the sine of a right angle")
+        r = np.column_stack([x, np.sqrt(height)])
+    else:
+        r = x / np.linalg.norm(x, axis=1, keepdims=True)
+    r = closed(motion, r)
+    v = _vectors("rates", rates, N)
+    if v.shape[1] == 2:
+        safe = np.where(np.abs(r[:, 2]) > 1e-6, r[:, 2], np.inf)
+        v = np.column_stack([v, -(r[:, :2] * v).sum(1) / safe])
+    y = np.concatenate([r.ravel(), v.ravel() / motion.c.rate])
+    start = np.concatenate([r.ravel(), motion.projected(y)[3 * N :]])
+    if not np.isfinite(start).all():
+        raise SingularError(
+            "simulate: the constraints are dependent at this tilt (bar and axes in line): start elsewhere"
+        )
+    return start
+
+
+def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
+    if given is None:
+        return np.zeros((N, 2))
+    try:
+        found = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"simulate: {name} = {given!r} must be numbers (N, 2) or (N, 3)") from None
+    if found.shape not in ((N, 2), (N, 3)) or not np.isfinite(found).all():
+        raise InputError(f"simulate: {name} must be finite numbers ({N}, 2) or ({N}, 3), not of shape {found.shape}")
+    if found.shape[1] == 3 and name == "tilt" and not (np.linalg.norm(found, axis=1) > 0).all():
+        raise InputError("simulate: tilt holds a vector of length zero")
+    return found
+
+
+def _checked(drive: Drive | None, name: str, shape: tuple[int, ...]) -> Drive | None:
+    if drive is None:
+        return None
+    found = np.asarray(drive(0.0), dtype=float) if callable(drive) else np.zeros(0)
+    if found.shape != shape:
+        raise InputError(f"simulate: {name} must be a function t → array of shape {shape}, not {found.shape}")
+    return drive
+
+
+def _times(t: ArrayLike) -> Array:
+    times = np.atleast_1d(np.asarray(t, dtype=float))
+    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or times[0] < 0 or (np.diff(times) <= 0).any():
+        raise InputError("simulate: t must be an increasing row of finite times in s, from 0 on")
+    return times

@@ -1,0 +1,18 @@
+"""`Structure`: any number of rotors and bars, and what can be found out about it."""
+
+from lagrotor.structures import simulation
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.closing import check_closure
+
+
+class Structure(Assembly):
+    """Structure(joints, bars, spins, rotor, link, gravity, load, friction, hinge, braces): see `Assembly`.
+
+    Raises InputError for bars that cannot close, a bar to itself, dependent constraints, no freedom left, loads below zero.
+    """
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_closure(self)
+
+    simulate = simulation.simulate

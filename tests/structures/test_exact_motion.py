@@ -1,0 +1,154 @@
+"""The exact model of N rotors and B bars, held to the pair's models, to Lagrange's equations, and to what it conserves."""
+
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
+from lagrotor.errors import InputError, LagrotorWarning, SingularError
+from lagrotor.structures.exact_motion import exact_motion
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+from tests.structures.oracle import by_lagrange
+
+BARS = (Link(1, 0, 0), Link(1, 1, 1), Link(1, 0.3, 0.1))
+CORNER = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}
+GRID = [(x, y) for y in range(3) for x in range(3)]
+GRID_BARS = [(i, i + 1) for i in range(9) if i % 3 < 2] + [(i, i + 3) for i in range(6)]
+LOADED = {
+    "a top": Structure(joints=[(0, 0)], spins=[10], gravity=9.81, load=[0.3], friction=0.1),
+    "a pair": Structure(
+        joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[12, -7], link=Link(1, 0.3, 0.1), gravity=9.81,
+        load=[0.2, 0.5], hinge=3.0, friction=0.2,
+    ),
+    "a braced corner of unequal rotors": Structure(
+        **CORNER, spins=[30, 5, 20], link=[Link(1, 0.3, 0.1), Link(1, 0, 0)],
+        rotor=[Rotor(), Rotor(1, 1.2, 0.8, 0.7), Rotor()], gravity=9.81, load=[0.2, 0.5, 0], hinge=3.0,
+        friction=0.2, braces=[Brace(0, 2, 4.0, 0.3), Brace(1, (1.0, -2.0, 0.5), 5.0, 0.1)],
+    ),
+}  # fmt: skip
+
+
+def started(s, seed=1, size=0.2):
+    draw = np.random.default_rng(seed)
+    return {"tilt": size * draw.standard_normal((len(s.joints), 2)), "rates": draw.standard_normal((len(s.joints), 2))}
+
+
+@pytest.mark.parametrize("link", BARS)
+@pytest.mark.parametrize("model", ["spheres", "minimal"])
+def test_two_rotors_without_load_are_the_pair(link, model) -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, -7], link=link)
+    run = s.simulate(np.linspace(0, 5, 101), **started(s), tol=1e-10)
+    start = {"axes": run.axes[:, 0].tolist(), "rates": run.rates[:, 0].tolist()}
+    pair = simulate(Scene(spins=(10, -7), link=link, **start), run.t, model, tol=1e-12)
+    assert np.abs(run.axes - pair.axes).max() < 1e-10
+    other = simulate(Scene(spins=(10, -7.0001), link=link, **start), run.t, model, tol=1e-12)
+    assert np.abs(run.axes - other.axes).max() > 1e-7
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_under_load_it_is_what_lagranges_equations_say(name) -> None:
+    s = LOADED[name]
+    run = s.simulate(np.linspace(0, 1, 11), **started(s), tol=1e-10)
+    assert np.abs(run.axes - by_lagrange(s, run)).max() < 1e-11 + run.error
+    assert run.error < 1e-10
+
+
+@pytest.mark.parametrize("changed", ["load", "hinge", "friction"])
+def test_each_load_matters(changed) -> None:
+    s = LOADED["a pair"]
+    other = Structure(**{k: v for k, v in vars(s).items() if k in s.__dataclass_fields__} | {changed: 0.21})
+    t = np.linspace(0, 1, 3)
+    one, two = (each.simulate(t, **started(s), tol=1e-8).axes for each in (s, other))
+    assert np.abs(one - two).max() > 1e-4
+
+
+def test_the_work_of_force_and_ground_is_the_change_of_energy() -> None:
+    s = Structure(**CORNER, spins=[30, 5, 20], link=Link(1, 0.3, 0.1), gravity=9.81, load=[0.2, 0.5, 0])
+    push, shaken = np.array([[1.0, 2, 0], [0, 0, 0], [0, -1, 0.5]]), np.array([0.5, -0.3, 0.2])
+    t = np.linspace(0, 2, 2001)
+    run = s.simulate(
+        t, drive=lambda time: push * np.sin(3 * time), ground=lambda time: shaken * np.cos(2 * time), tol=1e-10
+    )
+    speed = np.array([rotor.length for rotor in s.rotor])[:, None, None] * run.rates
+    power = (push[:, None] * np.sin(3 * t)[:, None] * speed).sum((0, 2))
+    moment = exact_motion(s).c.S[:, None, None] * run.rates
+    power -= (moment * (shaken * np.cos(2 * t)[:, None])).sum((0, 2))
+    work = np.concatenate([[0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(t))])
+    assert np.ptp(run.energy) > 0.01
+    assert np.abs(run.energy - run.energy[0] - work).max() < 1e-5 * np.ptp(run.energy)
+
+
+def nine() -> Structure:
+    spins = [-20, 20, 20, 20, -20, 20, 20, 20, -20]
+    return Structure(joints=GRID, bars=GRID_BARS, spins=spins, link=Link(1, 0.3, 0.1))
+
+
+def kept(turns: int) -> None:
+    s = nine()
+    period = 2 * np.pi * exact_motion(s).c.A.max() / 20
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", LagrotorWarning)  # neighbours part; what is conserved does not
+        run = s.simulate(np.linspace(0, turns * period, 101), **started(s, size=0.05), tol=1e-9)
+    assert np.abs(run.energy / run.energy[0] - 1).max() < 1e-9
+    assert np.abs(run.bar_length - 1).max() < 1e-9
+    assert np.abs(np.linalg.norm(run.axes, axis=-1) - 1).max() < 1e-12
+
+
+def test_nine_rotors_keep_energy_and_bars() -> None:
+    kept(20)
+
+
+@pytest.mark.slow
+def test_nine_rotors_keep_energy_and_bars_over_a_thousand_turns() -> None:
+    kept(1000)
+
+
+def test_spins_decay_by_their_own_friction() -> None:
+    s = Structure(joints=[(0, 0)], spins=[20], spin_friction=0.3)
+    run = s.simulate(np.linspace(0, 4, 9), rates=[(1e-3, 0)], tol=1e-10)
+    free = Structure(joints=[(0, 0)], spins=[20]).simulate(run.t, rates=[(1e-3, 0)], tol=1e-10)
+    # Small motion: u' = v0 exp(i ∫ G dt / J) in the complex plane.
+    angle = 20 / 1.25 * (1 - np.exp(-0.3 * run.t)) / 0.3
+    velocity = run.rates[0, :, 0] + 1j * run.rates[0, :, 1]
+    assert np.abs(velocity - 1e-3 * np.exp(1j * angle)).max() < 1e-9
+    assert np.abs(run.axes - free.axes).max() > 1e-5
+
+
+def test_bars_of_other_lengths_lean_the_axes() -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1, 1.3)], spins=[20, 20])
+    run = s.simulate([0.0, 1.0])
+    assert run.bar_length == pytest.approx(1.3, abs=1e-12)
+    assert run.axes[1, 0, 0] == pytest.approx(0.15) and run.axes[0, 0, 0] == pytest.approx(-0.15)
+
+
+def test_a_tolerance_that_is_not_kept_is_said() -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[1, -1], gravity=9.81, load=5)
+    with pytest.warns(LagrotorWarning, match="not kept"):
+        run = s.simulate(np.linspace(0, 12, 13), tilt=[(0, 1e-3)] * 2, rates=[(0.1, 0.3)] * 2, tol=1e-12)
+    assert run.error > 1e-12
+
+
+@pytest.mark.parametrize(
+    ("more", "reason"),
+    [
+        ({"tilt": [(1.2, 0)] * 2}, "exceeds 1"),
+        ({"tilt": [0.1]}, "2, 2"),
+        ({"rates": [(np.nan, 0)] * 2}, "finite"),
+        ({"drive": lambda t: np.zeros(3)}, "drive"),
+        ({"t": [1, 0]}, "increasing"),
+    ],
+)
+def test_a_start_that_makes_no_sense_is_refused(more, reason) -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, 10])
+    with pytest.raises(InputError, match=reason):
+        s.simulate(**({"t": [0, 1]} | more))
+
+
+def test_a_start_where_bar_and_axes_are_in_line_is_refused() -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[1, 1])
+    with pytest.raises(SingularError, match="dependent"):
+        s.simulate([0, 1], tilt=[(1, 0, 0)] * 2)

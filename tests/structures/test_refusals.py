@@ -1,0 +1,57 @@
+"""Structures that make no sense are refused at the door, with the reason and the way out."""
+
+import pytest
+
+from lagrotor import Brace, Link, Rotor, Structure
+from lagrotor.errors import InputError
+
+PAIR = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)], "spins": [1, 1]}
+SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "spins": 1.0}
+RING = [(0, 1), (1, 2), (2, 3), (3, 0)]
+
+BAD = [
+    (PAIR | {"bars": [(0, 0)]}, "bar to itself"),
+    (PAIR | {"bars": [(0, 1), (1, 0)]}, "dependent constraints"),
+    (PAIR | {"bars": [(0, 1, 3.5)]}, "cannot close"),
+    (PAIR | {"bars": [(0, 2)]}, "no rotor"),
+    (PAIR | {"bars": [(0, 1, 0)]}, "must be apart"),
+    (PAIR | {"load": [0, -1]}, r"load\[1\] = -1 kg is below zero"),
+    (PAIR | {"hinge": -1}, "below zero"),
+    (PAIR | {"friction": float("nan")}, "finite"),
+    (PAIR | {"spins": [1, 2, 3]}, "3 numbers for 2 rotors"),
+    (PAIR | {"rotor": [Rotor()] * 3}, "one Rotor"),
+    (PAIR | {"link": "steel"}, "one Link"),
+    (PAIR | {"joints": []}, "empty"),
+    (PAIR | {"joints": [(0, 0), (1,)]}, "2 numbers"),
+    (PAIR | {"braces": [Brace(0, 0, 1.0)]}, "one place"),
+    (PAIR | {"braces": [Brace(0, 1, -1.0)]}, "below zero"),
+    (SQUARE | {"bars": [*RING, (0, 2), (1, 3)]}, r"bars\[5\] = \(1, 3\) holds nothing"),
+    (SQUARE | {"joints": [(0, 0), (1, 0), (2, 0)], "bars": [(0, 1), (1, 2), (0, 2)]}, "holds nothing"),
+    # Three bars whose triangle cannot close, though each alone can.
+    ({"joints": [(0, 0), (1, 0), (0, 1)], "spins": 1.0, "bars": [(0, 1, 0.1), (1, 2, 0.1), (0, 2, 2.5)]}, "cannot close"),
+    (SQUARE | {"joints": [(0, 0), (1, 0), (0, 1), (1, 1), (3, 2)],
+               "bars": [(i, j) for i in range(5) for j in range(i)]}, "leave no freedom"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("given", "reason"), BAD)
+def test_it_is_refused_with_the_reason(given, reason) -> None:
+    with pytest.raises(InputError, match=reason):
+        Structure(**given)
+
+
+def test_its_neighbours_are_not() -> None:
+    Structure(**PAIR)
+    Structure(**SQUARE, bars=[*RING, (0, 2)], link=[Link()] * 5)
+    Structure(**PAIR, rotor=[Rotor(), Rotor(length=1.5)], load=2, hinge=[0, 1], braces=[(0, (0, 1, 0), 3.0, 1.0)])
+    s = Structure(joints=[(0, 0), (1, 0), (0, 1)], bars=[(0, 1, 1.1), (1, 2, 1.3), (0, 2, 1.2)], spins=2)
+    assert not s.natural and s.spins == (2, 2, 2)
+
+
+def test_a_long_chain_is_checked_sparsely() -> None:
+    line = [(float(i), 0.3 * (i % 2)) for i in range(500)]
+    s = Structure(joints=line, bars=[(i, i + 1) for i in range(499)])
+    assert len(s.bars) == 499
+    straight = [(float(i), 0.0) for i in range(500)]
+    with pytest.raises(InputError, match="dependent"):
+        Structure(joints=straight, bars=[*((i, i + 1) for i in range(499)), (0, 499)])
