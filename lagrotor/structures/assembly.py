@@ -106,7 +106,7 @@ class Assembly:
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
         if tip == to or ends[0] == ends[1]:
             raise InputError(f"Structure: {where} has both ends at one place: join two different points")
-        return Brace(tip, to, stiffness, damping)  # type: ignore[arg-type]
+        return Brace(tip, to, stiffness, damping)
 
     def _tip(self, value: Any, where: str) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < len(self.joints):

@@ -9,6 +9,7 @@ decays by its own friction, G_i(t) = G_i exp(−c_s t / I3). For N = 2 without l
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ class ExactMotion:
     force: Drive | None = None
     ground: Drive | None = None
 
-    def rhs(self, s: float, y: Array) -> Array:
+    def rhs(self, s: float, y: Array) -> Any:
         """y' at s, both without unit."""
         N, rate = len(self.c.R), self.c.rate
         r, v = y[: 3 * N].reshape(N, 3), y[3 * N :].reshape(N, 3) * rate

@@ -103,7 +103,7 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
         raise InputError(f"simulate: {name} = {given!r} must be numbers (N, 2) or (N, 3)") from None
     if found.shape not in ((N, 2), (N, 3)) or not np.isfinite(found).all():
         raise InputError(f"simulate: {name} must be finite numbers ({N}, 2) or ({N}, 3), not of shape {found.shape}")
-    if found.shape[1] == 3 and name == "tilt" and not (np.linalg.norm(found, axis=1) > 0).all():
+    if found.size == 3 * N and name == "tilt" and not (np.linalg.norm(found, axis=1) > 0).all():
         raise InputError("simulate: tilt holds a vector of length zero")
     return found
 
