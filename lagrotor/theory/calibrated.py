@@ -22,7 +22,8 @@ class Calibrated(NamedTuple):
         return value
 
 
-_HELD_BY = "tests/theory/test_errors_hold.py::"
+_DRIFT = "tests/theory/test_drift_after_shock.py::"
+_RATE = "tests/theory/test_natural_frequency.py::"
 _SHOCKED = (
     "1400 opposite pairs with 0.4 < k < 2.5, m up to 2 kg, K up to m ell², widths up to 1.2/Omega_0, 24 swings; "
     "largest "
@@ -32,37 +33,37 @@ FREQUENCY_SHIFT = Calibrated(
     (0.5,),
     "(1 + 1/k²) r²: relative shift of the natural rate by a swing of amplitude r; r² for parallel axes is exact",
     "150 pairs with 0.5 < k < 2, any two spins, 0.01 < r < 0.2, 20 swings; largest 0.8 of it",
-    _HELD_BY + "test_natural_rate",
+    _RATE + "test_natural_rate",
 )
 LARGEST_SWING = Calibrated(
     (0.4,),
     "amplitude beyond which the errors below are not estimated",
     "the same pairs; beyond it runs over 24 swings topple over",
-    _HELD_BY + "test_what_is_out_of_range_is_refused",
+    _RATE + "test_an_amplitude_out_of_range_is_refused",
 )
 FOURTH_ORDER = Calibrated(
     (1.0, 1.1, 0.1, 0.7),
     "|G| q⁴ (c_1/k + c_2/k³) + |P| q² (c_3 + c_4/k²), over a + b: the toppling rate's next order",
     _SHOCKED + "0.68 of it",
-    _HELD_BY + "test_toppling_after_a_shock",
+    _DRIFT + "test_toppling_after_a_shock",
 )
 FIFTH_ORDER = Calibrated(
     (0.4, 1.3, 6.0, 8.0),
     "|G| q⁵ (c_1 + c_2/k⁴) + |P| q³ (c_3 + c_4/k²), over a + b: the next order of the rate of the mean x",
     _SHOCKED + "0.84 of it",
-    _HELD_BY + "test_the_mean_x_after_a_shock",
+    _DRIFT + "test_the_mean_x_after_a_shock",
 )
 CANCELLING = Calibrated(
     (1.2,),
     "q² (1 + 1/k²): relative distance of the second order's cancelling force from that of exact runs",
     "220 opposite pairs as above with q > 0.05, 8 to 40 swings; largest 0.65 of it",
-    _HELD_BY + "test_cancelling_force",
+    _DRIFT + "test_cancelling_force_of_random_pairs",
 )
 FARTHEST_TURN = Calibrated(
     (3.0,),
     "rad turned about the joint line beyond which a rate is no longer that of the start",
     "the same pairs; about there the estimates grow past the rates",
-    _HELD_BY + "test_what_is_out_of_range_is_refused",
+    _DRIFT + "test_what_is_out_of_range_is_refused",
 )
 
 TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

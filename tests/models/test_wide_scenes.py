@@ -3,7 +3,6 @@
 The references are recorded in `wide_scenes.npz`; `python -m tests.models.wide_scenes` renews them, with heyoka.
 """
 
-import sys
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,14 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT))
-
-from lagrotor import simulate  # noqa: E402
-from lagrotor.errors import IntegrationError, LagrotorWarning  # noqa: E402
-from lagrotor.models import simulate as simulating  # noqa: E402
-from lagrotor.pair.trajectory import Trajectory  # noqa: E402
-from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes  # noqa: E402
+from lagrotor import simulate
+from lagrotor.errors import IntegrationError, LagrotorWarning
+from lagrotor.models import simulate as simulating
+from lagrotor.pair.trajectory import Trajectory
+from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
 
 RECORDED = np.load(Path(__file__).with_name("wide_scenes.npz"))
 PREDICTABLE = 1e4  # parting of neighbouring motions below which no miss may be silent

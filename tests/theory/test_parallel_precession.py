@@ -1,12 +1,10 @@
-"""Uniform toppling and the twist of equal spins: growth rates predicted against the exact model."""
+"""The twist of equal spins on a cone: Hill's equation, the law and its error, against exact runs."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.errors import InputError
+from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.theory.parallel_precession import (
     parallel_scene,
@@ -15,36 +13,7 @@ from lagrotor.theory.parallel_precession import (
     twist_growth_error,
     twist_multiplier_growth,
 )
-from lagrotor.theory.toppling import toppling_growth, toppling_threshold
-
-
-@settings(max_examples=10, deadline=None)
-@given(st.floats(0.6, 1.8), st.floats(0.01, 1), st.floats(0, 0.5), st.floats(1.5, 6))
-def test_toppling_grows_as_predicted(length, mass, inertia, rate):
-    scene = Scene(spins=(10, -10), link=Link(length, mass, inertia), rates=((1e-9, -rate, 0.0),) * 2)
-    growth = float(toppling_growth()(rate, 10.0, *scene.inertias, length))
-    if growth < 0.3:
-        return
-    times = np.linspace(8 / growth, 13 / growth, 31)
-    x = np.abs(simulate(scene, times, "spheres", 1e-12).axes[:, :, 0].mean(0))
-    assert np.polyfit(times, np.log(x), 1)[0] == pytest.approx(growth, rel=0.02)
-
-
-@pytest.mark.parametrize("link", [Link(1, 0, 0), Link(1.4, 1, 0.05)])
-def test_the_other_sense_is_stable(link):
-    scene = Scene(spins=(10, -10), link=link, rates=((1e-8, 2.0, 0.0),) * 2)
-    assert float(toppling_growth()(-2.0, 10.0, *scene.inertias, link.length)) == 0
-    x = simulate(scene, np.linspace(0, 20, 200), "spheres", 1e-12).axes[..., 0]
-    assert np.abs(x).max() < 1e-7
-
-
-def test_threshold():
-    a, b = Scene(spins=(10, -10), link=Link(1, 1, 1)).inertias
-    edge = float(toppling_threshold()(10.0, b, 1.0))
-    growth = toppling_growth()
-    assert growth(edge * 0.99, 10.0, a, b, 1.0) == 0
-    assert growth(edge * 1.01, 10.0, a, b, 1.0) > 0
-    assert growth(np.array([1.0, -1.0]), 10.0, a, b, 1.0).shape == (2,)
+from tests.theory.random_pairs import COUNTS, held, random_pair
 
 
 @pytest.mark.parametrize(("link", "angle"), [(Link(1, 1, 1), 0.2), (Link(1.5, 1, 0.8), 0.5)])
@@ -85,6 +54,53 @@ def test_light_stiff_bar_keeps_the_axes_parallel():
     assert twist_multiplier_growth(scene, 0.3) == 0
     run = simulate(parallel_scene(scene, 0.3, 1e-7), np.linspace(0, 40, 200), "minimal", 1e-12)
     assert np.abs(run.axes[0] - run.axes[1]).max() < 1e-5
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_twist_growth(count):
+    """Against Hill's equation, itself held to exact runs below."""
+    rng, pairs, refused = np.random.default_rng(7), [], 0
+    while len(pairs) + refused < count:
+        scene, angle = random_pair(rng, "equal"), rng.uniform(0.02, 1.4)
+        arguments = (np.sin(angle), scene.momenta[0], *scene.inertias)
+        try:
+            law, given = float(twist_growth()(*arguments)), float(twist_growth_error()(*arguments))
+        except DomainError:
+            assert scene.inertias[1] > 0 and not twist_bounded(scene, angle)
+            refused += 1
+            continue
+        turn = abs(scene.momenta[0]) / (sum(scene.inertias) * np.cos(angle))
+        pairs.append((abs(twist_multiplier_growth(scene, angle) - law), given + 5e-6 * turn))
+    held(pairs, refused, count, 0.3)
+
+
+@pytest.mark.parametrize("count", [5, pytest.param(50, marks=pytest.mark.slow)])
+def test_hills_equation_against_exact_runs(count):
+    rng, checked = np.random.default_rng(8), 0
+    while checked < count:
+        scene, angle = random_pair(rng, "equal"), rng.uniform(0.1, 0.9)
+        growth = twist_multiplier_growth(scene, angle)
+        half = np.pi * sum(scene.inertias) * np.cos(angle) / abs(scene.momenta[0])
+        if growth * half < 0.02:
+            continue
+        times = half * np.array([np.ceil(6 / growth / half), np.ceil(11 / growth / half)])
+        axes = simulate(parallel_scene(scene, angle, 1e-7), times, "minimal", 1e-12).axes
+        apart = np.linalg.norm(axes[0] - axes[1], axis=-1)
+        assert np.log(apart[1] / apart[0]) / (times[1] - times[0]) == pytest.approx(growth, rel=5e-3)
+        checked += 1
+
+
+def test_a_twist_that_lyapunov_bounds_is_bounded_and_beyond_some_grow():
+    grown = []
+    for mass in (1, 5, 20):
+        scene = Scene((10, 10), link=Link(1, mass, 0))
+        for angle in np.linspace(0.1, 1.4, 14):
+            growth = twist_multiplier_growth(scene, angle)
+            if twist_bounded(scene, angle):
+                assert growth == 0
+            elif growth:
+                grown.append(growth)
+    assert max(grown) > 1  # twin: the criterion is not empty
 
 
 def test_refused():

@@ -6,9 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
-from lagrotor.errors import InputError
+from lagrotor.errors import DomainError, InputError
+from lagrotor.models.linear import shock_response_error
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.theory.shock_response import shock_response
+from tests.theory.random_pairs import COUNTS, held, random_pair, shocked
 
 sizes = st.floats(0.3, 2.0)
 spins = st.floats(3.0, 15.0)
@@ -117,3 +119,27 @@ def test_wide_pulse_stays_finite():
 def test_refused(changed, word):
     with pytest.raises(InputError, match=word):
         shock_response(Scene(**({"spins": (10, -10), "shock": Shock((1, 0, 0), 1, 0.05)} | changed)))
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_its_error_on_random_pairs(count):
+    rng, pairs, refused = np.random.default_rng(3), [], 0
+    while len(pairs) + refused < count:
+        scene = shocked(rng, random_pair(rng))
+        end = scene.shock.end + rng.uniform(0.2, 3) * 2 * np.pi / natural_rate(scene)
+        times = np.linspace(0, end, 301)
+        try:
+            given = shock_response_error(scene, end)
+        except DomainError:
+            refused += 1
+            continue
+        axes, seen = simulate(scene, times, "minimal", 1e-12).axes, shock_response(scene).through(times)
+        off = [np.linalg.norm(axes[i, :, :2] - seen[:, [0, i + 1]], axis=-1).max() for i in (0, 1)]
+        pairs.append((max(off), given + 1e-11))
+    held(pairs, refused, count, 0.5)
+
+
+def test_a_shock_too_strong_for_an_error_estimate_is_refused():
+    scene = Scene((10, -10), link=Link(1, 0.01, 0.1), shock=Shock((40, 0, 0), 0.5, 1 / 20))
+    with pytest.raises(DomainError, match="the response is not small"):
+        shock_response_error(scene, 5.0)
