@@ -1,56 +1,32 @@
 """The articulated-body recursion as stages of a program: operations linear in the bodies, nothing multiplied out.
 
-Each link has the motion (ω, v) of its joint, in its own axes, and the inertia of all that it carries,
+Outward, each link has in its own axes the angular velocity ω and the accelerations (α, a) that it would have with all q'' = 0,
+and from them the torque and force (N, F) about its joint that its bodies then need; a uniform field g is an acceleration −g
+of the ground. What is missing to these accelerations is linear in q''. Inward, each link has the inertia of all that it carries,
 
-    [L]   [J   H] [ω]
-    [p] = [Hᵀ  M] [v].
+    [N]   [J   H] [α]
+    [F] = [Hᵀ  M] [a],
 
-A joint along s takes its part away, I − U Uᵀ/D with U = I s, D = s·U; what is left is turned and shifted to the parent.
-With several columns of joint forces τ the same factors give M⁻¹ τ column by column, for the constraints. A uniform field
-g is an acceleration −g of the ground.
+and each coordinate of its joint, of column s, takes its part away, I − U Uᵀ/D with U = I s, D = s·U; what is left is turned
+and shifted to the parent. Outward again, q''. With several columns of joint forces τ the same factors give M⁻¹ τ column by
+column, for the constraints.
 
-Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7.
+Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7; Luh, Walker & Paul (1980) for the accelerations.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from lagrotor.mechanics.bodies.small_matrices import Small, unit, wedge, zeros
-from lagrotor.mechanics.bodies.trees import Link, Tree
+from lagrotor.errors import SingularError
+from lagrotor.mechanics.bodies.small_matrices import Small, wedge, zeros
+from lagrotor.mechanics.bodies.stages import Stages
+from lagrotor.mechanics.bodies.trees import ZERO, Link, Pair, Tree
 from lagrotor.mechanics.lagrangian import Coordinates
-from lagrotor.numerics.codegen import Stage
 
 Column = list[sp.Expr]
-Pair = tuple[Small, Small]  # angular and linear part
-_ZERO = zeros(3, 1)
 _EYE = sp.eye(3)
-
-
-@dataclass
-class Stages:
-    """Stages made one after another; an expression that was made before is the stage it was made in."""
-
-    made: list[Stage] = field(default_factory=list)
-    names: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
-
-    def __call__(self, e: sp.Expr) -> sp.Expr:
-        if e.is_Atom or (e.is_Mul and e.args[0] is sp.S.NegativeOne and len(e.args) == 2 and e.args[1].is_Atom):
-            return e
-        if e not in self.names:
-            self.names[e] = sp.Symbol(f"_a{len(self.made)}", real=True)
-            self.made.append((self.names[e], e))
-        return self.names[e]
-
-    def each(self, matrix: Small) -> Small:
-        """Every entry."""
-        return matrix.each(self)
-
-    def symmetric(self, matrix: Small) -> Small:
-        """Every entry of a symmetric matrix, once."""
-        upper = {(i, j): self(matrix[i, j]) for i in range(3) for j in range(i, 3)}
-        return Small([[upper[min(i, j), max(i, j)] for j in range(3)] for i in range(3)])
 
 
 @dataclass(frozen=True)
@@ -63,99 +39,128 @@ class Inertia:
 
 
 @dataclass(frozen=True)
+class Factor:
+    """What a coordinate leaves: its number and column s, E = U/D, 1/D, and u = τ − s·(N, F) for each column of torques."""
+
+    number: int
+    s: Pair
+    E: Pair
+    inverse: sp.Expr
+    u: Column
+
+
+@dataclass(frozen=True)
 class Joint:
-    """A link at one state: cosine and sine of its turn, the shift to it, its motion (ω, v), its own rate."""
+    """A link at one state: its shift and rotation, then cosine and sine of its turn; its columns, and its own motion.
+
+    spin: ω. lift: (α, a) with all q'' = 0.
+    """
 
     link: Link
+    shift: Small
+    rotation: Small | None
     cosine: sp.Expr
     sine: sp.Expr
-    shift: Small
-    motion: Pair
-    rate: sp.Expr
+    columns: tuple[Pair, ...]
+    rate: Pair
+    spin: Small = ZERO
+    lift: Pair = (ZERO, ZERO)
 
     def inward(self, e: Small, keep: Stages) -> Small:
         """A vector's components in the parent → in the link."""
-        if self.link.rotation != _EYE:
-            e = keep.each(Small.of(self.link.rotation.T) * e)
+        if self.rotation is not None:
+            e = keep.each(self.rotation.T * e)
         return _turned(e, self.link.axis, self.cosine, -self.sine, keep)
 
     def outward(self, e: Small, keep: Stages) -> Small:
         """A vector's components in the link → in the parent."""
         e = _turned(e, self.link.axis, self.cosine, self.sine, keep)
-        return e if self.link.rotation == _EYE else keep.each(Small.of(self.link.rotation) * e)
+        return e if self.rotation is None else keep.each(self.rotation * e)
 
 
-def joints(tree: Tree, c: Coordinates, keep: Stages) -> list[Joint]:
-    """From the ground outward: the velocities, link by link.
+def joints(tree: Tree, keep: Stages) -> list[Joint]:
+    """From the ground outward, link by link: ω, and (α, a).
 
     What turns about its own axis of symmetry and carries nothing is seen in axes that do not turn with it.
     """
     found: list[Joint] = []
+    carrying = {link.parent for link in tree.links}
     for link in tree.links:
-        q, rate = link.sign * c.q[link.coordinate], link.sign * c.v[link.coordinate]
-        shift = link.shift if link.turns else link.shift + link.rotation[:, link.axis] * q
         cosine, sine = sp.S.One, sp.S.Zero
-        if link.turns and not (link.is_round and all(other.parent != len(found) for other in tree.links)):
-            cosine = keep(sp.cos(c.q[link.coordinate]))
-            sine = link.sign * keep(sp.sin(c.q[link.coordinate]))
-        before = found[link.parent].motion if link.parent >= 0 else (_ZERO, _ZERO)
-        here = Joint(link, cosine, sine, keep.each(Small.of(shift)), (_ZERO, _ZERO), rate)
-        w, v = here.inward(before[0], keep), here.inward(keep.each(before[1] + before[0].cross(here.shift)), keep)
-        own = unit(link.axis, rate)
-        motion = (keep.each(w + own), v) if link.turns else (w, keep.each(v + own))
-        found.append(Joint(link, cosine, sine, here.shift, motion, rate))
+        if link.axis is not None and not (link.is_round and len(found) not in carrying):
+            cosine, sine = keep(sp.cos(link.angle)), keep(sp.sin(link.angle))
+        columns = tuple((keep.each(w), keep.each(v)) for w, v in link.columns)
+        rate = keep.each(link.rate[0]), keep.each(link.rate[1])
+        rotation = None if link.rotation == _EYE else keep.each(Small.of(link.rotation))
+        joint = Joint(link, keep.each(Small.of(link.shift)), rotation, cosine, sine, columns, rate)
+        before = found[link.parent] if link.parent >= 0 else None
+        found.append(_moved(joint, before, -Small.of(tree.field), keep))
     return found
 
 
-def tree_accelerations(tree: Tree, chain: Sequence[Joint], torques: Sequence[Column], keep: Stages) -> list[Column]:
-    """M⁻¹ (τ − h) for the first column of joint forces, velocities and field included, and M⁻¹ τ for the others."""
+def _moved(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
+    """The joint with its ω and (α, a): those of the parent, turned and shifted, and its own.
+
+    α = α' + ω' × u + u',  a = a' + α' × d + ω' × (ω' × d) + 2 ω × d' + d'', in turn.
+    """
+    w, (b, a) = (before.spin, before.lift) if before else (ZERO, (ZERO, ground))
+    u, d = joint.rate
+    a = keep.each(a + b.cross(joint.shift) + keep.each(w.cross(keep.each(w.cross(joint.shift)))))
+    w, b, a = (joint.inward(e, keep) for e in (w, b, a))
+    b = keep.each(b + w.cross(u) + keep.each(joint.link.swing[0]))
+    a = keep.each(a + w.cross(d) * 2 + keep.each(joint.link.swing[1]))
+    return replace(joint, spin=keep.each(w + u), lift=(b, a))
+
+
+def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence[Column], keep: Stages) -> list[Column]:
+    """M⁻¹ (τ − h) for the first column of joint forces, velocities and field included, and M⁻¹ τ for the others.
+
+    Raises SingularError where a coordinate moves no mass.
+    """
     inertias = [_rigid(joint.link, keep) for joint in chain]
-    rest = [(_ZERO, _ZERO)] * (len(torques) - 1)
-    forces = [[_bias(joint, I, keep), *rest] for joint, I in zip(chain, inertias, strict=True)]
-    factors: list[tuple[Pair, sp.Expr, Column]] = []
+    forces = [[_needed(joint, keep), *[(ZERO, ZERO)] * (len(torques) - 1)] for joint in chain]
+    factors: list[list[Factor]] = []
     for i in reversed(range(len(chain))):
-        joint, I, link = chain[i], inertias[i], chain[i].link
-        k = link.axis
-        U = (I.J.col(k), I.H.row(k)) if link.turns else (I.H.col(k), I.M.col(k))
-        inverse = keep(1 / U[0 if link.turns else 1][k])
-        u = [
-            keep(link.sign * tau[link.coordinate] - p[0 if link.turns else 1][k])
-            for tau, p in zip(torques, forces[i], strict=True)
-        ]
-        factors.append((U, inverse, u))
-        if link.parent >= 0:
+        joint, I, parent = chain[i], inertias[i], chain[i].link.parent
+        factors.append([])
+        for number, s in zip(joint.link.coordinates, joint.columns, strict=True):
+            U = keep.each(I.J * s[0] + I.H * s[1]), keep.each(I.H.T * s[0] + I.M * s[1])
+            D = keep(s[0].dot(U[0]) + s[1].dot(U[1]))
+            if D == 0:
+                raise SingularError(
+                    f"simulate: the mass matrix is singular: {c.v[number]} moves no mass; use fewer coordinates, or give the "
+                    "bodies that it turns an inertia"
+                )
+            inverse = keep(1 / D)
             E = keep.each(U[0] * inverse), keep.each(U[1] * inverse)
-            left = _eliminated(I, U, E, link, keep)
-            inertias[link.parent] = _sum(inertias[link.parent], _shifted(joint, left, keep), keep)
-            for j, p in enumerate(forces[i]):
-                c = _swing(joint, keep) if j == 0 else (_ZERO, _ZERO)
-                L = keep.each(p[0] + left.J * c[0] + left.H * c[1] + E[0] * u[j])
-                f = keep.each(p[1] + left.H.T * c[0] + left.M * c[1] + E[1] * u[j])
-                L, f = joint.outward(L, keep), joint.outward(f, keep)
-                to = forces[link.parent][j]
-                forces[link.parent][j] = keep.each(to[0] + L + joint.shift.cross(f)), keep.each(to[1] + f)
+            u = [keep(tau[number] - s[0].dot(N) - s[1].dot(F)) for tau, (N, F) in zip(torques, forces[i], strict=True)]
+            factors[-1].append(Factor(number, s, E, inverse, u))
+            I = _eliminated(I, U, E, s, keep)
+            forces[i] = [
+                (keep.each(N + E[0] * x), keep.each(F + E[1] * x)) for (N, F), x in zip(forces[i], u, strict=True)
+            ]
+        if parent >= 0:
+            inertias[parent] = _sum(inertias[parent], _shifted(joint, I, keep), keep)
+            for j, (N, F) in enumerate(forces[i]):
+                N, F, (to_N, to_F) = joint.outward(N, keep), joint.outward(F, keep), forces[parent][j]
+                forces[parent][j] = keep.each(to_N + N + joint.shift.cross(F)), keep.each(to_F + F)
     factors.reverse()
-    return [_outcome(tree, chain, factors, j, keep) for j in range(len(torques))]
+    return [_outcome(chain, factors, j, keep) for j in range(len(torques))]
 
 
-def _outcome(
-    tree: Tree, chain: Sequence[Joint], factors: Sequence[tuple[Pair, sp.Expr, Column]], j: int, keep: Stages
-) -> Column:
+def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int, keep: Stages) -> Column:
     """Outward again: the accelerations of column j, in the order of the coordinates."""
-    found: Column = [sp.S.Zero] * len(chain)
+    found: dict[int, sp.Expr] = {}
     places: list[Pair] = []
-    for joint, (U, inverse, u) in zip(chain, factors, strict=True):
-        link = joint.link
-        ground = _ZERO, (-Small.of(tree.field) if j == 0 else _ZERO)
-        w, v = places[link.parent] if link.parent >= 0 else ground
-        c = _swing(joint, keep) if j == 0 else (_ZERO, _ZERO)
-        v = joint.inward(keep.each(v + w.cross(joint.shift)), keep)
-        w, v = keep.each(joint.inward(w, keep) + c[0]), keep.each(v + c[1])
-        a = keep(keep(u[j] - U[0].dot(w) - U[1].dot(v)) * inverse)
-        own = unit(link.axis, a)
-        places.append((keep.each(w + own), v) if link.turns else (w, keep.each(v + own)))
-        found[link.coordinate] = link.sign * a
-    return found
+    for joint, eliminated in zip(chain, factors, strict=True):
+        b, a = places[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
+        a = joint.inward(keep.each(a + b.cross(joint.shift)), keep)
+        b = joint.inward(b, keep)
+        for f in reversed(eliminated):
+            x = found[f.number] = keep(f.u[j] * f.inverse - f.E[0].dot(b) - f.E[1].dot(a))
+            b, a = keep.each(b + f.s[0] * x), keep.each(a + f.s[1] * x)
+        places.append((b, a))
+    return [found[number] for number in range(len(found))]
 
 
 def _rigid(link: Link, keep: Stages) -> Inertia:
@@ -170,29 +175,29 @@ def _rigid(link: Link, keep: Stages) -> Inertia:
     )
 
 
-def _bias(joint: Joint, I: Inertia, keep: Stages) -> Pair:
-    """(ω × L + v × p, ω × p): what keeps a rigid body's momentum turning with it."""
-    w, v = joint.motion
-    L, p = keep.each(I.J * w + I.H * v), keep.each(I.H.T * w + I.M * v)
-    return keep.each(w.cross(L) + v.cross(p)), keep.each(w.cross(p))
+def _needed(joint: Joint, keep: Stages) -> Pair:
+    """(N, F) about the joint, Σ m (a + α × c + ω × (ω × c)) and its moment, with I α + ω × I ω, for the motion without q''."""
+    w, (b, a) = joint.spin, joint.lift
+    N, F = ZERO, ZERO
+    for mass in joint.link.masses:
+        c, I = Small.of(mass.centre), Small.of(mass.inertia)
+        at = keep.each(a + b.cross(c) + keep.each(w.cross(keep.each(w.cross(c)))))
+        force = keep.each(at * mass.mass)
+        N, F = keep.each(N + I * b + w.cross(keep.each(I * w)) + c.cross(force)), keep.each(F + force)
+    return N, F
 
 
-def _swing(joint: Joint, keep: Stages) -> Pair:
-    """The acceleration that the joint's own velocity makes in the turning axes."""
-    w, v = joint.motion
-    own = unit(joint.link.axis, joint.rate)
-    return (keep.each(w.cross(own)), keep.each(v.cross(own))) if joint.link.turns else (_ZERO, keep.each(w.cross(own)))
-
-
-def _eliminated(I: Inertia, U: Pair, E: Pair, link: Link, keep: Stages) -> Inertia:
-    """I − U Uᵀ/D; along the joint nothing is left."""
+def _eliminated(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inertia:
+    """I − U Uᵀ/D; along s, where that is one axis, nothing is left."""
     J, H, M = I.J - U[0] * E[0].T, I.H - U[0] * E[1].T, I.M - U[1] * E[1].T
-    k = link.axis
-    for i in range(3):
-        if link.turns:
-            J.rows[k][i] = J.rows[i][k] = H.rows[k][i] = sp.S.Zero
-        else:
-            M.rows[k][i] = M.rows[i][k] = H.rows[i][k] = sp.S.Zero
+    axes = [(turns, k) for turns, part in ((True, s[0]), (False, s[1])) for k in range(3) if part[k] != 0]
+    if len(axes) == 1:
+        turns, k = axes[0]
+        for i in range(3):
+            if turns:
+                J.rows[k][i] = J.rows[i][k] = H.rows[k][i] = sp.S.Zero
+            else:
+                M.rows[k][i] = M.rows[i][k] = H.rows[i][k] = sp.S.Zero
     return Inertia(keep.symmetric(J), keep.each(H), keep.symmetric(M))
 
 
@@ -211,9 +216,9 @@ def _sum(I: Inertia, other: Inertia, keep: Stages) -> Inertia:
     return Inertia(keep.symmetric(I.J + other.J), keep.each(I.H + other.H), keep.symmetric(I.M + other.M))
 
 
-def _turned(e: Small, axis: int, c: sp.Expr, s: sp.Expr, keep: Stages) -> Small:
+def _turned(e: Small, axis: int | None, c: sp.Expr, s: sp.Expr, keep: Stages) -> Small:
     """The rotation by (c, s) about an axis of the columns of e, (3, m)."""
-    if s == 0:
+    if axis is None or s == 0:
         return e
     i, j = (axis + 1) % 3, (axis + 2) % 3
     rows = [*e.rows]
@@ -228,7 +233,7 @@ def _turned_symmetric(A: Small, joint: Joint, keep: Stages) -> Small:
     With e = a − d and w = c e − 2 s b the block [[a, b], [b, d]] becomes [[d + c w, b + s w], [b + s w, a − c w]].
     """
     c, s, k = joint.cosine, joint.sine, joint.link.axis
-    if s != 0:
+    if k is not None and s != 0:
         i, j = (k + 1) % 3, (k + 2) % 3
         rows = [[*row] for row in A.rows]
         a, b, d = rows[i][i], rows[i][j], rows[j][j]
@@ -239,7 +244,7 @@ def _turned_symmetric(A: Small, joint: Joint, keep: Stages) -> Small:
         rows[i][k], rows[j][k] = c * f - s * h, s * f + c * h
         rows[j][i], rows[k][i], rows[k][j] = rows[i][j], rows[i][k], rows[j][k]
         A = keep.symmetric(Small(rows))
-    if joint.link.rotation == _EYE:
+    if joint.rotation is None:
         return A
-    R = Small.of(joint.link.rotation)
-    return keep.symmetric(R * A * R.T)
+    R = joint.rotation
+    return keep.symmetric(keep.each(R * A) * R.T)

@@ -1,4 +1,9 @@
-"""A mechanism as a tree of links: each joint turns about, or slides along, one axis by one coordinate.
+"""A mechanism as a tree of links, each moved from its parent by a joint of any number of coordinates of its own, and by time.
+
+A joint is a turn about one axis, a shift, or a rotation matrix. Its velocity relative to the parent, in the link's axes, is
+linear in the rates of its own coordinates,
+
+    (u, d') = Σ_j s_j(q, t) v_j + s_t(q, t).
 
 Fixed turns and shifts between two joints are taken together, and bodies are brought to the joint's frame that carries them.
 """
@@ -7,12 +12,15 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from lagrotor.mechanics.bodies.moving_frames import MovingFrame, turn_matrix
+from lagrotor.mechanics.bodies.moving_frames import MovingFrame
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy
+from lagrotor.mechanics.bodies.small_matrices import Small, unit, zeros
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import t
+from lagrotor.mechanics.lagrangian import Coordinates, bias, mass_matrix, t
 
+Pair = tuple[Small, Small]  # angular and linear part
 Place = tuple[int, sp.Matrix, sp.Matrix]
+ZERO = zeros(3, 1)
 
 
 @dataclass(frozen=True)
@@ -26,22 +34,29 @@ class Mass:
 
 @dataclass(frozen=True)
 class Link:
-    """A joint and what it carries: its parent's number (−1: the ground), the fixed shift and rotation before it, in the
-    parent's axes, and the coordinate with its sign, about (`turns`) or along axis 0, 1, 2.
+    """A joint and what it carries.
+
+    parent: its number, −1 for the ground. shift: the link's origin from the parent's, in the parent's axes. rotation, then a
+    turn by `angle` about `axis`, if any: components in the link → in the parent. coordinates: the numbers of the joint's own.
+    columns: s_j for each of them; rate: the relative velocity; swing: its derivative without accelerations.
     """
 
     parent: int
     shift: sp.Matrix
     rotation: sp.Matrix
-    turns: bool
-    axis: int
-    coordinate: int
-    sign: int
-    masses: tuple[Mass, ...]
+    axis: int | None
+    angle: sp.Expr
+    coordinates: tuple[int, ...]
+    columns: tuple[Pair, ...]
+    rate: Pair
+    swing: Pair
+    masses: tuple[Mass, ...] = ()
 
     @property
     def is_round(self) -> bool:
-        """Whether the bodies on it are symmetric about its axis."""
+        """Whether it turns about an axis about which the bodies on it are symmetric."""
+        if self.axis is None:
+            return False
         k, i, j = self.axis, (self.axis + 1) % 3, (self.axis + 2) % 3
         return all(
             mass.centre[i] == mass.centre[j] == 0
@@ -53,7 +68,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Tree:
-    """Links, parents first; the field (3, 1) that all bodies are in, and the rest of the Lagrangian, a function of q, t."""
+    """Links, parents first; the field (3, 1) that all bodies are in; the rest of the Lagrangian, at most linear in v."""
 
     links: tuple[Link, ...]
     field: sp.Matrix
@@ -61,9 +76,9 @@ class Tree:
 
 
 def tree_of(system: Equations) -> Tree | None:
-    """The tree, if the Lagrangian is one: T of bodies less their potentials in one field, plus a function of q and t."""
+    """The tree, if the Lagrangian is one: T of bodies less their potentials in one field, plus a function linear in v."""
     L = system.lagrangian
-    if not isinstance(L, Energy) or L.rest.free_symbols & {*system.c.v}:
+    if not isinstance(L, Energy) or not _is_linear(L.rest, system.c):
         return None
     kinetic = [body for body, field, factor in L.terms if field is None and factor == 1]
     fallen = [(body, field) for body, field, factor in L.terms if field is not None and factor == -1]
@@ -71,20 +86,36 @@ def tree_of(system: Equations) -> Tree | None:
     complete = not fields or {body for body, _ in fallen} == {*kinetic}
     if len({*kinetic}) != len(kinetic) or len(kinetic) + len(fallen) != len(L.terms) or len(fields) > 1 or not complete:
         return None
-    links = _links(system, kinetic)
+    links = _links(system.c, kinetic)
     if links is None:
         return None
     field = sp.Matrix(next(iter(fields))) if fields else sp.zeros(3, 1)
     return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.rest)
 
 
+def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
+    """The generalised forces of the rest of the Lagrangian, (n, 1), which give no accelerations a part."""
+    symbols = tree.rest.free_symbols
+    own = [i for i in range(len(c.q)) if c.q[i] in symbols or c.v[i] in symbols]
+    found = sp.zeros(len(c.q), 1)
+    if own:
+        forces = -bias(tree.rest, Coordinates(*(tuple(part[i] for i in own) for part in (c.q, c.v, c.a))))
+        for i, force in zip(own, forces, strict=True):
+            found[i] = force
+    return found
+
+
+def _is_linear(rest: sp.Expr, c: Coordinates) -> bool:
+    return not rest.free_symbols & {*c.v} or mass_matrix(rest, c).is_zero_matrix is True
+
+
 class _NoTreeError(Exception):
-    """A step that is not a joint of one coordinate of its own."""
+    """A step by coordinates that another joint has, or by velocities."""
 
 
-def _links(system: Equations, bodies: list[Body]) -> tuple[Link, ...] | None:
+def _links(c: Coordinates, bodies: list[Body]) -> tuple[Link, ...] | None:
     """The links on the way to the bodies; None where they do not make a tree of joints."""
-    walk = _Walk(system.c.q, {*system.c.q, *system.c.v})
+    walk = _Walk(c)
     try:
         for body in bodies:
             number, d, R = walk.reached(body.frame)
@@ -92,7 +123,7 @@ def _links(system: Equations, bodies: list[Body]) -> tuple[Link, ...] | None:
                 walk.masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
     except _NoTreeError:
         return None
-    if len(walk.links) != len(system.c.q):
+    if len(walk.used) != len(c.q):
         return None
     return tuple(replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True))
 
@@ -100,11 +131,14 @@ def _links(system: Equations, bodies: list[Body]) -> tuple[Link, ...] | None:
 class _Walk:
     """The links found so far, and of each frame the link that carries it with the fixed shift and rotation from there."""
 
-    def __init__(self, q: tuple[sp.Symbol, ...], moving: set[sp.Symbol]) -> None:
-        self.q, self.moving = q, moving
+    def __init__(self, c: Coordinates) -> None:
+        self.c = c
+        self.number = {q: i for i, q in enumerate(c.q)}
+        self.moving = {*c.q, *c.v, t}
         self.links: list[Link] = []
         self.masses: list[list[Mass]] = []
         self.known: dict[MovingFrame, Place] = {}
+        self.used: set[sp.Symbol] = set()
 
     def reached(self, frame: MovingFrame) -> Place:
         if frame.parent is None:
@@ -114,30 +148,57 @@ class _Walk:
         return self.known[frame]
 
     def stepped(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
-        """One step of frames on from a place."""
-        symbols = frame.amount.free_symbols
-        if t in symbols:
+        """One step of frames on from a place: a new link where the step moves."""
+        is_shift = frame.axis is None and frame.amount.cols == 1
+        moving = frame.amount.free_symbols & self.moving
+        if not moving:
+            return (parent, d + R * frame.amount, R) if is_shift else (parent, d, R * frame.rotation)
+        if moving & ({*self.c.v} | self.used):
             raise _NoTreeError
-        if frame.axis is not None:
-            if symbols & self.moving:
-                return self.joint(parent, d, R, True, frame.axis, frame.amount)
-            return parent, d, R * turn_matrix(frame.axis, frame.amount)
-        if frame.amount.cols == 3:
-            if symbols & self.moving:
-                raise _NoTreeError
-            return parent, d, R * frame.amount
-        slides = [axis for axis, amount in enumerate(frame.amount) if amount.free_symbols & self.moving]
-        fixed = sp.Matrix([0 if axis in slides else amount for axis, amount in enumerate(frame.amount)])
-        place: Place = (parent, d + R * fixed, R)
-        for axis in slides:
-            place = self.joint(*place, False, axis, frame.amount[axis])
-        return place
-
-    def joint(self, parent: int, d: sp.Matrix, R: sp.Matrix, turns: bool, axis: int, amount: sp.Expr) -> Place:
-        """A new link, its amount a coordinate of its own or the negative of one."""
-        sign = 1 if amount in self.q else -1
-        if sign * amount not in self.q or any(self.q.index(sign * amount) == link.coordinate for link in self.links):
-            raise _NoTreeError
-        self.links.append(Link(parent, d, R, turns, axis, self.q.index(sign * amount), sign, ()))
+        own = tuple(sorted(self.number[q] for q in moving - {t}))
+        self.used |= moving - {t}
+        columns, rate, swing = _velocities(
+            frame, [*(self.c.q[i] for i in own), t], [*(self.c.v[i] for i in own), sp.S.One]
+        )
+        angle = frame.amount if frame.axis is not None else sp.S.Zero
+        if is_shift:
+            d = d + R * frame.amount
+        elif frame.axis is None:
+            R = R * frame.amount
+        self.links.append(Link(parent, d, R, frame.axis, angle, own, columns[:-1], rate, swing))
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
+
+
+def _velocities(
+    frame: MovingFrame, places: list[sp.Symbol], rates: list[sp.Expr]
+) -> tuple[tuple[Pair, ...], Pair, Pair]:
+    """The columns s_j of a step for the coordinates and the time, the sum of s_j v_j, and its derivative."""
+    slopes = [_slope(frame, s) for s in places]
+    rate = _sum(slopes, rates)
+    swing = _sum([_derivative(rate, s) for s in places], rates)
+    turns = frame.axis is not None or frame.amount.cols == 3
+
+    def pair(e: Small) -> Pair:
+        return (e, ZERO) if turns else (ZERO, e)
+
+    return tuple(map(pair, slopes)), pair(rate), pair(swing)
+
+
+def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
+    """The derivative of a step by one coordinate, or the time, in the axes that it leads to."""
+    if frame.axis is not None:
+        return unit(frame.axis, sp.diff(frame.amount, s))
+    moved = _derivative(Small.of(frame.amount), s)
+    if frame.amount.cols == 1:
+        return moved
+    spin = Small.of(frame.amount).T * moved
+    return Small.column(spin[2, 1], spin[0, 2], spin[1, 0])
+
+
+def _derivative(matrix: Small, s: sp.Symbol) -> Small:
+    return matrix.each(lambda e: sp.diff(e, s))
+
+
+def _sum(columns: list[Small], factors: list[sp.Expr]) -> Small:
+    return sum((column * x for column, x in zip(columns, factors, strict=True)), ZERO)

@@ -14,15 +14,17 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.bodies.articulated import Stages, joints, tree_accelerations
+from lagrotor.mechanics.bodies.articulated import joints, tree_accelerations
+from lagrotor.mechanics.bodies.stages import Stages
 from lagrotor.mechanics.bodies.tree_energies import tree_energy
-from lagrotor.mechanics.bodies.trees import tree_of
+from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import gradient, singular_mass, t
+from lagrotor.mechanics.lagrangian import singular_mass, t
 from lagrotor.numerics.codegen import Program, Stage, reduce_common, solve_symmetric
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
+_OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
@@ -91,13 +93,15 @@ def energy_program(system: Equations) -> Generated:
     if tree is None:
         return generated(system, (), [system.energy])
     keep = Stages()
-    energy = tree_energy(tree, joints(tree, system.c, keep), keep)
+    energy = tree_energy(tree, joints(tree, keep), system.c, keep)
     return generated(system, keep.made, [energy])
 
 
 def _is_plain(name: str) -> bool:
     """Whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
-    return name.isidentifier() and not (iskeyword(name) or name in vars(math) or name[0] == "_" or len(name) == 1)
+    return name.isidentifier() and not (
+        iskeyword(name) or name in vars(math) or name in _OWN or name.startswith(("_", "c_")) or name.endswith("_")
+    )
 
 
 def depends_on_time(system: Equations) -> bool:
@@ -112,9 +116,9 @@ def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is not None:
         keep = Stages()
-        push = system.push + gradient(tree.rest, system.c.q)
+        push = system.push + rest_forces(tree, system.c)
         columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
-        found = tree_accelerations(tree, joints(tree, system.c, keep), columns, keep)
+        found = tree_accelerations(joints(tree, keep), system.c, columns, keep)
         return bound(keep.made, sp.Matrix(found).T, G, system.gamma)
     push = system.push - system.bias
     try:

@@ -1,12 +1,19 @@
 """The articulated-body recursion against the mass matrix of the same Lagrangian, on random trees, with and without loops."""
 
+from collections.abc import Callable
+from cProfile import Profile
+from pstats import Stats
+
 import numpy as np
 import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sympy.core.cache import clear_cache
 
+from lagrotor.errors import SingularError
 from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running.integration import rhs_factory
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values
@@ -19,12 +26,12 @@ GRAVITY = (0, 0, -g)
 
 def derivative(system: System, y: np.ndarray) -> np.ndarray:
     given = motion_program(system)
-    return np.array(rhs_factory(given)(*parameter_values(given, VALUES))(0.0, y))
+    return np.array(rhs_factory(given)(*parameter_values(given, VALUES))(0.0, y[: len(given.states)]))
 
 
 def energy(system: System, y: np.ndarray) -> float:
     given = energy_program(system)
-    return float(compile_program(given.program)(*y, *parameter_values(given, VALUES))[0])
+    return float(compile_program(given.program)(*y[: len(given.states)], *parameter_values(given, VALUES))[0])
 
 
 def plain(system: System) -> System:
@@ -34,7 +41,7 @@ def plain(system: System) -> System:
 
 def assert_same_motion(system: System, seed: int = 1) -> None:
     assert tree_of(system) is not None and tree_of(plain(system)) is None
-    y = np.random.default_rng(seed).uniform(-1, 1, 2 * len(system.c.q))
+    y = np.random.default_rng(seed).uniform(-1, 1, 2 * len(system.c.q) + 1)  # the last, a time
     by_tree, by_mass = derivative(system, y), derivative(plain(system), y)
     np.testing.assert_allclose(by_tree, by_mass, rtol=1e-9, atol=1e-9 * np.abs(by_mass).max())
     assert energy(system, y) == pytest.approx(energy(plain(system), y), rel=1e-10, abs=1e-10)
@@ -96,6 +103,48 @@ def test_random_trees_move_by_the_recursion_as_by_their_mass_matrix(steps: list,
     assert_same_motion(System(c, L), seed)
 
 
+JOINTS = {
+    "a rotation matrix of two coordinates": lambda f, q: f.moved(l, 0, 0).turned(
+        turn_matrix(0, q[0]) * turn_matrix(1, q[1])
+    ),
+    "a ball joint, Euler angles": lambda f, q: f.turned("zxz", q[:3]),
+    "a floating base": lambda f, q: f.moved(*q[:3]).turned("xyz", q[3:6]),
+    "a bead on a helix": lambda f, q: f.moved(l * sp.cos(q[0]), l * sp.sin(q[0]), q[0] / 5),
+    "a cart on a driven table": lambda f, q: f.turned("z", k * t).moved(l * t**2, 0, sp.sin(t)).moved(*q[:2], 0),
+    "a turn by a function": lambda f, q: f.turned("y", sp.sin(q[0]) + q[0] * t),
+    "a screw through a driven nut": lambda f, q: f.turned("z", t**2 / 2).moved(0, l, k * q[0] - t),
+}
+
+
+@pytest.mark.parametrize("name", JOINTS)
+def test_joints_of_several_coordinates_and_of_time_move_as_their_mass_matrix(name: str) -> None:
+    """Each between the ground and an arm with a second arm on it."""
+    needed = {"floating": 6, "Euler": 3, "two": 2, "cart": 2}
+    n = next((count for word, count in needed.items() if word in name), 1)
+    c = coordinates([f"q{i}" for i in range(n + 1)])
+    frame = JOINTS[name](Frame(c), c.q)
+    body = frame.body(m, (I1, I2, I3), (l / 2, 0, l / 4))
+    elbow = frame.moved(l, 0, 0).turned("y", c.q[n])
+    arm = elbow.body(m / 2, (I2, I3, I1), (0, l, l))
+    L = body.kinetic + arm.kinetic - body.potential(GRAVITY) - arm.potential(GRAVITY)
+    assert_same_motion(System(c, L))
+    assert_same_motion(System(c, L, (elbow.place((l, l, l)).dot((1, 2, 3)),)))
+
+
+def test_terms_linear_in_the_velocities_act_as_forces_on_a_tree() -> None:
+    """A magnetic field along z on the end of a double pendulum, and a potential that the time drives."""
+    system = pendulum(2)
+    (a, b), (u, _) = system.c.q, system.c.v
+    assert_same_motion(System(system.c, system.lagrangian + k * sp.sin(b) * u * t - k * sp.cos(t) * a**2))
+
+
+def test_a_joint_that_moves_no_mass_is_refused() -> None:
+    c = coordinates("a s")
+    bob = Frame(c).turned("xz", c.q).body(m, centre=(0, 0, -l))
+    with pytest.raises(SingularError, match=r"s_dot.*use fewer coordinates"):
+        System(c, bob.kinetic).simulate(VALUES, (0.1, 0), (0, 0), (0, 1))
+
+
 def test_springs_friction_and_forces_act_on_the_joints_of_a_tree() -> None:
     system = pendulum(3)
     q, v = system.c.q, system.c.v
@@ -106,7 +155,7 @@ def test_springs_friction_and_forces_act_on_the_joints_of_a_tree() -> None:
         forces=(k * sp.sin(v[1]), 0, k),
     )
     assert_same_motion(bound)
-    y = np.random.default_rng(1).uniform(-1, 1, 6)
+    y = np.random.default_rng(1).uniform(-1, 1, 7)
     assert np.abs(derivative(bound, y) - derivative(system, y)).max() > 1e-2
 
 
@@ -132,6 +181,26 @@ def test_each_gyroscope_more_costs_the_same() -> None:
     assert np.ptp(np.diff(counts)) <= 2
 
 
+def test_twice_the_gyroscopes_are_at_most_two_and_a_third_times_the_work() -> None:
+    """Of one evaluation, and of making the program: function calls, which no clock makes uncertain."""
+    (few, calls), (twice, doubled) = (work(gyroscopes, n) for n in (8, 16))
+    assert twice < 2.3 * few and doubled < 2.3 * calls
+    # Twin: the mass matrix of the same points grows faster.
+    (_, calls), (_, doubled) = (work(lambda n: plain(pendulum(n)), n) for n in (2, 4))
+    assert doubled > 2.3 * calls
+
+
+def work(make: Callable[[int], System], n: int) -> tuple[int, int]:
+    """Operations of one evaluation, and function calls until it is ready."""
+    clear_cache()
+    profile = Profile()
+    profile.enable()
+    given = motion_program(make(n))
+    rhs_factory(given)
+    profile.disable()
+    return operations(given.program), Stats(profile).total_calls
+
+
 def test_a_round_rotor_is_not_turned_by_its_spin() -> None:
     """The spin angle of a symmetric rotor is in no stage."""
     given = motion_program(gyroscopes(1))
@@ -151,12 +220,12 @@ def test_what_is_no_tree_takes_the_mass_matrix() -> None:
     assert tree_of(System(c, absolute.kinetic + other.kinetic)) is None
     twice = Frame(c).turned("y", a).turned("x", a).body(m, (I1, I2, I3))
     assert tree_of(System(c, twice.kinetic + other.kinetic)) is None
-    driven = Frame(c).turned("z", t).turned("y", a).moved(0, 0, b).body(m, (I1, I2, I3))
-    assert tree_of(System(c, driven.kinetic)) is None
+    shared = Frame(c).moved(a, b).turned("z", b).body(m, (I1, I2, I3))
+    assert tree_of(System(c, shared.kinetic)) is None
     right = Frame(c).turned("y", a).moved(0, 0, b).body(m, (I1, I2, I3))
     assert tree_of(System(c, right.kinetic)) is not None
     assert tree_of(System(c, 2 * right.kinetic)) is None
-    assert tree_of(System(c, right.kinetic + c.v[0] * c.q[1])) is None
+    assert tree_of(System(c, right.kinetic + c.v[0] ** 2 * b)) is None
 
 
 def test_a_long_chain_keeps_its_energy() -> None:
