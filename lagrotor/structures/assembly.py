@@ -91,7 +91,8 @@ class Assembly:
         low, high = apart - sum(reach), apart + sum(reach)
         if not low <= length <= high:
             raise InputError(
-                f"Structure: bars[{k}] = ({i}, {j}), {length:g} m long, cannot close: the tips can be from {max(low, 0):g} to "
+                f"Structure: bars[{k}] = ({i}, {j}), {length:g} m long, cannot close: the tips can be from "
+                f"{max(low, 0):g} to "
                 f"{high:g} m apart"
             )
         return i, j, length

@@ -22,7 +22,8 @@ Index = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class Coefficients:
-    """Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
+    """Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s),
+    friction, hinge.
 
     Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
     ground point (3,), natural length, stiffness, damping, each with one row a brace.

@@ -29,7 +29,8 @@ def simulate(
 ) -> StructureRun:
     """The exact motion from t = 0, read at the increasing times t (n,), s.
 
-    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s. Both are
+    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
+    Both are
     brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and `run.rates[:, 0]` show.
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
@@ -51,7 +52,8 @@ def simulate(
         local, coarse = max(local / _APART, 3e-12), fine
     if error > wanted:
         warnings.warn(
-            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, as neighbouring motions part; shorten the run",
+            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, as neighbouring motions part; "
+            "shorten the run",
             LagrotorWarning,
             stacklevel=2,
         )

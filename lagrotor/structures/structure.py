@@ -1,6 +1,6 @@
 """`Structure`: any number of rotors and bars, and what can be found out about it."""
 
-from lagrotor.structures import simulation
+from lagrotor.structures import characteristic, simulation, small_motion, standing
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.closing import check_closure
 
@@ -16,3 +16,7 @@ class Structure(Assembly):
         check_closure(self)
 
     simulate = simulation.simulate
+    modes = small_motion.modes
+    stands = standing.stands
+    critical_spin = standing.critical_spin
+    characteristic = characteristic.characteristic

@@ -1,0 +1,60 @@
+"""The linear verdicts held to the exact motion: growth of a falling motion as measured, and how far bounded "
+"motion stays off."""
+
+import numpy as np
+
+from lagrotor.errors import InputError
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.simulation import simulate
+from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
+
+
+def first_order(linear: SmallMotion) -> Array:
+    """The matrix of (q, q')' = W (q, q'), (2n, 2n)."""
+    n = linear.freedoms
+    below = np.linalg.solve(linear.mass, np.hstack([-linear.stiffness, -(linear.damping + linear.gyroscopic)]))
+    return np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below])
+
+
+def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> float:
+    """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
+
+    The amplitude is the projection on that mode's left vector, so that nothing else is seen. Raises InputError where
+    nothing grows.
+    """
+    linear, found = small_motion(s), modes(s)
+    root = found.growth[0] + 1j * found.rates[0]
+    if not root.real > 0:
+        raise InputError("measured_growth: nothing grows about upright")
+    shape = tilt * found.shapes[0]
+    run = simulate(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-12)
+    roots, left = np.linalg.eig(first_order(linear).T)
+    w = left[:, np.argmin(np.abs(roots - root))]
+    first, last = (abs(w @ state) for state in _freedoms(linear, run.axes, run.rates).T)
+    return float(np.log(last / first) * root.real / folds)
+
+
+def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: int = 0) -> tuple[float, float]:
+    """(largest tilt, distance from the linear motion), both over the start's: an exact run of `turns` of the "
+    "slowest mode."""
+    from scipy.linalg import expm
+
+    linear, found = small_motion(s), modes(s)
+    rates = found.rates[found.rates > 0]
+    t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
+    draw = np.random.default_rng(seed).standard_normal((linear.freedoms,))
+    run = simulate(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
+    exact = _freedoms(linear, run.axes, run.rates)
+    step, states = expm(first_order(linear) * t[1]), [exact[:, 0]]
+    for _ in t[1:]:
+        states.append(step @ states[-1])
+    n = linear.freedoms
+    size = np.abs(exact[:n, 0]).max()
+    return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
+
+
+def _freedoms(linear: SmallMotion, axes: Array, rates: Array) -> Array:
+    """(q, q') of a run, (2n, times)."""
+    parts = [part[..., :2].swapaxes(0, 1).reshape(part.shape[1], -1) @ linear.basis for part in (axes, rates)]
+    return np.hstack(parts).T

@@ -1,0 +1,161 @@
+"""Small motion about upright: matrices on the freedoms that the bars leave, modes, and how many topple.
+
+With u_i = (x, y) of axis i, M u'' + C u' + K u = 0 under n_b . (R_i u_i − R_j u_j) = 0 for each bar along n_b:
+
+    M = A ⊗ 1,   C = friction − G_i [[0, −1], [1, 0]],   K = hinge − g S_i + sum_braces k (n nᵀ).
+
+Upright the bars carry nothing (weight acts along the axes), so they enter as rows alone; u = Z q with Z a basis of what
+they
+leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices: Graver, Servatius & Servatius (1993).
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from lagrotor.errors import InputError
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array, Coefficients, coefficients
+
+ZERO = (
+    1e-6  # of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits)
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """n modes: rates (n,) in rad/s and growth (n,) in 1/s of u = Re(shape e^((growth + i rate) t)), shapes (n, N, 2).
+
+    Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
+    """
+
+    rates: Array
+    growth: Array
+    shapes: Array
+    topple: int
+
+
+@dataclass(frozen=True, eq=False)
+class SmallMotion:
+    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the freedoms u = basis q, basis (2 N, n)."""
+
+    mass: Array
+    damping: Array
+    gyroscopic: Array
+    stiffness: Array
+    basis: Array
+    rate: float
+
+    @property
+    def freedoms(self) -> int:
+        """How many freedoms the bars leave."""
+        return len(self.mass)
+
+    def scaled(self, factor: float) -> "SmallMotion":
+        """The same with all spins multiplied."""
+        return replace(self, gyroscopic=factor * self.gyroscopic)
+
+    def with_momenta(self, G: Array) -> "SmallMotion":
+        """The same with axial momenta G (N,), kg m²/s."""
+        return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
+
+    @cached_property
+    def roots(self) -> tuple[Array, Array]:
+        """All 2n roots s of det(M s² + C s + K) and their vectors (n, 2n), nearly zero ones set to zero."""
+        n, unit = self.freedoms, self.rate
+        C, K = (self.damping + self.gyroscopic) / unit, self.stiffness / unit**2
+        below = np.linalg.solve(self.mass, np.hstack([-K, -C]))
+        s, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below]))
+        s = np.where(np.abs(s.real) < ZERO * _size(s), 1j * s.imag, s)
+        s = np.where(np.abs(s.imag) < ZERO * _size(s), s.real, s) + 0j
+        return unit * s, vectors[:n]
+
+    @property
+    def growth(self) -> float:
+        """The largest real part of a root, 1/s; zero where nothing grows."""
+        return float(max(self.roots[0].real.max(), 0.0))
+
+    @property
+    def drifts(self) -> bool:
+        """Whether some displacement neither returns nor grows but goes on at its speed: a double root zero in "
+        "one motion."""
+        s = self.roots[0]
+        zeros = int((s == 0).sum())
+        if not zeros:
+            return False
+        sizes = np.linalg.svd(self.stiffness / self.rate**2, compute_uv=False)
+        return zeros > int((sizes < 1e-9 * max(1.0, float(np.abs(self.mass).max()))).sum())
+
+
+def _size(s: Array) -> Array:
+    return np.maximum(np.abs(s), 1.0)
+
+
+@lru_cache(maxsize=64)
+def small_motion(s: Assembly) -> SmallMotion:
+    """The linear system of a structure about upright.
+
+    Raises InputError where a bar is of another length, so that upright is not where it stands.
+    """
+    from scipy.linalg import null_space
+
+    if not s.natural:
+        raise InputError(
+            "modes: a bar is not as long as its tips are apart when upright: small motion is about upright "
+            "axes; simulate it"
+        )
+    c = coefficients(s)
+    N = len(c.R)
+    rows = bar_rows(c)
+    Z = null_space(rows) if len(rows) else np.eye(2 * N)
+    A = np.diag(c.A)
+    A[c.i, c.j] += c.coupling
+    A[c.j, c.i] += c.coupling
+    C, K = (np.kron(np.diag(d), np.eye(2)) for d in (c.friction, c.hinge - c.gravity * c.S))
+    for k, row in enumerate(_brace_rows(c)):
+        C += c.damping[k] * np.outer(row, row)
+        K += c.stiffness[k] * np.outer(row, row)
+    parts = (np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K)
+    mass, damping, gyroscopic, stiffness = (Z.T @ part @ Z for part in parts)
+    return SmallMotion(mass, damping, gyroscopic, stiffness, Z, c.rate)
+
+
+def bar_rows(c: Coefficients) -> Array:
+    """The bars' rows on u, (B, 2 N): n . (R_i u_i − R_j u_j), n the horizontal part of the unit vector along the bar."""
+    n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
+    rows = np.zeros((len(c.i), len(c.R), 2))
+    each = np.arange(len(c.i))
+    rows[each, c.i], rows[each, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
+    return rows.reshape(len(c.i), 2 * len(c.R))
+
+
+def _brace_rows(c: Coefficients) -> Array:
+    """The extension of each brace by u, (braces, 2 N)."""
+    tip = c.feet[c.brace_tip] + c.R[c.brace_tip, None] * [0, 0, 1]
+    n = ((tip - c.brace_point) / c.brace_length[:, None])[:, :2]
+    rows = np.zeros((len(n), len(c.R), 2))
+    for k, (i, j) in enumerate(zip(c.brace_tip, c.brace_to, strict=True)):
+        rows[k, i] += c.R[i] * n[k]
+        if j >= 0:
+            rows[k, j] -= c.R[j] * n[k]
+    return rows.reshape(len(n), 2 * len(c.R))
+
+
+def modes(s: Assembly) -> Modes:
+    """The normal modes about upright, those that grow first, then by rate.
+
+    Raises InputError where a bar is not as long as its tips are apart when upright.
+    """
+    linear = small_motion(s)
+    roots, vectors = linear.roots
+    turning = np.flatnonzero(roots.imag > 0)
+    real = np.flatnonzero(roots.imag == 0)
+    real = real[np.argsort(-roots[real].real, kind="stable")][: linear.freedoms - len(turning)]
+    kept = np.concatenate([turning, real])
+    kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
+    shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, 2)
+    largest = np.abs(shapes).reshape(len(kept), -1)
+    lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), largest.argmax(1)]
+    shapes = shapes / lead[:, None, None]
+    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()))

@@ -1,0 +1,149 @@
+"""Whether a structure stands upright, why not, and the least factor on all its spins from which on it does.
+
+What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n freedoms:
+
+- an odd number of freedoms that fall (det K < 0) falls at any spin (Kelvin; Thomson & Tait, Natural Philosophy, § 345);
+- where all of K is negative it stands from some spin on if and only if det B ≠ 0, and that is the factor
+
+      max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0,
+
+  as above every branch's minimum each branch gives two real rates ω, n in all, and no more exist;
+- with M = a 1 and K = −κ 1 (massless bars, equal loads) that is 2 sqrt(a κ)/β, i β the least root of B.
+
+Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5).
+"""
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
+
+_GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """Whether it stands, in words why; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
+
+    critical_spin: the factor on all spins from which on it stands, inf where there is none.
+    """
+
+    stands: bool
+    why: str
+    growth: float
+    shape: Array
+    critical_spin: float
+
+    def __bool__(self) -> bool:
+        return self.stands
+
+
+def stands(s: Assembly) -> Standing:
+    """Whether small motions about upright stay bounded. Raises InputError where upright is not where it stands."""
+    linear, found, factor = small_motion(s), modes(s), critical_spin(s)
+    growth, falls = linear.growth, linear.growth > 0
+    shape = found.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
+    return Standing(not falls and not linear.drifts, _why(linear, factor), growth, shape, factor)
+
+
+def _why(linear: SmallMotion, factor: float) -> str:
+    n, falling = linear.freedoms, int((np.linalg.eigvalsh(_unit(linear)) < -1e-12).sum())
+    if linear.growth == 0:
+        if linear.drifts:
+            return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
+        return "every small motion stays bounded: " + (
+            f"the spins hold {falling} of {n} freedoms" if falling else "its springs hold it" if n else "no freedom"
+        )
+    first = f"{falling} of {n} freedoms fall, the fastest by e every {1 / linear.growth:.3g} s; "
+    if falling % 2:
+        return first + "an odd number of them, which no spins hold"
+    if linear.damping.any():
+        bare = threshold(_frictionless(linear))
+        return first + (
+            f"friction undoes what the spins hold; without it they would from {bare:.4g} times these spins on"
+            if bare < inf
+            else "and no multiple of these spins holds them"
+        )
+    if factor < inf:
+        return first + f"the spins are too small: from {factor:.6g} times them on it stands"
+    return first + "a motion on which these spins do not act, at any multiple of them"
+
+
+def critical_spin(s: Assembly) -> float:
+    """The factor on all spins from which on the structure stands at every larger one; 0 without need of spin, inf
+    where none is.
+
+    With friction on what falls: inf. Raises InputError where upright is not where it stands.
+    """
+    return threshold(small_motion(s))
+
+
+def threshold(linear: SmallMotion) -> float:
+    """`critical_spin` of a linear system."""
+    K = np.linalg.eigvalsh(_unit(linear))
+    falling = int((K < -1e-12).sum())
+    if not falling:
+        return 0.0
+    if falling % 2 or np.linalg.eigvalsh(linear.damping)[0] > 0:
+        return inf
+    if falling == len(K) and not linear.damping.any():
+        return _by_branches(linear)
+    return _by_scan(linear)
+
+
+def _unit(linear: SmallMotion) -> Array:
+    """K in the metric of M, in units of rate²."""
+    root = np.linalg.inv(np.linalg.cholesky(linear.mass))
+    return np.asarray(root @ linear.stiffness @ root.T / linear.rate**2)
+
+
+def _frictionless(linear: SmallMotion) -> SmallMotion:
+    return replace(linear, damping=np.zeros_like(linear.mass))
+
+
+def _by_branches(linear: SmallMotion) -> float:
+    """All of K negative: one over the largest, over ω, of the least positive root h of det(i B − h (ω M + |K|/ω)) = 0."""
+    from scipy.linalg import eigh
+    from scipy.optimize import minimize_scalar
+
+    M, H, K = linear.mass, 1j * linear.gyroscopic, -linear.stiffness
+    size = np.abs(np.linalg.eigvalsh(H)).max()
+    half = len(M) // 2
+    if np.sort(np.abs(np.linalg.eigvalsh(H)))[0] <= 1e-9 * size:
+        return inf
+
+    def least(log_rate: float) -> float:
+        w = np.exp(log_rate)
+        return float(eigh(H, w * M + K / w, eigvals_only=True)[half])
+
+    own = np.sqrt(eigh(K, M, eigvals_only=True))
+    grid = np.linspace(np.log(own[0]) - 0.5, np.log(own[-1]) + 0.5, 101)
+    values = [least(w) for w in grid]
+    best = int(np.argmax(values))
+    around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
+    found = minimize_scalar(lambda w: -least(w), bounds=around, method="bounded", options={"xatol": 1e-10})
+    return float(1 / max(-found.fun, values[best]))
+
+
+def _by_scan(linear: SmallMotion) -> float:
+    """The largest factor at which growth ends, by scan and bisection; windows narrower than the scan are not seen."""
+    size = np.abs(linear.gyroscopic).max()
+    if size == 0:
+        return inf
+    natural = 2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / size
+    grid = natural * _GRID
+    falls = [linear.scaled(factor).growth > 0 for factor in grid]
+    if falls[-1]:
+        return inf
+    if not any(falls):
+        return 0.0
+    k = int(np.flatnonzero(falls)[-1])
+    low, high = grid[k], grid[k + 1]
+    while high - low > 1e-12 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if linear.scaled(middle).growth > 0 else (low, middle)
+    return float(high)

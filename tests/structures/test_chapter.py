@@ -1,0 +1,37 @@
+"""The chapter's scripts run, prove their steps, and say what they found; a wrong step is refused."""
+
+import pytest
+
+from lagrotor.errors import ProofError
+from lagrotor.paper import scripts
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.proof import Step
+
+STEMS = scripts.names("derivations", "n")
+# A sign, a factor or a term; each must stop the script.
+MUTANTS = [
+    ("n1_standing", "(G_1**2 + G_2**2) * s**2), ", "(G_1**2 - G_2**2) * s**2), "),
+    ("n1_standing", "heavy.eval(0), -2", "heavy.eval(0), 2"),
+    ("n1_standing", "beta**2 - 4 * a * kappa)", "beta**2 - 2 * a * kappa)"),
+    ("n1_standing", "(2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam", "(2 * G_1**2 - G_2**2 + 2 * G_3**2) * lam"),
+    ("n1_standing", "(G_1 * G_3 - G_2 * G_4) ** 2", "(G_1 * G_3 + G_2 * G_4) ** 2"),
+    ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
+]
+
+
+@pytest.mark.parametrize("stem", STEMS)
+def test_a_script_proves_and_says_what_it_found(stem: str) -> None:
+    script = scripts.executed("derivations", stem)
+    found, steps = script.shown(Remark), script.shown(Step)
+    assert found and all(remark.title and remark.text.endswith(".") for remark in found)
+    assert len(steps) >= 5 and all(step.says for step in steps)
+
+
+@pytest.mark.parametrize(("stem", "old", "new"), MUTANTS)
+def test_a_wrong_step_is_refused(stem: str, old: str, new: str, tmp_path) -> None:
+    text = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    path = tmp_path / f"{stem}.py"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises((ProofError, AssertionError)):
+        scripts.run_file(path)

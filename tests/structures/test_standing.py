@@ -1,0 +1,179 @@
+"""Which structures stand: theorems, closed forms, and the exact motion 3 % under and over each threshold."""
+
+from math import inf, sqrt
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor import Brace, Link, Rotor, Structure
+from lagrotor.errors import InputError
+from lagrotor.structures.coefficients import coefficients
+from lagrotor.structures.held_to_exact import bounded_motion, measured_growth
+from lagrotor.structures.small_motion import small_motion
+
+WEIGHT = {"gravity": 9.81, "load": 2.0}
+PAIR = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}
+CORNER = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)], **WEIGHT}
+SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "bars": [(0, 1), (1, 2), (2, 3), (3, 0)], **WEIGHT}
+HEXAGON = {
+    "joints": [(np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6)],
+    "bars": [(k, (k + 1) % 6) for k in range(6)],
+    **WEIGHT,
+}
+
+
+def grid(L: int) -> dict:
+    bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
+    return {"joints": [(i % L, i // L) for i in range(L * L)], "bars": bars, **WEIGHT}
+
+
+def natural(s: Structure) -> float:
+    """sqrt(a κ) over I3 of equal rotors and loads under massless bars."""
+    c = coefficients(s)
+    return float(np.sqrt(c.A[0] * c.gravity * c.S[0]) / s.rotor[0].I3)
+
+
+bounded = st.floats(-40, 40).filter(lambda x: abs(x) > 0.1)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.tuples(bounded, bounded), st.sampled_from([Link(1, 0, 0), Link(1, 1, 1), Link(1, 0.3, 0.1)]), st.floats(0, 5))
+def test_no_loaded_pair_stands(spins, link, load) -> None:
+    found = Structure(**PAIR, spins=spins, link=link, gravity=9.81, load=load).stands()
+    assert not found and found.critical_spin == inf and "odd number" in found.why
+
+
+def test_a_massless_loaded_pair_falls_at_the_rate_of_no_spin() -> None:
+    for spins in ((30, 30), (30, -30), (30, 7)):
+        s = Structure(**PAIR, spins=spins, **WEIGHT)
+        c = coefficients(s)
+        assert s.stands().growth == pytest.approx(sqrt(c.gravity * c.S[0] / c.A[0]))
+        y = s.stands().shape[:, 1]
+        assert y[0] * spins[0] == pytest.approx(-y[1] * spins[1])  # what falls is where the spins cancel
+
+
+def test_a_rigid_plate_never_stands() -> None:
+    s = Structure(**SQUARE | {"bars": [*SQUARE["bars"], (0, 2)]}, spins=1e3)
+    assert small_motion(s).freedoms == 3 and s.critical_spin() == inf
+
+
+def test_a_straight_row_never_stands() -> None:
+    for n in (3, 4, 5):
+        line = {"joints": [(k, 0) for k in range(n)], "bars": [(k, k + 1) for k in range(n - 1)]}
+        assert Structure(**line, spins=np.arange(1, n + 1) * 10.0, **WEIGHT).critical_spin() == inf
+
+
+@pytest.mark.parametrize(
+    ("shape", "spins", "factor"),
+    [
+        ({"joints": [(0, 0)], **WEIGHT}, [1], 2),
+        (CORNER, [1, 0, 1], 2 * sqrt(2)),
+        (SQUARE, [-1, 1, 1, 1], 2 * sqrt(2)),
+        (SQUARE, [1, 1, 1, 1], inf),
+        (SQUARE, [1, -1, 1, -1], inf),
+        (grid(3), [-1, 1, 1, 1, -1, 1, 1, 1, -1], 6),
+        (grid(3), [-0.5, 1, 1, 1, -0.5, 1, 1, 1, -0.5], 4),
+        (grid(3), [1] * 9, inf),
+        (HEXAGON, [1, -1] * 3, 2 * sqrt(5)),
+    ],
+)
+def test_the_least_spin_in_closed_form(shape, spins, factor) -> None:
+    s = Structure(**shape, spins=spins)
+    assert s.critical_spin() == pytest.approx(factor * natural(s), rel=1e-9)
+
+
+CASES = {
+    "a corner": (CORNER, [1, 0, 1], {}),
+    "a corner under one load, heavy bars": (
+        CORNER | {"load": [0, 50, 0]}, [30, 0, 30], {"link": Link(mass=0.3, inertia=0.1)},
+    ),
+    "a braced pair": (PAIR | WEIGHT, [30, 30], {"braces": [Brace(0, (0.0, 1.0, 1.0), 200.0)]}),
+}  # fmt: skip
+LONG = {
+    "a square of heavy bars": (SQUARE, [-1, 1, 1, 1], {"link": Link(1, 1, 0.1)}),
+    "a hexagon": (HEXAGON, [1, -1] * 3, {}),
+    "nine": (grid(3), [-1, 1, 1, 1, -1, 1, 1, 1, -1], {}),
+}
+
+
+def holds_three_percent_off(shape, spins, more) -> None:
+    factor = Structure(**shape, spins=spins, **more).critical_spin()
+    under, over = (Structure(**shape, spins=[x * factor * f for f in spins], **more) for x in (0.97, 1.03))
+    assert measured_growth(under) == pytest.approx(under.stands().growth, rel=1e-3)
+    assert not under.stands() and over.stands()
+    largest, off = bounded_motion(over)
+    assert largest < 10 and off < 1e-3
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_exact_motion_falls_under_the_threshold_and_stays_over_it(name) -> None:
+    holds_three_percent_off(*CASES[name])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LONG)
+def test_larger_ones_too(name) -> None:
+    holds_three_percent_off(*LONG[name])
+
+
+def test_friction_undoes_what_the_spins_hold() -> None:
+    spins = [40, 0, 40]
+    assert Structure(**CORNER, spins=spins).stands()
+    s = Structure(**CORNER, spins=spins, friction=0.5)
+    found, c = s.stands(), coefficients(s)
+    assert not found and found.critical_spin == inf and "friction undoes" in found.why
+    # Each pair of freedoms alone: a s² + (c − i β) s − κ = 0 with β = G/√2.
+    a, kappa, beta = c.A[0], c.gravity * c.S[0], 40 / sqrt(2)
+    roots = np.roots([a, 0.5 - 1j * beta, -kappa])
+    assert found.growth == pytest.approx(roots.real.max(), rel=1e-9)
+    assert measured_growth(s, folds=0.2) == pytest.approx(found.growth, rel=1e-3)
+
+
+def test_springs_hold_without_spin() -> None:
+    s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
+    assert s.stands() and s.critical_spin() == 0
+
+
+def test_without_weight_a_push_goes_on() -> None:
+    found = Structure(**PAIR, spins=[10, -10]).stands()
+    assert not found and found.growth == 0 and "goes on" in found.why
+    assert Structure(joints=[(0, 0)], spins=[10]).stands()
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {**PAIR, "spins": [30, 20], **WEIGHT},
+        {**PAIR, "spins": [30, 20], "link": Link(1, 0.3, 0.1), **WEIGHT},
+        {**PAIR, "spins": [30, 20], **WEIGHT, "friction": 0.1, "braces": [Brace(0, (0.0, 1.0, 1.0), 100.0, 0.3)]},
+        {**CORNER, "spins": [10, 5, 10], "load": [0, 50, 0], "link": Link(1, 0.3, 0.1)},
+        {**SQUARE, "spins": [1, 2, 3, 4]},
+        {"joints": [(0, 0), (1, 1)], "bars": [(0, 1)], "spins": 7, "rotor": [Rotor(), Rotor(length=2)], **WEIGHT},
+    ],
+)
+def test_the_exact_polynomial_has_the_numeric_roots(given) -> None:
+    s = Structure(**given)
+    found = s.characteristic()
+    polynomial = sp.Poly(found.polynomial.subs(found.values), sp.Symbol("s"))
+    roots = np.sort_complex(np.roots([float(c) for c in polynomial.all_coeffs()]))
+    numeric = small_motion(s).roots[0]
+    for root in roots:
+        assert np.abs(numeric - root).min() < 1e-6 * (1 + abs(root))
+    assert len(roots) == len(numeric)
+
+
+def test_modes_say_how_many_topple() -> None:
+    found = Structure(**PAIR, spins=[30, 20], **WEIGHT).modes()
+    assert found.rates.shape == found.growth.shape == (3,) and found.shapes.shape == (3, 2, 2)
+    assert found.topple == 1 and found.growth[0] > 0
+    assert np.abs(found.shapes[:, 0, 0] - found.shapes[:, 1, 0]).max() < 1e-12  # the bar holds x
+
+
+def test_linear_theory_is_about_upright() -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1, 1.2)], spins=1)
+    for ask in (s.modes, s.stands, s.critical_spin, s.characteristic):
+        with pytest.raises(InputError, match="upright"):
+            ask()
