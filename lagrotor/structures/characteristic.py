@@ -6,7 +6,6 @@ Lengths of
 axes and directions of bars are the numbers given, as rationals.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,7 +14,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.linear_modes import LinearSystem
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import coefficients
+from lagrotor.structures.coefficients import Array, coefficients
 
 s = sp.Symbol("s")
 _MOST = 6  # rotors
@@ -60,13 +59,14 @@ def characteristic(structure: Assembly) -> Characteristic:
         K, C = K + k * row.T * row, C + d * row.T * row
     rows = [_row(structure, i, j) for i, j, _ in structure.bars]
     basis = sp.Matrix.hstack(*sp.Matrix.vstack(*rows).nullspace()) if rows else sp.eye(2 * N)
-    system = LinearSystem(*(basis.T * part * basis for part in (M, C, K)), basis)
+    mass, gyroscopic, stiffness = (basis.T * part * basis for part in (M, C, K))
+    system = LinearSystem(mass, gyroscopic, stiffness, basis)
     return Characteristic(system.characteristic(s), system, values)
 
 
-def _letters(name: str, given: Sequence[float], values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
+def _letters(name: str, given: Array, values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
     """A symbol for each distinct value, positive unless `real`; what it stands for is put into `values`."""
-    distinct = [v for v in dict.fromkeys(map(float, given)) if v]
+    distinct = [v for v in dict.fromkeys(given.tolist()) if v]
     sign = {"real": True} if real else {"positive": True}
     letters = {v: sp.Symbol(name if len(distinct) == 1 else f"{name}_{k + 1}", **sign) for k, v in enumerate(distinct)}
     values.update({letter: v for v, letter in letters.items()})

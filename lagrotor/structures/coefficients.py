@@ -18,6 +18,7 @@ from lagrotor.structures.assembly import Assembly
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array, Coefficients, coefficients
+from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 
 ZERO = (
     1e-6  # of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits)
@@ -32,7 +32,7 @@ class Modes:
 
     rates: Array
     growth: Array
-    shapes: Array
+    shapes: Complex
     topple: int
 
 
@@ -61,7 +61,7 @@ class SmallMotion:
         return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
 
     @cached_property
-    def roots(self) -> tuple[Array, Array]:
+    def roots(self) -> tuple[Complex, Complex]:
         """All 2n roots s of det(M s² + C s + K) and their vectors (n, 2n), nearly zero ones set to zero."""
         n, unit = self.freedoms, self.rate
         C, K = (self.damping + self.gyroscopic) / unit, self.stiffness / unit**2
@@ -69,7 +69,7 @@ class SmallMotion:
         s, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below]))
         s = np.where(np.abs(s.real) < ZERO * _size(s), 1j * s.imag, s)
         s = np.where(np.abs(s.imag) < ZERO * _size(s), s.real, s) + 0j
-        return unit * s, vectors[:n]
+        return unit * s, vectors[:n] + 0j
 
     @property
     def growth(self) -> float:
@@ -88,7 +88,7 @@ class SmallMotion:
         return zeros > int((sizes < 1e-9 * max(1.0, float(np.abs(self.mass).max()))).sum())
 
 
-def _size(s: Array) -> Array:
+def _size(s: Complex) -> Array:
     return np.maximum(np.abs(s), 1.0)
 
 

@@ -19,7 +19,7 @@ from math import inf
 import numpy as np
 
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array
+from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
@@ -35,7 +35,7 @@ class Standing:
     stands: bool
     why: str
     growth: float
-    shape: Array
+    shape: Complex
     critical_spin: float
 
     def __bool__(self) -> bool:
