@@ -44,8 +44,7 @@ class ExactMotion:
         return self.solution(t, r, v)[: r.size].reshape(r.shape)
 
     def solution(self, t: float, r: Array, v: Array) -> Array:
-        """[r'' (3 N), multipliers of the axes (N) and of the bars (B)]: the pull of a bar on its tips is −lam "
-        "times d, in N."""
+        """[r'' (3 N), multipliers of the axes (N) and of the bars (B)]: the pull of a bar on its tips is −lam times d, in N."""
         c = self.c
         swing = c.R[c.j, None] * v[c.j] - c.R[c.i, None] * v[c.i]
         right = np.concatenate([self.forces(t, r, v).ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])

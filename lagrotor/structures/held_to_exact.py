@@ -36,8 +36,8 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
 
 
 def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: int = 0) -> tuple[float, float]:
-    """(largest tilt, distance from the linear motion), both over the start's: an exact run of `turns` of the "
-    "slowest mode."""
+    """(largest tilt, distance from the linear motion), both over the start's: an exact run of `turns` of the slowest
+    mode."""
     from scipy.linalg import expm
 
     linear, found = small_motion(s), modes(s)

@@ -16,8 +16,8 @@ _MOST = 12  # rotors
 
 @dataclass(frozen=True)
 class Patterns:
-    """tried patterns, how many of them stand at some spin, the least spin (rad/s, inf where none), and the "
-    "first that needs it."""
+    """tried patterns, how many of them stand at some spin, the least spin (rad/s, inf where none), and the first that
+    needs it."""
 
     tried: int
     standing: int

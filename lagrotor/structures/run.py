@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class StructureRun:
-    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), the estimated largest error of an axis, "
-    "evaluations of all runs."""
+    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), the estimated largest error of an axis, evaluations of all
+    runs."""
 
     structure: Assembly
     t: Array

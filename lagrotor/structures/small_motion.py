@@ -78,8 +78,7 @@ class SmallMotion:
 
     @property
     def drifts(self) -> bool:
-        """Whether some displacement neither returns nor grows but goes on at its speed: a double root zero in "
-        "one motion."""
+        """Whether some displacement neither returns nor grows but goes on at its speed: a double root zero in one motion."""
         s = self.roots[0]
         zeros = int((s == 0).sum())
         if not zeros:

@@ -10,7 +10,7 @@ from lagrotor.paper.proof import Step
 STEMS = scripts.names("derivations", "n")
 # A sign, a factor or a term; each must stop the script.
 MUTANTS = [
-    ("n1_standing", "(G_1**2 + G_2**2) * s**2), ", "(G_1**2 - G_2**2) * s**2), "),
+    ("n1_standing", "(G_1**2 + G_2**2) * s**2)", "(G_1**2 - G_2**2) * s**2)"),
     ("n1_standing", "heavy.eval(0), -2", "heavy.eval(0), 2"),
     ("n1_standing", "beta**2 - 4 * a * kappa)", "beta**2 - 2 * a * kappa)"),
     ("n1_standing", "(2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam", "(2 * G_1**2 - G_2**2 + 2 * G_3**2) * lam"),
