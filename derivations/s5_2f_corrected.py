@@ -22,7 +22,7 @@ from lagrotor.paper.claims.precession_runs import PAPER_R0
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.series import paired_series
 from lagrotor.theory.single_rotor import pair_precession_rate

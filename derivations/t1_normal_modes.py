@@ -22,7 +22,8 @@ from lagrotor.pair.symbols import AXES, G_1, G_2, G, K, a, b, ell, m
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.theory.impulse_response import impulse_matrices
-from lagrotor.theory.natural_frequency import natural_frequency, natural_rate_error
+from lagrotor.theory.natural_frequency import natural_frequency
+from lagrotor.theory.natural_rate import natural_rate_error
 
 # %% [markdown]
 # ## Lagrangian, gyroscopic forces and bar

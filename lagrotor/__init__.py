@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lagrotor.structures.assembly import Brace
     from lagrotor.structures.structure import Structure
     from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
-    from lagrotor.theory.natural_frequency import natural_rate
+    from lagrotor.theory.natural_rate import natural_rate
     from lagrotor.theory.paired_precession.closed_forms import paired_momentum
     from lagrotor.theory.shock_response import shock_response
 
@@ -28,7 +28,7 @@ _LATER = {
     "cancelling_force": "lagrotor.theory.drift_after_shock",
     "consistent_scene": "lagrotor.pair.initial_conditions",
     "floquet": "lagrotor.models.orbits.floquet",
-    "natural_rate": "lagrotor.theory.natural_frequency",
+    "natural_rate": "lagrotor.theory.natural_rate",
     "orbit_family": "lagrotor.models.orbits.continuation",
     "paired_momentum": "lagrotor.theory.paired_precession.closed_forms",
     "paired_scene": "lagrotor.models.orbits.precession",

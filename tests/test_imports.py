@@ -6,6 +6,7 @@ import sys
 import pytest
 
 HEAVY = ("sympy", "matplotlib", "scipy")
+SHOCKED = "from lagrotor import Scene, Shock, simulate; scene = Scene((10, -7), shock=Shock((40, -11, 0), 0.3, 0.05))"
 
 
 def loaded(program: str) -> set[str]:
@@ -19,7 +20,10 @@ def loaded(program: str) -> set[str]:
     [
         ("import lagrotor", set()),
         ("from lagrotor import Link, Rotor, Scene, Shock; Scene((10, -10), shock=Shock((1, 0, 0), 1, 0.1))", set()),
-        ("from lagrotor import Scene, natural_rate; natural_rate(Scene((10, -10)))", {"sympy"}),
+        ("from lagrotor import Scene, natural_rate; natural_rate(Scene((10, -10)))", set()),
+        (f"{SHOCKED}; simulate(scene, [0.0, 1.0])", {"scipy"}),
+        (f"{SHOCKED}; simulate(scene, [0.0, 1.0], 'spheres')", {"scipy"}),
+        (f"{SHOCKED}; simulate(scene, [0.0, 1.0], 'minimal')", {"scipy"}),
         ("from lagrotor import audit; audit('5.02')", {"sympy"}),
         ("from lagrotor.mechanics import System", {"sympy"}),
     ],

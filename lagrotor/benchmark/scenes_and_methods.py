@@ -19,7 +19,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
 Array = NDArray[np.float64]

@@ -162,7 +162,7 @@ def rate_command(given: argparse.Namespace) -> int:
     scene = scene_of(given)
 
     from lagrotor.commands.terminal import table
-    from lagrotor.theory.natural_frequency import natural_rate, natural_rate_limits
+    from lagrotor.theory.natural_rate import natural_rate, natural_rate_limits
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None

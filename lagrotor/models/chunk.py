@@ -1,7 +1,6 @@
 """Scenes of one kind side by side: the minimal model on arrays, every trajectory with its own step."""
 
-from collections.abc import Callable, Sequence
-from functools import lru_cache
+from collections.abc import Sequence
 from math import hypot
 from typing import NamedTuple
 
@@ -9,18 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.minimal_program import Ratio, program
+from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.batch_dop853 import Index, Rates, Swarm, march
-from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.integrate import TIGHTEST
-from lagrotor.numerics.taylor import march_taylor
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
-Kind = tuple[bool, Ratio, int]  # massive bar, ell against R, shocked rotor (0: none)
-
 MODELS = ("minimal", "spheres", "none")
 
 
@@ -59,13 +53,11 @@ def kind_of(scene: Scene) -> Kind | None:
     if scene.link is None or max(abs(r[0]) for r in scene.axes) > 1 - 1e-12:
         return None
     k = scene.link.length / scene.rotor.length
-    ratio: Ratio = "equal" if k == 1 else "short" if k < 1 else "long"
-    return scene.inertias[1] != 0, ratio, scene.shock.body if scene.shock else 0
-
-
-@lru_cache(maxsize=32)
-def _compiled(kind: Kind) -> Callable[..., list[Array]]:
-    return compile_program(program(*kind), "numpy")
+    return (
+        scene.inertias[1] != 0,
+        "equal" if k == 1 else "short" if k < 1 else "long",
+        scene.shock.body if scene.shock else 0,
+    )
 
 
 def _by_minimal(
@@ -75,6 +67,8 @@ def _by_minimal(
     ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
     columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
     if engine == "fast":
+        from lagrotor.numerics.taylor import march_taylor
+
         states, spent = march_taylor(program(*kind), start, np.array(columns), times, tol)
     else:
         states, spent = march(_swarm(kind, scenes, columns, start), times, tol)
@@ -101,7 +95,7 @@ def _columns(kind: Kind, scenes: list[Scene], ratios: Array) -> list[Array]:
 
 def _swarm(kind: Kind, scenes: list[Scene], columns: list[Array], start: Array) -> Swarm:
     """The scenes of one kind as arrays."""
-    body, function = kind[2], _compiled(kind)
+    body, function = kind[2], rhs_on_arrays(*kind)
     at, width, force = np.zeros(len(scenes)), np.zeros(len(scenes)), np.zeros((3, len(scenes)))
     if body:
         shocks = [(scene.shock, scene.rotor.length) for scene in scenes if scene.shock]

@@ -6,24 +6,27 @@
 - opposite spins on their paired precession follow its periodic series, of the order that the tolerance asks for.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import exp, inf, pi, sqrt
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.model import Array, Observed, constant_momenta
 from lagrotor.models.periodic_orbit import parting, periodic_orbit
 from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.theory.natural_frequency import natural_rate
-from lagrotor.theory.paired_precession.series import paired_series, shape_of
-from lagrotor.theory.paired_precession.stability import most_growth
+from lagrotor.theory.natural_rate import natural_rate
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from lagrotor.mechanics.fourier import FourierSeries
 
 Waves = NDArray[np.complex128]
 ORDERS = (3, 5, 7, 9, 11, 13, 15)
@@ -159,6 +162,8 @@ class _Series(NamedTuple):
 @lru_cache(maxsize=64)
 def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
     """The series through r0**order."""
+    from lagrotor.theory.paired_precession.series import paired_series
+
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
     waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
     for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
@@ -234,6 +239,9 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     signed = natural if scene.spins[0] > 0 else -natural
     turned, velocity = natural * t_end, rates / signed
     guess = _guess(axes, velocity, width)
+
+    from lagrotor.theory.paired_precession.stability import most_growth
+
     shape, ratio = _shape(scene.rotor, scene.link)
     error, before = inf, inf
     orders = (*ORDERS, *FURTHER) if best else ORDERS
@@ -271,6 +279,8 @@ def _over_periods(scene: Scene, series: Answer, frequency: float, t_end: float) 
 
 @lru_cache(maxsize=64)
 def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
+    from lagrotor.theory.paired_precession.series import shape_of
+
     return shape_of(Scene((1.0, -1.0), rotor, link))
 
 

@@ -1,19 +1,21 @@
 """One integration of a model by an engine: states at the times of the run, as axes and rates."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import lru_cache
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import typical_rate
-from lagrotor.numerics.codegen import Program, compile_program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.integrators import OutsideError
-from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
 from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    from lagrotor.numerics.codegen import Program
 
 BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
 
@@ -62,10 +64,12 @@ def integrated(
     if engine == "core":
         solution = integrate(problem_of(model, scene, float(times[-1]), bounded, companion), times, tol)
         return Integrated(model.observe(scene, solution.states), solution.evaluations)
+    from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
+
     shock, project = scene.shock, model.projection(scene) if model.projection else None
     x, y, z = (scene.rotor.length * f for f in (shock.force if shock else (0.0, 0.0, 0.0)))
     pulse = Pulse((x, y, z), shock.at, shock.width) if shock else None
-    rate, (program, values) = typical_rate(scene), model.program(scene, False)
+    rate = typical_rate(scene)
     solution = integrate_taylor(
         lambda driven: model.program(scene, driven),
         _start(model, scene, companion),
@@ -77,7 +81,7 @@ def integrated(
         companion_order(tol) if companion else taylor_order(tol),
     )
     if bounded:
-        _check_range(program, values, times, solution.states)
+        _check_states(*model.program(scene, False), times, solution.states)
     return Integrated(model.observe(scene, solution.states), solution.evaluations)
 
 
@@ -88,16 +92,15 @@ def _start(model: Model, scene: Scene, companion: bool) -> Array:
 
 def check_range(model: Model, scene: Scene) -> None:
     """Raises SingularError where the model cannot hold the scene's start, OutsideError where it is badly conditioned there."""
-    _check_range(*model.program(scene, False), np.zeros(1), model.start(scene)[None])
+    if not np.isfinite(model.rate(scene, False, bounded=True)(0.0, model.start(scene))).all():
+        raise OutsideError(0.0)
 
 
-def _check_range(program: Program, values: tuple[float, ...], times: Array, states: Array) -> None:
+def _check_states(program: Program, values: tuple[float, ...], times: Array, states: Array) -> None:
     """Raises OutsideError at the first of the states (n, d) where the program is badly conditioned."""
-    outside = ~np.all([bound > 0 for bound in _bounds(program)(*states.T, *values)], axis=0)
+    from lagrotor.numerics.codegen import compile_program
+
+    bounds = compile_program(replace(program, outputs=program.positive), "numpy")
+    outside = ~np.all([bound > 0 for bound in bounds(*states.T, *values)], axis=0)
     if outside.any():
         raise OutsideError(float(times[np.argmax(outside)]))
-
-
-@lru_cache(maxsize=16)
-def _bounds(program: Program) -> Callable[..., list[Array]]:
-    return compile_program(Program(program.arguments, program.stages, program.positive), "numpy")

@@ -10,23 +10,17 @@ A pulse adds the response of `theory.shock_response`. `linear_error` estimates w
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
 from math import exp, pi
 from typing import Any
 
 import numpy as np
 
 from lagrotor.errors import DomainError, SingularError
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.minimal_program import Ratio, program
+from lagrotor.models.minimal import MODEL, rhs_on_arrays
 from lagrotor.models.model import Array, Observed
-from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene, Shock
-from lagrotor.pair.symbols import G_1, G_2, a, b
-from lagrotor.theory.impulse_response import impulse_matrices
-from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.shock_response import pulse_response, shock_response
-from lagrotor.theory.toppling import toppling_growth
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
 SAFETY = 1.1, 2.5  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02 and 1.93
@@ -73,12 +67,23 @@ def _integral(t: Array, values: Array) -> Array:
     return np.vstack([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])
 
 
-@cache
-def _matrices() -> Any:
+@generated(((),))
+def _matrices() -> str:
     """(a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
-    matrices = impulse_matrices()
-    frequency = natural_frequency().expressions[0]
-    return compile_program(Program((a, b, G_1, G_2), (), (*matrices.mass, *matrices.gyroscopic, frequency)))
+    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.theory.impulse_response import impulse_matrices
+    from lagrotor.theory.natural_frequency import natural_frequency
+
+    matrices, frequency = impulse_matrices(), natural_frequency()
+    outputs = (*matrices.mass, *matrices.gyroscopic, *frequency.expressions)
+    return program_source(Program(frequency.arguments, (), outputs))
+
+
+@generated(((),))
+def _toppling_growth() -> str:
+    from lagrotor.theory.toppling import toppling_growth
+
+    return toppling_growth().code("numpy")
 
 
 def modes(scene: Scene) -> Modes:
@@ -141,12 +146,6 @@ def linear_run(scene: Scene, t: Array) -> Observed:
     return MODEL.observe(scene, linear_states(scene, t))
 
 
-@cache
-def _accelerations(massive: bool, ratio: Ratio, body: int) -> Any:
-    """The exact rates of `minimal`, for arrays of states."""
-    return compile_program(program(massive, ratio, body), "numpy")
-
-
 def linear_error(scene: Scene, t_end: float) -> float:
     """Largest error of an axis (tips: in units of R) of the linear motion up to t_end (s): the next term, integrated.
 
@@ -200,10 +199,7 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
         return 1.0
     momentum = (abs(scene.momenta[0]) + abs(scene.momenta[1])) / 2
     ratio, rate = scene.link.length / scene.rotor.length, angle / duration
-    growth = max(
-        float(toppling_growth()(nu, momentum or 1e-9, *scene.inertias, ratio))  # type: ignore[arg-type]
-        for nu in (rate, -rate)
-    )
+    growth = max(float(_toppling_growth()(nu, momentum or 1e-9, *scene.inertias, ratio)[0]) for nu in (rate, -rate))
     return (1 + angle / (2 * ratio)) * exp(min(growth * duration, 600.0))
 
 
@@ -211,7 +207,7 @@ def _defect(scene: Scene, linear: Modes, shock: Shock | None, t: Array, states: 
     """Exact less linear acceleration along the linear motion, (n, 3)."""
     assert scene.link is not None
     (own, shared), k = scene.inertias, scene.link.length / scene.rotor.length
-    ratio: Ratio = "equal" if k == 1 else "short" if k < 1 else "long"
+    ratio = "equal" if k == 1 else "short" if k < 1 else "long"
     parameters: list[Any] = [own, *((shared,) if shared else ()), *(() if k == 1 else (k,)), *scene.momenta]
     acceleration = -states[:, 3:] @ linear.turning.T
     if shock is not None:
@@ -221,5 +217,5 @@ def _defect(scene: Scene, linear: Modes, shock: Shock | None, t: Array, states: 
         push = np.zeros(3)
         push[0], push[shock.body] = straight.force[:2]
         acceleration = acceleration + pulse[:, None] * np.linalg.solve(linear.mass, linear.upright.T @ push)
-    exact = _accelerations(shared != 0, ratio, shock.body if shock else 0)(*states.T, *parameters)
+    exact = rhs_on_arrays(shared != 0, ratio, shock.body if shock else 0)(*states.T, *parameters)
     return np.stack(exact[3:], axis=1) - acceleration

@@ -3,17 +3,56 @@
 Exact for any bar and any k = ell / R. Singular only where an axis lies along the joint line.
 """
 
-from functools import lru_cache
+from __future__ import annotations
+
+from itertools import product
 from math import asin, atan2, atanh, cosh, hypot, sin, sinh
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lagrotor.errors import SingularError
-from lagrotor.models.minimal_program import Ratio, observation, program
 from lagrotor.models.model import Array, Model, Observed, constant_momenta
-from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    from lagrotor.models.minimal_program import Ratio
+    from lagrotor.numerics.codegen import Program
+
+Kind = tuple[bool, "Ratio", int]  # massive bar, ell against R, shocked rotor (0: none)
+RATIOS: tuple[Ratio, ...] = ("short", "equal", "long")
+KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
+
+
+def program(massive: bool, ratio: Ratio, body: int) -> Program:
+    """The program of one kind; see `lagrotor.models.minimal_program`."""
+    from lagrotor.models import minimal_program
+
+    return minimal_program.program(massive, ratio, body)
+
+
+@generated((*kind, bounded) for kind in KINDS for bounded in (False, True))
+def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
+    from lagrotor.numerics.rhs import rate_source
+
+    return rate_source(program(massive, ratio, body), 6, body > 0, bounded)
+
+
+@generated(KINDS)
+def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
+    """The outputs of one kind's program on arrays that broadcast."""
+    from lagrotor.numerics.codegen import program_source
+
+    return program_source(program(massive, ratio, body), "numpy")
+
+
+@generated((ratio,) for ratio in RATIOS)
+def _axes(ratio: Ratio) -> str:
+    from lagrotor.models.minimal_program import observation
+    from lagrotor.numerics.codegen import program_source
+
+    return program_source(observation(ratio), "numpy")
 
 
 def _ratio(scene: Scene) -> tuple[float, Ratio]:
@@ -23,14 +62,14 @@ def _ratio(scene: Scene) -> tuple[float, Ratio]:
     return value, "equal" if value == 1 else "short" if value < 1 else "long"
 
 
-def _program(scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
-    """The scene's program and the values of its parameters but for the force."""
+def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
+    """The scene's kind and the values of its parameters but for the force."""
     inertia_a, inertia_b = scene.inertias
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0
     optional = (*((inertia_b,) if massive else ()), *(() if ratio == "equal" else (value,)))
-    return program(massive, ratio, body), (inertia_a, *optional, *scene.momenta)
+    return (massive, ratio, body), (inertia_a, *optional, *scene.momenta)
 
 
 def _start(scene: Scene) -> Array:
@@ -58,18 +97,14 @@ def _start(scene: Scene) -> Array:
     return np.array([*middle, (u_v[0] + u_v[1]) / 2, chi_v, (alpha_v[0] + alpha_v[1]) / 2])
 
 
-@lru_cache(maxsize=3)
-def _axes_function(ratio: Ratio) -> Any:
-    return compile_program(observation(ratio), "numpy")
-
-
 def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
-    return _observed(scene, np.stack(_axes_function(ratio)(*states.T, value)))
+    return _observed(scene, np.stack(_axes(ratio)(*states.T, value)))
 
 
 def observe_fast(scene: Scene, states: Array) -> Observed:
     """What the model observes, by the fast extra."""
+    from lagrotor.models.minimal_program import observation
     from lagrotor.numerics.taylor import compile_taylor
 
     value, ratio = _ratio(scene)
@@ -81,4 +116,4 @@ def _observed(scene: Scene, columns: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 
-MODEL = Model("minimal", 6, _program, _start, _observe)
+MODEL = Model("minimal", 6, _kind, program, _rhs, _start, _observe)

@@ -1,16 +1,20 @@
 """What every integrated model offers: its program, how a scene fills the program's parameters, a start, the axes read back."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.codegen import Program
+from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Projection, Rate
-from lagrotor.numerics.rhs import rate_factory
 from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    from lagrotor.numerics.codegen import Program
 
 Array = NDArray[np.float64]
 
@@ -28,21 +32,29 @@ class Observed:
 class Model:
     """A model that is integrated.
 
-    program: (scene, driven) → the program of the right-hand side, its first `size` arguments the state, and the values of
-    its parameters; driven by the pulse, the last three are the torque R F (N m) and not among the values. start: the state
-    (d,) of a scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
+    kind: (scene, driven) → which of the model's programs holds the scene, and the values of its parameters; driven by the
+    pulse, the last three are the torque R F (N m) and not among the values. derive: (*kind) → the program of the right-hand
+    side, its first `size` arguments the state. rhs: (*kind, bounded) → its function, generated. start: the state (d,) of a
+    scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
     projection: brings states that drifted off the constraints back onto them. outside: whether a state lies where the
     model must not be integrated; time_to_singular: the time after which a state may be there, at the earliest.
     """
 
     name: str
     size: int
-    program: Callable[[Scene, bool], tuple[Program, tuple[float, ...]]]
+    kind: Callable[[Scene, bool], tuple[tuple[Any, ...], tuple[float, ...]]]
+    derive: Callable[..., Program]
+    rhs: GeneratedFunction
     start: Callable[[Scene], Array]
     observe: Callable[[Scene, Array], Observed]
     projection: Callable[[Scene], Projection] | None = None
     outside: Callable[[Array], bool] | None = None
     time_to_singular: Callable[[Array], float] | None = None
+
+    def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
+        """The scene's program, and the values of its parameters but for the torque."""
+        kind, values = self.kind(scene, driven)
+        return self.derive(*kind), values
 
     def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> Rate:
         """The right-hand side s, y ↦ y' in Python floats, s the time from the pulse's peak, with the pulse if `driven`.
@@ -50,17 +62,12 @@ class Model:
         A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; bounded: a state
         where the program is badly conditioned, too.
         """
-        program, values = self.program(scene, driven)
+        kind, values = self.kind(scene, driven)
         shock = scene.shock if driven else None
         if shock:
             values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
-        rate = _factory(program, self.size, shock is not None, bounded)(*values)
+        rate: Rate = self.rhs(*kind, bounded)(*values)
         return rate if self.outside is None else _guarded(rate, self.outside, self.size)
-
-
-@lru_cache(maxsize=64)
-def _factory(program: Program, size: int, driven: bool, bounded: bool) -> Callable[..., Rate]:
-    return rate_factory(program, size, driven, bounded)
 
 
 def _guarded(rate: Rate, outside: Callable[[Array], bool], size: int) -> Rate:

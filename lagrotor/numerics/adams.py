@@ -1,6 +1,7 @@
 """Adams predictor and corrector in equal steps: the engine for tight tolerances, its order exact before rounding."""
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
 
 import numpy as np
@@ -23,21 +24,23 @@ def adams_weights(q: int) -> tuple[Array, Array, Array]:
     A (q,): integrals from the last node to the one after it (Adams–Bashforth); B (q,): from the last but one to the last
     (Adams–Moulton); P (q, q + 1): the integral of l_j from the middle node q // 2 as a polynomial in steps from there.
     """
-    from sympy import QQ, Poly, Rational, Symbol
-
-    x, middle, last = Symbol("x"), q // 2, q - 1 - q // 2
+    middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
     for j in nodes:
-        lagrange = Poly(1, x, domain=QQ)
+        lagrange = [Fraction(1)]  # coefficients of ascending powers
         for i in nodes:
             if i != j:
-                lagrange *= Poly(Rational(1, j - i) * (x - i), x, domain=QQ)
-        rows.append(lagrange.integrate(x))
-    A = [float(row.eval(last + 1) - row.eval(last)) for row in rows]
-    B = [float(row.eval(last) - row.eval(last - 1)) for row in rows]
-    P = [[float(row.nth(power)) for power in range(q + 1)] for row in rows]
-    return np.array(A), np.array(B), np.array(P)
+                pairs = zip([Fraction(0), *lagrange], [*lagrange, Fraction(0)], strict=True)
+                lagrange = [(shifted - i * own) / (j - i) for shifted, own in pairs]
+        rows.append([Fraction(0), *(c / (n + 1) for n, c in enumerate(lagrange))])
+
+    def at(row: list[Fraction], x: int) -> Fraction:
+        return sum((c * x**n for n, c in enumerate(row)), Fraction(0))
+
+    A = [float(at(row, last + 1) - at(row, last)) for row in rows]
+    B = [float(at(row, last) - at(row, last - 1)) for row in rows]
+    return np.array(A), np.array(B), np.array([[float(c) for c in row] for row in rows])
 
 
 @dataclass(frozen=True)

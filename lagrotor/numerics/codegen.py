@@ -4,6 +4,7 @@ A `Program` is a list of named stages and the outputs made of them. Stages keep 
 one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
 """
 
+import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -88,6 +89,13 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
     function = sp.lambdify(list(program.arguments), list(outputs), modules=module, cse=lambda _: (stages, outputs))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(outputs)} numbers"
     return function
+
+
+def program_source(program: Program, module: str = "math") -> str:
+    """The source of what `compile_program` returns, for `lagrotor.numerics.generated`."""
+    function = compile_program(program, module)
+    used = ", ".join(sorted(function.__code__.co_names))
+    return (f"from {module} import {used}\n" if used else "") + inspect.getsource(function).rstrip()
 
 
 def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:

@@ -1,10 +1,9 @@
 """A program as the rate that a solver calls with one state at a time: Python floats, and nothing done twice.
 
-What depends on the parameters alone is worked out once, squares are products, and no call stands between the solver and
-the program: three quarters of the time that `compile_program` and a wrapper around it take.
+What depends on the parameters alone is worked out once, and squares are products: about three quarters of the time that
+`compile_program` and a wrapper around it take.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -13,7 +12,8 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
-from lagrotor.numerics.integrators import LOST, OutsideError, Rate
+from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.integrators import Rate
 
 
 class _Products(PythonCodePrinter):  # type: ignore[misc]
@@ -70,7 +70,12 @@ def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: 
 
 
 def rate_factory(program: Program, states: int, driven: bool = False, bounded: bool = False) -> Callable[..., Rate]:
-    """parameters → rhs(s, y), for a program whose first `states` arguments are the state.
+    """parameters → rhs(s, y): the function of `rate_source`."""
+    return function_of(rate_source(program, states, driven, bounded))
+
+
+def rate_source(program: Program, states: int, driven: bool = False, bounded: bool = False) -> str:
+    """Source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
 
     driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
     one of the program's `positive` is not positive, OutsideError is raised.
@@ -103,22 +108,21 @@ def rate_factory(program: Program, states: int, driven: bool = False, bounded: b
     return _made(body, fixed, [*given, "width"] if driven else given, len(outputs))
 
 
-def _made(body: list[str], fixed: list[str], given: list[str], outputs: int) -> Callable[..., Rate]:
+def _made(body: list[str], fixed: list[str], given: list[str], outputs: int) -> str:
     """The function of the lines `body`, made for given parameters once the lines `fixed` are evaluated."""
     source = [
+        "from math import *",
+        "from lagrotor.numerics.integrators import LOST, OutsideError",
         f"def make({', '.join(given)}):",
         *(f"    {line}" for line in fixed),
         "    def bare(s, y):",
         *(f"        {line}" for line in body),
         "    def rate(s, y):",
         "        try:",
-        *(f"            {line}" for line in body),
+        "            return bare(s, y)",
         "        except LOST:",
         f"            return [nan] * {outputs}",
         "    rate.bare = bare",
         "    return rate",
     ]
-    names = dict(vars(math)) | {"LOST": LOST, "OutsideError": OutsideError}
-    exec("\n".join(source), names)
-    made: Callable[..., Rate] = names["make"]
-    return made
+    return "\n".join(source)

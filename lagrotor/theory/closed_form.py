@@ -12,7 +12,7 @@ import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.numerics.codegen import Program, compile_program, in_blocks
+from lagrotor.numerics.codegen import Program, compile_program, in_blocks, program_source
 from lagrotor.pair.symbols import GLOSSARY
 
 Array = NDArray[np.float64]
@@ -44,9 +44,17 @@ class ClosedForm:
     def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
-        expressions = tuple(e.replace(_is_multiple, _by_one_angle) for e in self.expressions)
-        values = compile_program(Program(self.arguments, (), expressions), "numpy", doc)
-        return values, tuple(sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain)
+        return compile_program(self._program, "numpy", doc), tuple(
+            sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain
+        )
+
+    @property
+    def _program(self) -> Program:
+        return Program(self.arguments, (), tuple(e.replace(_is_multiple, _by_one_angle) for e in self.expressions))
+
+    def code(self, module: str = "math") -> str:
+        """Source of the function arguments → list of outputs, without the conditions of the domain."""
+        return program_source(self._program, module)
 
     def _repr_latex_(self) -> str:
         pairs = zip(self.outputs, self.expressions, strict=True)

@@ -1,19 +1,16 @@
-"""The natural frequency of the coupled pair, for any spins and any bar, and its limits."""
+"""The natural frequency of the coupled pair, derived for any spins and any bar, and the formulas of its limits.
 
-from dataclasses import dataclass, replace
+`lagrotor.theory.natural_rate` evaluates them for a scene.
+"""
+
 from functools import cache
-from math import hypot, sqrt
 
 import sympy as sp
 
-from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import LinearSystem
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair
-from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.symbols import AXES, G_1, G_2, K, a, b, ell, m
-from lagrotor.theory.calibrated import FREQUENCY_SHIFT, LARGEST_SWING
 from lagrotor.theory.closed_form import ClosedForm
-from lagrotor.theory.single_rotor import free_precession_rate
 
 _G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)
 
@@ -44,69 +41,18 @@ def natural_frequency() -> ClosedForm:
     )
 
 
-def natural_rate(scene: Scene) -> float:
-    """Natural angular frequency (rad/s) of a scene: of the coupled pair, or of rotor 1 alone when there is no bar.
+def limit_formulas() -> dict[str, tuple[str, str]]:
+    """Limit → its formula and, where the bar is changed, what it makes of a and b, as text.
 
-    Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Exact in the limit of small
-    motion; `natural_rate_error` gives the error at an amplitude. Source: 5.28, corrected.
+    equal and opposite spins, any bar; a massless bar; K = m ell²/4, the bar's mass in its ends.
     """
-    if not isinstance(scene, Scene):
-        raise InputError(f"natural_rate: {scene!r} must be a Scene")
-    first, second = scene.momenta
-    if scene.link is None:
-        return abs(float(free_precession_rate()(0.0, first, scene.rotor.J)))  # type: ignore[arg-type]
-    return float(natural_frequency()(*scene.inertias, first, second))  # type: ignore[arg-type]
-
-
-def natural_rate_error(scene: Scene, amplitude: float) -> float:
-    """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
-
-    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated`); one rotor
-    alone precesses at Omega_0 / cos theta exactly. The swing of opposite spins that turns about the joint line at nu is
-    shifted by −(a + b) nu/(k G) of Omega_0 besides. Raises DomainError unless 0 <= r <= 0.4.
-    """
-    rate = natural_rate(scene)
-    if not 0 <= amplitude <= LARGEST_SWING.value:
-        raise DomainError(
-            f"natural_rate_error: amplitude = {amplitude:g} must lie between 0 and {LARGEST_SWING.value:g}, the range that "
-            "was calibrated; use lagrotor.simulate, or precession_orbit for opposite spins"
-        )
-    if scene.link is None:
-        return rate * (1 / sqrt(1 - amplitude**2) - 1)
-    ratio = scene.link.length / scene.rotor.length
-    return FREQUENCY_SHIFT.value * (1 + 1 / ratio**2) * amplitude**2 * rate
-
-
-@dataclass(frozen=True)
-class RateLimit:
-    """One limit: `rate` in rad/s, its formula as text, and what it changes in the scene."""
-
-    rate: float
-    formula: str
-    says: str
-
-
-def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
-    """Limits of the natural rate near a scene with a bar: equal, opposite, massless, dumbbell.
-
-    equal and opposite: both momenta as large as their root mean square G, G/(a + b) and G/sqrt(a² − b²). massless:
-    a = J, b = 0. dumbbell: the bar's mass in its ends, K = m ell²/4, so that b = 0, a = J + m R²/2. The formulas are
-    those of `natural_frequency` with the limit put in. Raises InputError without a bar.
-    """
-    if scene.link is None:
-        raise InputError("natural_rate_limits: the scene has no bar: it has no limits")
-    mean = hypot(*scene.spins) / sqrt(2)
-    length, mass = scene.link.length, scene.link.mass
-    ends = Link(length, mass, mass * length**2 / 4)
     dumbbell = sp.factor(INERTIAS[a].subs(K, m * ell**2 / 4))
-    massless = dumbbell.subs(m, 0)
-    tried = {
-        "equal": (replace(scene, spins=(mean, mean)), {_G1: _G, _G2: _G}, "spins equal, of the root mean square G"),
-        "opposite": (replace(scene, spins=(mean, -mean)), {_G1: _G, _G2: -_G}, "spins opposite, of the same G"),
-        "massless": (replace(scene, link=Link(length)), {_B: 0}, f"a bar without mass: a = {massless}, b = 0"),
-        "dumbbell": (replace(scene, link=ends), {_B: 0}, f"K = m ell**2/4: a = {dumbbell}, b = 0"),
+    return {
+        "equal": (_formula({_G1: _G, _G2: _G}), ""),
+        "opposite": (_formula({_G1: _G, _G2: -_G}), ""),
+        "massless": (_formula({_B: 0}), f"a = {dumbbell.subs(m, 0)}, b = 0"),
+        "dumbbell": (_formula({_B: 0}), f"a = {dumbbell}, b = 0"),
     }
-    return {name: RateLimit(natural_rate(one), _formula(put), says) for name, (one, put, says) in tried.items()}
 
 
 def _formula(put: dict[sp.Symbol, sp.Expr]) -> str:

@@ -12,16 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene, Shock
-from lagrotor.pair.symbols import a, b
-from lagrotor.theory.impulse_response import (
-    impulse_matrices,
-    shock_displacement,
-    shock_drift,
-    shock_energy,
-    shock_swing,
-)
-from lagrotor.theory.natural_frequency import natural_frequency
+from lagrotor.theory.natural_rate import natural_frequency_value
 
 Array = NDArray[np.float64]
 
@@ -123,6 +116,26 @@ def shock_response(scene: Scene) -> ShockResponse:
     return pulse_response(scene, scene.shock)
 
 
+@generated(((),))
+def _response() -> str:
+    """(a, b, G_1, G_2, p_x, p_1, p_2) → displacement, drift, swing, both energies: 11 numbers."""
+    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.theory.impulse_response import shock_displacement, shock_drift, shock_energy, shock_swing
+
+    forms = shock_displacement(), shock_drift(), shock_swing(), shock_energy()
+    return program_source(Program(forms[0].arguments, (), tuple(e for form in forms for e in form.expressions)))
+
+
+@generated(((),))
+def _mass() -> str:
+    """(a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
+    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.pair.symbols import a, b
+    from lagrotor.theory.impulse_response import impulse_matrices
+
+    return program_source(Program((a, b), (), tuple(impulse_matrices().mass)))
+
+
 def pulse_response(scene: Scene, shock: Shock) -> ShockResponse:
     """The response of the scene's pair, at rest and upright, to the whole of a pulse, wherever it began.
 
@@ -133,17 +146,15 @@ def pulse_response(scene: Scene, shock: Shock) -> ShockResponse:
     inertia_a, inertia_b = scene.inertias
     first, second = scene.momenta
     if first == second == 0:
-        mass = np.array(impulse_matrices().mass.subs({a: inertia_a, b: inertia_b}), dtype=float)
+        mass = np.array(_mass()(inertia_a, inertia_b)).reshape(3, 3)
         drift = np.linalg.solve(mass, impulse)
         gained = float(impulse @ drift) / 2
         zero = np.zeros(3)
         return ShockResponse(shock, 0.0, impulse, zero, drift, zero, 1.0, gained, gained)
     arguments = (inertia_a, inertia_b, first, second, *impulse)
-    displacement, drift, swing = (
-        np.array(form(*arguments)) for form in (shock_displacement(), shock_drift(), shock_swing())
-    )
-    along, across = (float(e) for e in shock_energy()(*arguments))
-    Omega = float(natural_frequency()(inertia_a, inertia_b, first, second))  # type: ignore[arg-type]
+    numbers = np.array(_response()(*arguments))
+    displacement, drift, swing, (along, across) = numbers[:3], numbers[3:6], numbers[6:9], numbers[9:].tolist()
+    Omega = float(natural_frequency_value()(inertia_a, inertia_b, first, second)[0])
     attenuation = exp(-((Omega * shock.width) ** 2) / 4)
     energy = along + attenuation**2 * across
     return ShockResponse(shock, Omega, impulse, displacement, drift, swing, attenuation, energy, along + across)

@@ -85,13 +85,13 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
     The momentum about the joint line tells, for the scene's is that of the full spins.
     """
     assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-6
-    right = minimal._program
+    right = minimal.MODEL.kind
 
     def wrong(scene: Scene, driven: bool):  # type: ignore[no-untyped-def]
-        program, values = right(scene, driven)
-        return program, (*values[:-1], 0.98 * values[-1])
+        kind, values = right(scene, driven)
+        return kind, (*values[:-1], 0.98 * values[-1])
 
-    changed = replace(minimal.MODEL, program=wrong)
+    changed = replace(minimal.MODEL, kind=wrong)
     units = natural_units(SHOCKED)
     with pytest.raises(IntegrationError, match="the run followed another motion"):
         estimated.run_at(changed, units.scene, T * units.rate, 1e-9, "core", 1.0)

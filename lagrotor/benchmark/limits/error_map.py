@@ -10,7 +10,7 @@ from lagrotor.errors import InputError
 from lagrotor.models.ensemble import sweep
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of
 from lagrotor.theory.parallel_precession import parallel_scene
 

@@ -10,7 +10,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.harmonics import Array
 from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit, amplitude_of, series_orbit
 

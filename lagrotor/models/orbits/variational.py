@@ -1,20 +1,25 @@
 """The variational equations of the minimal model: its Jacobian, generated from the same program, along a motion."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.errors import SingularError
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.minimal_program import Ratio, program
-from lagrotor.numerics.codegen import Program, compile_program
+from lagrotor.models.minimal import MODEL, RATIOS, program
+from lagrotor.numerics.generated import generated
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from lagrotor.models.minimal_program import Ratio
+    from lagrotor.numerics.codegen import Program
 
 Array = NDArray[np.float64]
 
@@ -24,6 +29,10 @@ def tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
 
     Forward differentiation, stage by stage: exact, and no longer than len(by) times the program.
     """
+    import sympy as sp
+
+    from lagrotor.numerics.codegen import Program
+
     tangents: dict[sp.Symbol, list[sp.Expr]] = {
         s: [sp.Integer(1 if s == direction else 0) for direction in by] for s in by
     }
@@ -47,10 +56,12 @@ def tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
     return Program(source.arguments, tuple(stages), (*source.outputs, *rows))
 
 
-@lru_cache(maxsize=8)
-def _compiled(massive: bool, ratio: Ratio) -> Any:
+@generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
+def _tangents(massive: bool, ratio: Ratio) -> str:
+    from lagrotor.numerics.codegen import program_source
+
     source = program(massive, ratio, 0)
-    return compile_program(tangent_program(source, source.arguments[:6]))
+    return program_source(tangent_program(source, source.arguments[:6]))
 
 
 @dataclass(frozen=True)
@@ -76,7 +87,7 @@ def flow(scene: Scene) -> Callable[[Array, float], Flow]:
     parameters += [inertia_b] if inertia_b != 0 else []
     parameters += [value] if ratio != "equal" else []
     parameters += scene.momenta
-    function = _compiled(inertia_b != 0, ratio)
+    function = _tangents(inertia_b != 0, ratio)
     plain = MODEL.rate(scene, False)
 
     def rate(s: float, y: Array) -> list[float]:

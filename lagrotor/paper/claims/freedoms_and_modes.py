@@ -13,7 +13,8 @@ from lagrotor.pair.symbols import G_1, G_2, a, b, k
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.premises import TWO_MODES
 from lagrotor.paper.readable import scientific
-from lagrotor.theory.natural_frequency import linear_pair, natural_rate
+from lagrotor.theory.natural_frequency import linear_pair
+from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
 Spins = tuple[float, float]

@@ -12,7 +12,7 @@ from lagrotor.pair.examples import HEAVY, LIGHT, STEP
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.shocked_runs import shock_of, shocked_scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 
 Spins = tuple[float, float]
 # The paper's "..." leave the bar of 5.3 open. Those of its listings are the first two; the third has the mass of the one

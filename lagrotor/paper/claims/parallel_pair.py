@@ -13,7 +13,7 @@ from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
 from lagrotor.paper.shocked_runs import after_shock, angle_between, shock_of, shocked_scene, turned_about_joint_line
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 
 Spins = tuple[float, float]
 ALONG, ACROSS, WEAK = (50.0, 0.0, 0.0), (0.0, 50.0, 0.0), (10.0, 0.0, 0.0)

@@ -13,7 +13,7 @@ from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.claims.natural_rates import BARS
 from lagrotor.paper.claims.precession_runs import AMPLITUDES, EQUAL, MASSLESS, OPPOSITE, Spins, once_round, precession
 from lagrotor.paper.shocked_runs import shock_of, shocked_scene
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 
 OVER_COSINE, HALF_UNIT = 0.5, 0.05  # c of 1/cos θ = 1 + θ²/2, to half a unit of its decimal
 WEAK = 5.0  # N

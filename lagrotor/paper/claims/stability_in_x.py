@@ -21,7 +21,7 @@ from lagrotor.paper.shocked_runs import (
     shocked_scene,
     turned_about_joint_line,
 )
-from lagrotor.theory.natural_frequency import natural_rate
+from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
 Spins = tuple[float, float]

@@ -1,0 +1,93 @@
+"""Generated functions that are kept as source, so that a first call reads what it would have to derive.
+
+A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text lies in
+`generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called.
+`python -m lagrotor.report.renew_record code` writes these files, and a test derives every block again.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+
+_HEAD = re.compile(r"^# %% (.*)\n", re.MULTILINE)
+_MOST = 64  # functions of one kind kept in a process
+
+
+@dataclass(frozen=True, eq=False)
+class GeneratedFunction:
+    """Called with arguments, the function whose source `derive` returns for them: the last one that the source defines.
+
+    kept: the arguments for which the source is kept.
+    """
+
+    derive: Callable[..., str]
+    kept: tuple[tuple[Any, ...], ...]
+    _functions: Callable[..., Any] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_functions", lru_cache(_MOST)(lambda *given: function_of(self.source(*given))))
+
+    def __call__(self, *given: Any) -> Any:
+        return self._functions(*given)
+
+    def source(self, *given: Any) -> str:
+        """The source, kept or derived."""
+        return _blocks(self.file).get(self.name(*given)) or self.derive(*given)
+
+    def name(self, *given: Any) -> str:
+        """The heading of a block: module, function and arguments."""
+        return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, given))})"
+
+    @property
+    def file(self) -> Path:
+        """Where the sources of its module's folder are kept."""
+        return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
+
+
+_ALL: list[GeneratedFunction] = []
+
+
+def generated(kept: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
+    """Mark a function that returns the source of another; `kept` as in `GeneratedFunction`."""
+
+    def mark(derive: Callable[..., str]) -> GeneratedFunction:
+        _ALL.append(GeneratedFunction(derive, tuple(kept)))
+        return _ALL[-1]
+
+    return mark
+
+
+def function_of(source: str) -> Callable[..., Any]:
+    """The last function that a source defines."""
+    names: dict[str, Any] = {}
+    exec(source, names)
+    found: Callable[..., Any] = list(names.values())[-1]
+    return found
+
+
+def files() -> dict[Path, str]:
+    """What is kept by the modules that are imported, derived anew: file → text, with the version of sympy that printed it."""
+    from sympy import __version__
+
+    found: dict[Path, str] = {}
+    for one in sorted(_ALL, key=lambda one: one.name()):
+        for given in one.kept:
+            block = f"# %% {one.name(*given)}\n{one.derive(*given)}\n\n"
+            found[one.file] = found.get(one.file, f"# sympy {__version__}\n\n") + block
+    return found
+
+
+@cache
+def _blocks(file: Path) -> dict[str, str]:
+    """Heading → source of each block of a file; none where there is no file."""
+    try:
+        _, *parts = _HEAD.split(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    return dict(zip(parts[::2], (part.rstrip() for part in parts[1::2]), strict=True))

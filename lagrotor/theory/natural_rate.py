@@ -1,0 +1,100 @@
+"""The natural rate of a scene, its error and its limits, by functions generated from `lagrotor.theory.natural_frequency`."""
+
+from dataclasses import dataclass, replace
+from math import hypot, sqrt
+
+from lagrotor.errors import DomainError, InputError
+from lagrotor.numerics.generated import generated
+from lagrotor.pair.scene import Link, Scene
+from lagrotor.theory.calibrated import FREQUENCY_SHIFT, LARGEST_SWING
+
+
+@generated(((),))
+def natural_frequency_value() -> str:
+    """(a, b, G_1, G_2) → [Omega_0], numbers."""
+    from lagrotor.theory.natural_frequency import natural_frequency
+
+    return natural_frequency().code()
+
+
+@generated(((),))
+def _free_rate() -> str:
+    """(theta, G, J) → [phi'], numbers."""
+    from lagrotor.theory.single_rotor import free_precession_rate
+
+    return free_precession_rate().code()
+
+
+@generated(((),))
+def _formulas() -> str:
+    """() → what `limit_formulas` returns."""
+    from lagrotor.theory.natural_frequency import limit_formulas
+
+    rows = "".join(f"        {name!r}: {pair!r},\n" for name, pair in limit_formulas().items())
+    return f"def formulas():\n    return {{\n{rows}    }}"
+
+
+def natural_rate(scene: Scene) -> float:
+    """Natural angular frequency (rad/s) of a scene: of the coupled pair, or of rotor 1 alone when there is no bar.
+
+    Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Exact in the limit of small
+    motion; `natural_rate_error` gives the error at an amplitude. Source: 5.28, corrected.
+    """
+    if not isinstance(scene, Scene):
+        raise InputError(f"natural_rate: {scene!r} must be a Scene")
+    first, second = scene.momenta
+    if scene.link is None:
+        return abs(float(_free_rate()(0.0, first, scene.rotor.J)[0]))
+    return float(natural_frequency_value()(*scene.inertias, first, second)[0])
+
+
+def natural_rate_error(scene: Scene, amplitude: float) -> float:
+    """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
+
+    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated`); one rotor
+    alone precesses at Omega_0 / cos theta exactly. The swing of opposite spins that turns about the joint line at nu is
+    shifted by −(a + b) nu/(k G) of Omega_0 besides. Raises DomainError unless 0 <= r <= 0.4.
+    """
+    rate = natural_rate(scene)
+    if not 0 <= amplitude <= LARGEST_SWING.value:
+        raise DomainError(
+            f"natural_rate_error: amplitude = {amplitude:g} must lie between 0 and {LARGEST_SWING.value:g}, the range that "
+            "was calibrated; use lagrotor.simulate, or precession_orbit for opposite spins"
+        )
+    if scene.link is None:
+        return rate * (1 / sqrt(1 - amplitude**2) - 1)
+    ratio = scene.link.length / scene.rotor.length
+    return FREQUENCY_SHIFT.value * (1 + 1 / ratio**2) * amplitude**2 * rate
+
+
+@dataclass(frozen=True)
+class RateLimit:
+    """One limit: `rate` in rad/s, its formula as text, and what it changes in the scene."""
+
+    rate: float
+    formula: str
+    says: str
+
+
+def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
+    """Limits of the natural rate near a scene with a bar: equal, opposite, massless, dumbbell.
+
+    equal and opposite: both momenta as large as their root mean square G, G/(a + b) and G/sqrt(a² − b²). massless:
+    a = J, b = 0. dumbbell: the bar's mass in its ends, K = m ell²/4, so that b = 0, a = J + m R²/2. The formulas are
+    those of `natural_frequency` with the limit put in. Raises InputError without a bar.
+    """
+    if scene.link is None:
+        raise InputError("natural_rate_limits: the scene has no bar: it has no limits")
+    mean = hypot(*scene.spins) / sqrt(2)
+    length, mass = scene.link.length, scene.link.mass
+    changed = {
+        "equal": (replace(scene, spins=(mean, mean)), "spins equal, of the root mean square G"),
+        "opposite": (replace(scene, spins=(mean, -mean)), "spins opposite, of the same G"),
+        "massless": (replace(scene, link=Link(length)), "a bar without mass: {}"),
+        "dumbbell": (replace(scene, link=Link(length, mass, mass * length**2 / 4)), "K = m ell**2/4: {}"),
+    }
+    formulas = _formulas()()
+    return {
+        name: RateLimit(natural_rate(one), formulas[name][0], says.format(formulas[name][1]))
+        for name, (one, says) in changed.items()
+    }

@@ -1,0 +1,68 @@
+"""Functions kept as source: read where they are kept, derived elsewhere, and never another than what is derived."""
+
+import sys
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+from lagrotor.numerics.codegen import Program, program_source
+from lagrotor.numerics.generated import GeneratedFunction, function_of
+from lagrotor.report.renew_record import generated_code
+
+x, y = sp.symbols("x y", real=True)
+DERIVED: list[int] = []
+
+
+def _power(n: int) -> str:
+    DERIVED.append(n)
+    return program_source(Program((x, y), (), (sp.sin(x) ** n + y, sp.exp(x))))
+
+
+def kept_in(folder: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> GeneratedFunction:
+    """The function above, of a module that lies in `folder` beside a file of that text."""
+    (folder / "generated.txt").write_text(text)
+    monkeypatch.setattr(sys.modules[__name__], "__file__", str(folder / "test_generated.py"))
+    DERIVED.clear()
+    return GeneratedFunction(_power, ((2,),))
+
+
+def test_a_kept_function_is_not_derived(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = f"# %% {GeneratedFunction(_power, ()).name(2)}\n{_power(2)}\n"
+    power = kept_in(tmp_path, monkeypatch, text)
+    assert power(2)(0.3, 1.0) == pytest.approx([sp.sin(0.3) ** 2 + 1, sp.exp(0.3)])
+    assert DERIVED == []
+
+
+def test_a_function_that_is_not_kept_is_derived_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    power = kept_in(tmp_path, monkeypatch, "")
+    assert power(3)(0.3, 1.0) == power(3)(0.3, 1.0) == pytest.approx([sp.sin(0.3) ** 3 + 1, sp.exp(0.3)])
+    assert DERIVED == [3]
+
+
+@pytest.mark.parametrize("module", ["math", "numpy"])
+def test_the_source_defines_the_function_that_is_compiled(module: str) -> None:
+    source = program_source(Program((x, y), (), (sp.atan2(y, x), sp.pi * x)), module)
+    assert function_of(source)(0.3, 0.4) == pytest.approx([0.9272952180016122, 0.3 * 3.141592653589793])
+
+
+def test_everything_kept_is_what_is_derived() -> None:
+    for file, text in generated_code().items():
+        kept = file.read_text(encoding="utf-8")
+        if kept.split("\n")[0] != text.split("\n")[0]:
+            pytest.skip(f"another sympy than {kept.splitlines()[0]} may print the same function in another way")
+        assert kept == text, f"{file} is out of date: python -m lagrotor.report.renew_record code"
+
+
+def test_a_changed_derivation_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    from lagrotor.models import linear
+
+    monkeypatch.setattr(sp, "sqrt", lambda e: sp.Integer(2) * e ** sp.Rational(1, 2))
+    from lagrotor.theory.natural_frequency import natural_frequency
+
+    natural_frequency.cache_clear()
+    try:
+        assert linear._matrices.derive() != linear._matrices.source()
+    finally:
+        monkeypatch.undo()
+        natural_frequency.cache_clear()
