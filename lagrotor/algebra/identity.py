@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import product
 from math import inf
 from typing import Literal
@@ -33,7 +34,7 @@ from typing import Literal
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from lagrotor.algebra.evidence import largest_value, points
+from lagrotor.algebra.evidence import Point, largest_value, points
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
@@ -52,17 +53,31 @@ _MOST_SIGNS, _SIGN_POINTS = 3, 64
 class Decision:
     """Whether an expression vanishes identically, where that holds, and what shows it.
 
-    `domain` holds the factors that must not vanish; `witness` is a point where a nonzero expression does not vanish,
-    and `evidence` the largest absolute value seen at random points, for nonzero and undecided expressions.
-    `partly`: a nonzero expression that vanishes for some signs of its roots, as sqrt(x**2) - x does where x > 0.
+    `domain` holds the factors that must not vanish; `partly`: a nonzero expression that vanishes for some signs of its
+    roots, as sqrt(x**2) - x does where x > 0. `seen`: an expression that is not zero throughout, to be evaluated at the
+    points `at`, or at random ones, when a witness or evidence is read.
     """
 
     answer: Literal["zero", "nonzero", "undecided"]
     domain: tuple[sp.Expr, ...]
     reason: str
-    witness: Mapping[sp.Symbol, sp.Rational] | None = None
-    evidence: float | None = None
     partly: bool = False
+    seen: sp.Expr | None = None
+    at: tuple[Point, ...] | None = None
+
+    @property
+    def witness(self) -> Mapping[sp.Symbol, sp.Rational] | None:
+        """A point where a nonzero expression does not vanish."""
+        return self._largest[0] if self.answer == "nonzero" else None
+
+    @property
+    def evidence(self) -> float | None:
+        """The largest absolute value at the points, of a nonzero or an undecided expression."""
+        return self._largest[1]
+
+    @cached_property
+    def _largest(self) -> tuple[Point | None, float | None]:
+        return (None, None) if self.seen is None else largest_value(self.seen, self.at)
 
 
 def decide_zero(expression: sp.Expr) -> Decision:
@@ -77,7 +92,7 @@ def decide_zero(expression: sp.Expr) -> Decision:
     try:
         return _decided(expression)
     except NotExactError as refusal:
-        return Decision("undecided", (), str(refusal), evidence=largest_value(expression)[1])
+        return Decision("undecided", (), str(refusal), seen=expression)
 
 
 def _decided(expression: sp.Expr) -> Decision:
@@ -100,11 +115,11 @@ def _decided(expression: sp.Expr) -> Decision:
     if not nonzero:
         return Decision("zero", domain, "The reduced numerator is the zero polynomial.")
     if not zero:
-        return Decision("nonzero", domain, next(iter(nonzero.values())), *largest_value(expression))
+        return Decision("nonzero", domain, next(iter(nonzero.values())), seen=expression)
     seen = [(roots.signs_at(point), point) for point in points(expression.free_symbols, _SIGN_POINTS)]
     for signs, reason in nonzero.items():
-        if within := [point for there, point in seen if there == signs]:
-            return Decision("nonzero", domain, reason, *largest_value(expression, within), partly=True)
+        if within := tuple(point for there, point in seen if there == signs):
+            return Decision("nonzero", domain, reason, True, expression, within)
     raise NotExactError(f"It vanishes for some signs of {_listed(roots)} and not for others.")
 
 

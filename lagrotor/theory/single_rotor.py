@@ -5,6 +5,7 @@ from functools import cache
 import sympy as sp
 
 from lagrotor.mechanics import euler_lagrange, momenta
+from lagrotor.mechanics.lagrangian import linear_solve
 from lagrotor.pair.lagrangians import ansatz_integrals, rotor_lagrangian
 from lagrotor.pair.symbols import ANSATZ, I3, M_3, ROTOR, A, B, G, J, M_z, omega
 from lagrotor.theory.closed_form import ClosedForm
@@ -15,7 +16,8 @@ def rotor_precession_rate() -> ClosedForm:
     """phi' = (M_z − M_3 cos theta) / (J sin² theta) of one grounded rotor, from its two cyclic momenta (5.02)."""
     theta, (_, phi_v, psi_v) = ROTOR.q[0], ROTOR.v
     p = momenta(rotor_lagrangian(), ROTOR)
-    rate = sp.solve([p[1] - M_z, p[2] - M_3], [phi_v, psi_v], dict=True)[0][phi_v]
+    linear = sp.linear_eq_to_matrix([p[1] - M_z, p[2] - M_3], [phi_v, psi_v])
+    rate = linear_solve(*linear, "rotor_precession_rate: the momenta do not give the rates")[0]
     return ClosedForm(
         "rotor_precession_rate",
         ("phi'",),
@@ -33,8 +35,9 @@ def pair_precession_rate() -> ClosedForm:
     theta_1, theta_2 = ANSATZ.q[:2]
     phi_v, psi_v = ANSATZ.v[2:]
     integral_A, integral_B = ansatz_integrals()
-    rate = sp.solve([integral_A - A, integral_B - B], [phi_v, psi_v], dict=True)[0][phi_v]
-    numerator, denominator = sp.fraction(sp.together(rate))
+    linear = sp.linear_eq_to_matrix([integral_A - A, integral_B - B], [phi_v, psi_v])
+    rate = linear_solve(*linear, "pair_precession_rate: the integrals do not give the rates")[0]
+    numerator, denominator = sp.fraction(sp.factor(rate))
     return ClosedForm(
         "pair_precession_rate",
         ("phi'",),
