@@ -16,8 +16,8 @@ def rotor_precession_rate() -> ClosedForm:
     """phi' = (M_z − M_3 cos theta) / (J sin² theta) of one grounded rotor, from its two cyclic momenta (5.02)."""
     theta, (_, phi_v, psi_v) = ROTOR.q[0], ROTOR.v
     p = momenta(rotor_lagrangian(), ROTOR)
-    linear = sp.linear_eq_to_matrix([p[1] - M_z, p[2] - M_3], [phi_v, psi_v])
-    rate = linear_solve(*linear, "rotor_precession_rate: the momenta do not give the rates")[0]
+    matrix, given = sp.linear_eq_to_matrix([p[1] - M_z, p[2] - M_3], [phi_v, psi_v])
+    rate = linear_solve(matrix, given, "rotor_precession_rate: the momenta do not give the rates")[0]
     return ClosedForm(
         "rotor_precession_rate",
         ("phi'",),
@@ -35,8 +35,8 @@ def pair_precession_rate() -> ClosedForm:
     theta_1, theta_2 = ANSATZ.q[:2]
     phi_v, psi_v = ANSATZ.v[2:]
     integral_A, integral_B = ansatz_integrals()
-    linear = sp.linear_eq_to_matrix([integral_A - A, integral_B - B], [phi_v, psi_v])
-    rate = linear_solve(*linear, "pair_precession_rate: the integrals do not give the rates")[0]
+    matrix, given = sp.linear_eq_to_matrix([integral_A - A, integral_B - B], [phi_v, psi_v])
+    rate = linear_solve(matrix, given, "pair_precession_rate: the integrals do not give the rates")[0]
     numerator, denominator = sp.fraction(sp.factor(rate))
     return ClosedForm(
         "pair_precession_rate",
