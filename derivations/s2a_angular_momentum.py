@@ -16,6 +16,7 @@ import sympy as sp
 from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair.lagrangians import axis, rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, J, R, m, omega_1, omega_2
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation, vector
 from lagrotor.paper.premises import Premise, parameter_premise
 from lagrotor.paper.proof import Formula, prove
@@ -43,6 +44,7 @@ verdict(
     shared,
     premises=[massless_link],
     evidence=["With a mass the two forces fall short of F by the mass times the acceleration of the link's centre."],
+    written=form("F - m*A"),
 )
 
 # %% [markdown]
@@ -103,10 +105,22 @@ def slow_axis(omega: sp.Symbol) -> Premise:
 
 
 neglected = "What is left out, J r × r', is of first order in epsilon; the paper's footnote 1 says as much."
-verdict("2.02", angular_momentum(omega_1), premises=[slow_axis(omega_1)], evidence=[neglected])
+verdict(
+    "2.02",
+    angular_momentum(omega_1),
+    premises=[slow_axis(omega_1)],
+    evidence=[neglected],
+    written=form("I_3*omega_1*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
+)
 
 # %%
-verdict("2.03", angular_momentum(omega_2), premises=[slow_axis(omega_2)], evidence=[neglected])
+verdict(
+    "2.03",
+    angular_momentum(omega_2),
+    premises=[slow_axis(omega_2)],
+    evidence=[neglected],
+    written=form("I_3*omega_2*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
+)
 
 # %% [markdown]
 # ## Torque
@@ -174,7 +188,29 @@ slowness = (
     "formula is then right for the mean motion only.",
     "The lever is R r, not the unit vector that the paper's hats mix it with; the paper has R = 1.",
 )
-verdict("2.04", torque(omega_1), premises=[slow_axis(omega_1), slow_force(omega_1)], uses=["2.02"], evidence=slowness)
+verdict(
+    "2.04",
+    torque(omega_1),
+    premises=[slow_axis(omega_1), slow_force(omega_1)],
+    uses=["2.02"],
+    evidence=slowness,
+    written=form(
+        "I_3*omega_1*hat_r_dot + J*cross(axis(theta, phi), hat_r_ddot)",
+        hat_r_dot=rate(r_hat),
+        hat_r_ddot=rate(rate(r_hat)),
+    ),
+)
 
 # %%
-verdict("2.05", torque(omega_2), premises=[slow_axis(omega_2), slow_force(omega_2)], uses=["2.03"], evidence=slowness)
+verdict(
+    "2.05",
+    torque(omega_2),
+    premises=[slow_axis(omega_2), slow_force(omega_2)],
+    uses=["2.03"],
+    evidence=slowness,
+    written=form(
+        "I_3*omega_2*hat_r_dot + J*cross(axis(theta, phi), hat_r_ddot)",
+        hat_r_dot=rate(r_hat),
+        hat_r_ddot=rate(rate(r_hat)),
+    ),
+)

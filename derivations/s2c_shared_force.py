@@ -15,6 +15,7 @@ import sympy as sp
 
 from lagrotor.pair.symbols import I3, J, R, m, omega_1, omega_2
 from lagrotor.paper import scripts
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, vector
 from lagrotor.paper.premises import EQUAL_SPINS, Premise
 from lagrotor.paper.proof import Formula, prove
@@ -41,6 +42,11 @@ verdict(
     premises=[massless_link],
     uses=["2.01"],
     evidence=["The source is garbled by scanning (F_1 to F_4, a sixth); what 2.07 uses of it is what is judged."],
+    written={
+        r"\vec F_A + \vec F_B": form("F - m*A"),
+        r"\vec F_A": form("(F - m*A)/2 + f"),
+        r"\vec F_B": form("(F - m*A)/2 - f"),
+    },
 )
 
 # %% [markdown]
@@ -112,7 +118,13 @@ slow = Premise(
 premises = [parallel, slow, massless_link]
 
 # %%
-verdict("2.07", spinning_1, premises=premises, uses=["2.04", "2.05", "2.06"])
+verdict(
+    "2.07",
+    spinning_1,
+    premises=premises,
+    uses=["2.04", "2.05", "2.06"],
+    written=form("cross(r, (F - m*A)/2 + f) - J*cross(hat_r, hat_r_ddot)", hat_r=r / R, hat_r_ddot=a_1),
+)
 
 # %% [markdown]
 # ## Solved for $\vec r\times\vec f$
@@ -133,14 +145,17 @@ prove(
 )
 
 # %%
+right_8 = form("(rho - 1)/2*cross(r, F)", rho=rho)
+right_9 = form("(rho - 1)/(2*(1 + rho))*cross(r, F)", rho=rho)
 verdict(
     "2.08",
     (1 + rho) * cross(r, f),
     premises=premises,
-    correction=(rho - 1) * cross(r, F / 2),
+    correction=right_8,
     wrong="The left side has the wrong sign.",
     uses=["2.07"],
     evidence=["Collecting 2.07 gives rho r x F/2 - r x F/2, rho = omega_1/omega_2."],
+    written=right_8,
 )
 
 # %%
@@ -148,10 +163,11 @@ verdict(
     "2.09",
     cross(r, f),
     premises=premises,
-    correction=(rho - 1) / (2 * (1 + rho)) * cross(r, F),
+    correction=right_9,
     wrong="The sign of 2.08 is carried on.",
     uses=["2.08"],
     evidence=["It inherits the sign of 2.08: the faster rotor takes more of the force, not less."],
+    written=right_9,
 )
 
 # %%
@@ -159,9 +175,10 @@ verdict(
     "2.10",
     spinning_1,
     premises=premises,
-    correction=cross(r, F / 2) + (rho - 1) / (2 * (1 + rho)) * cross(r, F),
+    correction=form("rho/(1 + rho)*cross(r, F)", rho=rho),
     wrong="The sign of 2.08 is carried on.",
     uses=["2.09", "2.04"],
+    written=form("rho/(1 + rho)*cross(r, F)", rho=rho),
 )
 
 # %% [markdown]
@@ -170,15 +187,16 @@ verdict(
 # As printed, (6) is not the rate that the premises give, and (7) does not follow from it:
 
 # %%
-right_6 = cross(r, (1 + rho + rho - 1) / (1 + rho) * F / 2) / (omega_1 * I3)
+right_11 = form("rho/(1 + rho)*cross(r, F)/(I_3*omega_1)", rho=rho)
 verdict(
     "2.11",
     rate_1,
     premises=premises,
-    correction=right_6,
+    correction=right_11,
     wrong="The sign of 2.08 makes the factor 2/(1 + rho) where the premises give 2 rho/(1 + rho), rho = omega_1/omega_2.",
     uses=["2.10"],
     evidence=["(7) is what the premises give: the sign lost in 2.08 is made good between (6) and (7)."],
+    written=right_11,
 )
 
 # %% [markdown]
@@ -187,10 +205,13 @@ verdict(
 
 # %%
 a, b, t = (pair[name] for name in ("a", "b", "t"))
-inertia_twist = I3 * (a * (omega_1**2 + omega_2**2) - 2 * b * omega_1 * omega_2)
-drift_x = -R * (a * omega_1 - b * omega_2) * F[1] / inertia_twist
-drift_y = R * (a - b) * (omega_1 + omega_2) * F[0] / (2 * inertia_twist)
-drift_y += R * I3 * omega_2 * (omega_2 - omega_1) * F[1] * t / (2 * inertia_twist)
+mean_drift = form(
+    "R*column(-2*(a*omega_1 - b*omega_2)*F_y,"
+    " (a - b)*(omega_1 + omega_2)*F_x + I_3*omega_2*(omega_2 - omega_1)*F_y*t, 0)"
+    "/(2*I_3*(a*(omega_1**2 + omega_2**2) - 2*b*omega_1*omega_2))",
+    F_x=F[0],
+    F_y=F[1],
+)
 mean_axis = r"\tfrac12\langle\dot{\hat r}_1 + \dot{\hat r}_2\rangle"
 
 # %%
@@ -198,7 +219,7 @@ verdict(
     "2.12",
     {r"\dot{\hat r}": rate_1, mean_axis: pair["mean_drift"]},
     premises=premises,
-    correction={mean_axis: sp.Matrix([drift_x, drift_y, 0])},
+    correction={mean_axis: mean_drift},
     uses=["2.11", "2.04", "2.05"],
     evidence=[
         f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, since the bar pulls along itself alone. A "
@@ -210,6 +231,7 @@ verdict(
         f"For omega_2 = -omega_1 the paper's rate has no bound; the axes drift at {pair['opposite'][0]} and "
         f"{pair['opposite'][1]} per unit of force.",
     ],
+    written={r"\dot{\hat r}": form("cross(r, F)/((omega_1 + omega_2)*I_3)"), mean_axis: mean_drift},
 )
 
 # %% [markdown]
@@ -226,10 +248,17 @@ small_tilts = Premise(
     small=eps,
 )
 along_bar = Premise("the force acts along the bar", {F[1]: sp.S.Zero})
+sharing = "/(I_3*(a*(omega_1**2 + omega_2**2) - 2*b*omega_1*omega_2))"
+across = "R*column(-(a*omega_1 - b*omega_2)*F_y, "
+drifts = {
+    r"\langle\dot{\hat r}_1\rangle": across + "(a*omega_1 - b*omega_2)*F_x + I_3*omega_2**2*F_y*t, 0)" + sharing,
+    r"\langle\dot{\hat r}_2\rangle": across + "(a*omega_2 - b*omega_1)*F_x - I_3*omega_1*omega_2*F_y*t, 0)" + sharing,
+}
 verdict(
     "2.13",
     {r"\langle\dot{\hat r}_1\rangle": pair["drift_1"], r"\langle\dot{\hat r}_2\rangle": pair["drift_2"]},
     premises=[small_tilts, EQUAL_SPINS, along_bar],
+    written={name: form(text, F_x=F[0], F_y=F[1]) for name, text in drifts.items()},
     uses=["2.12"],
     evidence=[
         "Each axis by itself drifts so for a force along the bar, which is shared in halves, whatever the bar. A force "

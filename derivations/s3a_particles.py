@@ -15,6 +15,7 @@ from itertools import permutations
 
 import sympy as sp
 
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rate, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
@@ -46,7 +47,11 @@ total_mass = sp.diff(moving, common[0], 2)
 prove(gradient(moving, common), total_mass * common, "the momentum of the common motion")
 
 # %%
-mass = verdict("3.01", total_mass)
+mass = verdict(
+    "3.01",
+    total_mass,
+    written=form("sum_i(m_i)"),
+)
 mass
 
 # %% [markdown]
@@ -74,7 +79,12 @@ action_and_reaction = Premise(
     "two particles act on each other with opposite forces, f_ij = −f_ji",
     {back: -there for i, j in PAIRS for back, there in zip(internal[j, i], internal[i, j], strict=True)},
 )
-verdict("3.02", on_the_whole, premises=[action_and_reaction])
+verdict(
+    "3.02",
+    on_the_whole,
+    premises=[action_and_reaction],
+    written=form("sum_i(F_i)"),
+)
 
 # %% [markdown]
 # ## Centre of mass
@@ -88,7 +98,12 @@ X_cm = centre.subs(sp.solve(list(moment), list(centre), dict=True)[0])
 Formula(X_cm, r"\vec X_{cm}")
 
 # %%
-centre_of_mass = verdict("3.03", X_cm, uses=[mass])
+centre_of_mass = verdict(
+    "3.03",
+    X_cm,
+    uses=[mass],
+    written=form("sum_i(m_i*X_i)/M", M=total_mass),
+)
 centre_of_mass
 
 # %% [markdown]
@@ -96,16 +111,18 @@ centre_of_mass
 
 # %%
 U_cm = rate(X_cm, places, velocities)
+mean_velocity = form("sum_i(m_i*U_i)/M", M=total_mass)
 verdict(
     "3.04",
     U_cm,
-    correction=summed(m * U for m, U in zip(masses, velocities, strict=True)) / (m1 + m2 + m3),
+    correction=mean_velocity,
     wrong="The weights m_i/M of the mean are missing.",
     uses=[centre_of_mass],
     evidence=[
         "The mean of the velocities is printed as their sum. A body of three equal particles in a common motion would move "
         f"{sp.Integer(len(places))} times too fast."
     ],
+    written=mean_velocity,
 )
 
 # %% [markdown]
@@ -125,7 +142,12 @@ prove(
 )
 
 # %%
-verdict("3.05", L, uses=[centre_of_mass])
+verdict(
+    "3.05",
+    L,
+    uses=[centre_of_mass],
+    written=form("sum_i(m_i*cross(X_i - X_cm, U_i - U_cm))", X_cm=X_cm, U_cm=U_cm),
+)
 
 # %% [markdown]
 # ## Torque
@@ -136,7 +158,12 @@ verdict("3.05", L, uses=[centre_of_mass])
 turn = vector("n")
 work = sum(F.dot(cross(turn, d)) for F, d in zip(external, arms, strict=True))
 torque = gradient(work, turn)
-verdict("3.06", torque, uses=[centre_of_mass])
+verdict(
+    "3.06",
+    torque,
+    uses=[centre_of_mass],
+    written=form("sum_i(cross(X_i - X_cm, F_i))", X_cm=X_cm),
+)
 
 # %% [markdown]
 # ## The centre moves as one particle
@@ -145,7 +172,13 @@ verdict("3.06", torque, uses=[centre_of_mass])
 
 # %%
 by_the_motion = [m * A - inside(i) for i, m, A in zip(NUMBERS, masses, accelerations, strict=True)]
-verdict("3.07", summed(by_the_motion), premises=[action_and_reaction], uses=[mass, "3.02", centre_of_mass])
+verdict(
+    "3.07",
+    summed(by_the_motion),
+    premises=[action_and_reaction],
+    uses=[mass, "3.02", centre_of_mass],
+    written=form("sum_i(m_i*A_i)"),
+)
 
 # %% [markdown]
 # ## The torque is the rate of the angular momentum
@@ -188,4 +221,5 @@ verdict(
         "The paper asks for f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N across the line between "
         f"them obey that and turn by themselves: dL/dt = {tuple(spin_up)} N m without any torque from outside."
     ],
+    written=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),
 )

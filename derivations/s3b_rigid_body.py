@@ -17,6 +17,7 @@ import sympy as sp
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.symbols import ROTOR
 from lagrotor.paper import scripts
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rotation, symmetric, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
@@ -72,7 +73,12 @@ prove(
 U_cm, d, d_v = vector("U_cm"), vector("d"), vector("d_dot")
 field = U_cm + rate(Q) * d + Q * d_v
 rigid = Premise("the body is rigid, its particles rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
-verdict("3.09", field, premises=[rigid])
+verdict(
+    "3.09",
+    field,
+    premises=[rigid],
+    written=form("U_cm + cross(Omega, Q*d)", Omega=Omega_turn, Q=Q),
+)
 
 # %% [markdown]
 # ## Angular momentum
@@ -92,6 +98,7 @@ verdict(
     premises=[turning_rigidly],
     uses=["3.05", "3.09", centre_of_mass],
     evidence=["1(X)^2 is read as |X|^2 times the unit matrix, (X)(X)^T as the outer product."],
+    written=form("sum_i(m_i*cross(X_i - X_cm, cross(Omega, X_i - X_cm)))", X_cm=particles["X_cm"]),
 )
 
 # %% [markdown]
@@ -111,7 +118,17 @@ prove(
 )
 
 # %%
-verdict("3.11", inertia, uses=["3.10", centre_of_mass])
+verdict(
+    "3.11",
+    inertia,
+    uses=["3.10", centre_of_mass],
+    written=form(
+        "sum_i(m_i*(dot(X_i - X_cm, X_i - X_cm)*one - (X_i - X_cm)*transpose(X_i - X_cm)))",
+        {"one": r"\mathbb{1}"},
+        X_cm=particles["X_cm"],
+        one=sp.eye(3),
+    ),
+)
 
 # %% [markdown]
 # ## The tensor of the turned body
@@ -160,10 +177,11 @@ prove(
 )
 
 # %%
+turned = form("R*I_0*transpose(R)", R=Q)
 verdict(
     "3.12",
     I_turned,
-    correction=Q * I_0 * Q.T,
+    correction=turned,
     wrong="R and its transpose have changed places.",
     uses=["3.11"],
     evidence=[
@@ -173,4 +191,5 @@ verdict(
         f"{tuple(right.diagonal())}, as printed {tuple(wrong.diagonal())}. With equal inertias, as in all the paper's runs, "
         "both are the same: no run of the paper can tell.",
     ],
+    written=turned,
 )

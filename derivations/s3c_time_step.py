@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order
 from lagrotor.pair.symbols import M
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, cross_matrix, inverse, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
@@ -86,4 +87,15 @@ verdict(
         "carried on, the step stays a first-order method.",
         f"X_cm with the old U first differs at order {by_old}, with the new U at order {by_new}.",
     ],
+    written={
+        r"\vec L(t+\Delta t)": form("I*Omega + Delta_t*tau + Delta_t**2/2*tau_dot", I=tensor, tau_dot=tau_v),
+        r"\vec U(t+\Delta t)": form("U + Delta_t/M*F + Delta_t**2/(2*M)*F_dot", F_dot=F_v),
+        r"\vec\Omega(t+\Delta t)": form(
+            "Omega + Delta_t*inverse*(tau - cross(Omega, I*Omega))",
+            {"inverse": "I^{-1}"},
+            I=tensor,
+            inverse=inverse(tensor),
+        ),
+        r"\vec X_{cm}(t+\Delta t)": form("X_cm + Delta_t*U + Delta_t**2/(2*M)*F + Delta_t**3/(6*M)*F_dot", F_dot=F_v),
+    },
 )

@@ -17,7 +17,8 @@ import sympy as sp
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import PAIR, ROTOR
 from lagrotor.paper import scripts
-from lagrotor.paper.letters import cross, cross_matrix, inverse, rotation, vector
+from lagrotor.paper.form import form
+from lagrotor.paper.letters import cross_matrix, inverse, rotation, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
@@ -42,11 +43,12 @@ stretched = sp.expand(stretch[0, 0].subs(dict(zip(Omega, (0, 0, SPIN), strict=Tr
 Formula(stretch[0, 0], r"\left((1 + \Delta t\,\Omega_\times)^T(1 + \Delta t\,\Omega_\times)\right)_{xx}")
 
 # %%
+turning_vertex = form("cross(Omega, X_r)", Omega=body["Omega_turn"], X_r=Q * d)
 verdict(
     "3.14",
     vertex_rate,
     premises=[body["rigid"]],
-    correction=cross(body["Omega_turn"], Q * d),
+    correction=turning_vertex,
     wrong="The two factors of the cross product have changed places.",
     uses=["3.09"],
     evidence=[
@@ -54,6 +56,7 @@ verdict(
         "(1 + dt Omega_x) X_r, and 3.15 have the right one. That sentence also holds: 1 + dt Omega_x is not a rotation, it "
         f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
     ],
+    written=turning_vertex,
 )
 
 # %% [markdown]
@@ -80,16 +83,18 @@ prove(
 )
 
 # %%
+projector = form("Omega*transpose(Omega)/Omega_norm**2", {"Omega_norm": r"\|\Omega\|"}, Omega=w * n)
 projection = verdict(
     "3.16",
     P,
-    correction=(w * n) * (w * n).T / w**2,
+    correction=projector,
     wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
     evidence=[
         "For a column Omega^T Omega is the number |Omega|^2; for a row, as the program stores it, the outer product without "
         f"its norm: {SPIN**2} times too large at the paper's spin. The paper's remark on NaN shows that the program "
         "divides by |Omega|^2."
     ],
+    written=projector,
 )
 projection
 
@@ -127,6 +132,13 @@ verdict(
         "As printed the sine is taken of a vector. P is the projector on Omega, not the product printed in 3.16. The matrix is "
         "the exponential of dt Omega_x: it solves dR' = Omega_x dR from 1."
     ],
+    written=form(
+        "P + cos(Omega_norm*Delta_t)*(one - P) + sin(Omega_norm*Delta_t)*N",
+        {"one": r"\mathbb{1}", "N": r"\hat\Omega_\times", "Omega_norm": r"\|\Omega\|"},
+        P=P,
+        N=N,
+        one=sp.eye(3),
+    ),
 )
 
 # %% [markdown]
@@ -150,13 +162,16 @@ Formula(in_body, r"R^T\vec\Omega")
 prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω", written=r"R\,I_0\,R^T\,\vec\Omega = \vec L")
 
 # %%
+inverse_tensor = {"inverse": "I_0^{-1}"}
+without_inversion = form("R*inverse*transpose(R)*L", inverse_tensor, R=R, inverse=stored)
 verdict(
     "3.17",
     Omega_of_L,
-    correction=R * stored * R.T * L,
+    correction=without_inversion,
     wrong="R and its transpose have changed places, as in 3.12.",
     uses=["3.12"],
     evidence=["It follows from 3.12 as printed and falls with it; with equal inertias the two agree."],
+    written=without_inversion,
 )
 
 # %% [markdown]
@@ -175,14 +190,16 @@ prove(
 # %%
 theta_1, phi_1, psi_1 = PAIR.q[:3]
 dR = rotation(phi_1, theta_1, psi_1)  # any rotation
+row = form("transpose(L)*R*inverse*transpose(R)", inverse_tensor, R=R, inverse=stored)
 verdict(
     "3.18",
     {"O": Omega_of_L.T, r"X_r(t + \Delta t)'": (dR * X_r).T},
-    correction={"O": L.T * R * stored * R.T},
+    correction={"O": row},
     wrong="R and its transpose have changed places, as in 3.12.",
     uses=["3.17"],
     evidence=[
         "The transposition itself is right, with I the stored inverse of the symmetric I_0, and so is X_r*dR'; what is "
         "transposed is 3.17."
     ],
+    written={"O": row, r"X_r(t + \Delta t)'": form("transpose(X_r)*transpose(dR)", {"dR": "dR"}, dR=dR)},
 )

@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ROTOR
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate, vector
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
@@ -91,10 +92,11 @@ fed = gained.subs(opening)
 Formula(gained, "P")
 
 # %%
+pull = form("-(S*s + D*dot(U_1 - U_2, hat_e))*hat_e", hat_e=e_hat)
 link_force = verdict(
     "3.19",
     on_1,
-    correction=-tension * e_hat,
+    correction=pull,
     wrong="A number stands for a vector: the direction of the link is missing.",
     evidence=[
         "The right side is a number, the left a vector. The number is the tension of the link, S s + D s', if e_21 points "
@@ -103,6 +105,7 @@ link_force = verdict(
         "With the force corrected the link's energy changes by -D ((U_1 - U_2).e)^2, never upwards. The direction is "
         "undefined at s = 0. The sentence before it calls S the damping and D the spring constant: exchanged.",
     ],
+    written=pull,
 )
 link_force
 
@@ -112,4 +115,9 @@ link_force
 # Energy and loss depend on the differences of places and velocities alone, so that the two forces are opposite.
 
 # %%
-verdict("3.20", on_2, uses=[link_force])
+verdict(
+    "3.20",
+    on_2,
+    uses=[link_force],
+    written=form("(S*s + D*dot(U_1 - U_2, hat_e))*hat_e", hat_e=e_hat),
+)

@@ -10,6 +10,7 @@
 # %%
 import sympy as sp
 
+from lagrotor.paper.form import form
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
@@ -48,6 +49,7 @@ verdict(
         "S and D are chosen and could not be false. With n a number and omega_s an angular frequency their units are N/m and "
         "N s/m = kg/s. The paper does not say what n and omega_s are."
     ],
+    written={"[D]": form("kilogram/second", {"kilogram": r"\mathrm{kg}", "second": r"\mathrm{s}"})},
 )
 
 # %% [markdown]

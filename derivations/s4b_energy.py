@@ -14,6 +14,7 @@
 import sympy as sp
 
 from lagrotor.mechanics import coordinates, energy
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import components, cross, dot, symmetric, vector
 from lagrotor.paper.premises import Premise, parameter_premise
 from lagrotor.paper.proof import Formula, prove
@@ -103,11 +104,14 @@ unstretched = Premise(
     dict.fromkeys(lengths.q, sp.S.Zero),
     broken=f"its first run begins with two links stretched by 0.5 m, which hold {first_run}",
 )
+whole_energy = form(
+    "sum_i(M_i*dot(U_i, U_i) + dot(I_i*Omega_i, Omega_i))/2 + S/2*(s_1**2 + s_2**2 + s_3**2 + s_4**2)", S=S
+)
 energy_verdict = verdict(
     "4.02",
     total,
     premises=[unstretched],
-    correction=sum(K) + S / 2 * sum(s**2 for s in lengths.q),
+    correction=whole_energy,
     uses=["3.09", "3.11"],
     evidence=[
         "It is the kinetic energy. What is conserved without damping and force has the springs' S/2 sum s_j^2 too, which is "
@@ -115,6 +119,7 @@ energy_verdict = verdict(
         f"The paper's first run, with the bar half a metre too high, starts with {first_run} in its springs, none of which is "
         "in this E: hence the spike.",
     ],
+    written=whole_energy,
 )
 energy_verdict
 
@@ -136,6 +141,7 @@ verdict(
     total,
     uses=["4.02"],
     evidence=[f"{first_rotor} J for each rotor, nothing for the bar; springs unstretched."],
+    written=whole_energy,
 )
 
 # %% [markdown]
@@ -155,11 +161,12 @@ verdict(
     "4.05",
     total,
     premises=[heavy_bar, unstretched],
-    correction=sum(K) + held,
+    correction=whole_energy,
     uses=["4.02"],
     evidence=[
         "The program takes R2.M for the third body. It exceeds the kinetic energy by (M_2 - M_3) U_3^2/2: with the light bar, "
         f"M_3 = {LIGHT} kg, the bar's energy of translation is counted {1 / LIGHT} times. Rows times matrix, (Omega I).Omega, "
         "is right because I is symmetric.",
     ],
+    written=whole_energy,
 )

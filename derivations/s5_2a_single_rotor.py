@@ -17,6 +17,7 @@ import sympy as sp
 from lagrotor.mechanics import System, accelerations, momenta, total_derivative
 from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation
 from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS
 from lagrotor.paper.proof import Formula, prove
@@ -73,7 +74,12 @@ prove(kinetic, L.subs(J, J_OF), "the kinetic energy, with J for the inertia abou
 # about the centre, the energy of translation is missing.
 
 # %%
-verdict("5.01", L, premises=[ABOUT_JOINT])
+verdict(
+    "5.01",
+    L,
+    premises=[ABOUT_JOINT],
+    written=form("J/2*(theta_dot**2 + phi_dot**2*sin(theta)**2) + I_3/2*(psi_dot + phi_dot*cos(theta))**2"),
+)
 
 # %% [markdown]
 # ## First integrals
@@ -91,14 +97,30 @@ prove(
 )
 
 # %%
-verdict("5.03", {"M_z": p_phi, "M_3": p_psi}, premises=[ABOUT_JOINT], uses=["5.01"])
+momenta_written = {
+    "M_z": form("phi_dot*(J*sin(theta)**2 + I_3*cos(theta)**2) + psi_dot*I_3*cos(theta)"),
+    "M_3": form("I_3*(psi_dot + phi_dot*cos(theta))"),
+}
+verdict(
+    "5.03",
+    {"M_z": p_phi, "M_3": p_psi},
+    premises=[ABOUT_JOINT],
+    uses=["5.01"],
+    written=momenta_written,
+)
 
 # %% [markdown]
 # With all inertias equal to $I$ the first is simpler. The paper's rotor is not of this kind: its inertias are equal about
 # the centre, not about the joint.
 
 # %%
-verdict("5.04", {"M_z": p_phi, "M_3": p_psi}, premises=[EQUAL_INERTIAS], uses=["5.03"])
+verdict(
+    "5.04",
+    {"M_z": p_phi, "M_3": p_psi},
+    premises=[EQUAL_INERTIAS],
+    uses=["5.03"],
+    written=momenta_written,
+)
 
 # %% [markdown]
 # ## Rate of precession
@@ -110,7 +132,13 @@ rate = sp.solve([p_phi - M_z, p_psi - M_3], [phi_v, psi_v], dict=True)[0][phi_v]
 Formula(sp.factor(rate), r"\dot\phi")
 
 # %%
-verdict("5.02", rate, premises=[ABOUT_JOINT], uses=["5.01", "5.03"])
+verdict(
+    "5.02",
+    rate,
+    premises=[ABOUT_JOINT],
+    uses=["5.01", "5.03"],
+    written=form("(M_z - M_3*cos(theta))/(J*sin(theta)**2)"),
+)
 
 # %% [markdown]
 # The axial momentum is $M_3 = I_3\omega$. For equal inertias the rate then depends on one constant, $a = M_z/I$:
@@ -122,7 +150,13 @@ prove(
 )
 
 # %%
-verdict("5.05", rate_of_spin, premises=[EQUAL_INERTIAS], uses=["5.02", "5.04"])
+verdict(
+    "5.05",
+    rate_of_spin,
+    premises=[EQUAL_INERTIAS],
+    uses=["5.02", "5.04"],
+    written=form("(M_z - I_3*omega*cos(theta))/(J*sin(theta)**2)"),
+)
 
 # %% [markdown]
 # ## The constant $a$
@@ -135,4 +169,13 @@ change = total_derivative(p_phi / I3, ROTOR).subs(motion)
 prove(change, 0, "the rate of a along the motion", names=r"\dot a")
 
 # %%
-verdict("5.06", {"a": p_phi / I3, r"\dot a": change}, premises=[EQUAL_INERTIAS], uses=["5.04"])
+verdict(
+    "5.06",
+    {"a": p_phi / I3, r"\dot a": change},
+    premises=[EQUAL_INERTIAS],
+    uses=["5.04"],
+    written={
+        "a": form("J/I_3*phi_dot*sin(theta)**2 + (psi_dot + phi_dot*cos(theta))*cos(theta)"),
+        r"\dot a": form("0"),
+    },
+)

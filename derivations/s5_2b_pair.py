@@ -16,6 +16,7 @@ from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import ABOUT_JOINT, BAR_AS_LONG_AS_ROTORS, MASSLESS_BAR, UNIT_LENGTH, in_parameters
@@ -68,7 +69,20 @@ prove(
 # The paper has the two rotors alone, in the angles of the nodes:
 
 # %%
-verdict("5.07", L, premises=[ABOUT_JOINT, MASSLESS_BAR], uses=["5.01"])
+lagrangian_written = form(
+    "a/2*(theta_1_dot**2 + phi_1_dot**2*sin(theta_1)**2 + theta_2_dot**2 + phi_2_dot**2*sin(theta_2)**2)"
+    " + b*dot(hat_r_1_dot, hat_r_2_dot)"
+    " + I_3/2*((psi_1_dot + phi_1_dot*cos(theta_1))**2 + (psi_2_dot + phi_2_dot*cos(theta_2))**2)",
+    hat_r_1_dot=v_1,
+    hat_r_2_dot=v_2,
+)
+verdict(
+    "5.07",
+    L,
+    premises=[ABOUT_JOINT, MASSLESS_BAR],
+    uses=["5.01"],
+    written=lagrangian_written,
+)
 
 # %% [markdown]
 # ## The azimuth of the axis
@@ -86,7 +100,13 @@ prove(
 )
 
 # %%
-verdict("5.08", L, premises=[ABOUT_JOINT, MASSLESS_BAR], uses=["5.07"])
+verdict(
+    "5.08",
+    L,
+    premises=[ABOUT_JOINT, MASSLESS_BAR],
+    uses=["5.07"],
+    written=lagrangian_written,
+)
 
 # %% [markdown]
 # Which shift turns the node angle $\varphi$ of the cited book into the azimuth of the axis is another question: the third
@@ -157,6 +177,7 @@ verdict(
     premises=[ABOUT_JOINT, MASSLESS_BAR, opposite_spin_angles()],
     uses=["5.08"],
     evidence=["Conserved are ω₁ and ω₂, not ψ₁′ and ψ₂′."],
+    written=lagrangian_written,
 )
 
 # %% [markdown]
@@ -175,6 +196,7 @@ ansatz_case = verdict(
         "As algebra the line follows from its premises. To vary it is another matter: it is the Lagrangian of a pair in "
         "which constraints that do not exist hold φ₁ + φ₂ and ψ₁ + ψ₂ constant, and on which no bar acts."
     ],
+    written=lagrangian_written,
 )
 ansatz_case
 

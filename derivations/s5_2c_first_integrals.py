@@ -17,10 +17,12 @@ from lagrotor import Scene, Shock, simulate
 from lagrotor.mechanics import momenta
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair.lagrangians import pair_with_bar
+from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, I3, PAIR
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.ansatz_premises import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.form import form
+from lagrotor.paper.letters import rate
 from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS, MASSLESS_BAR
 from lagrotor.paper.proof import prove
 from lagrotor.paper.stating import verdict
@@ -113,6 +115,22 @@ shock_order = measured_order(scales, [swing_after_shock(scale) for scale in scal
 # ## $A$ and $B$ as printed
 
 # %%
+r_1, r_2 = axis(theta_1, phi_1), axis(theta_2, phi_2)
+axes_and_rates = {
+    "hat_r_1": r_1,
+    "hat_r_2": r_2,
+    "hat_r_1_dot": rate(r_1, PAIR.q, PAIR.v),
+    "hat_r_2_dot": rate(r_2, PAIR.q, PAIR.v),
+}
+A_written = form(
+    "I_3*(omega_1*cos(theta_1) - omega_2*cos(theta_2))"
+    " + a*(phi_1_dot*sin(theta_1)**2 - phi_2_dot*sin(theta_2)**2)"
+    " + b*dot(hat_z, cross(hat_r_1, hat_r_2_dot) - cross(hat_r_2, hat_r_1_dot))",
+    omega_1=psi_1_v + phi_1_v * sp.cos(theta_1),
+    omega_2=psi_2_v + phi_2_v * sp.cos(theta_2),
+    hat_z=sp.Matrix([0, 0, 1]),
+    **axes_and_rates,
+)
 integral_A = verdict(
     "5.12",
     {"A": A, r"\dot A": of_A},
@@ -123,6 +141,7 @@ integral_A = verdict(
         f"Its swing goes as r₀ to the power {orbit_order:.2f} on the periodic orbit and as the shock to the power "
         f"{shock_order:.2f} after the shock of 5.2.1, scaled down (massless bar).",
     ],
+    written={"A": A_written, r"\dot A": form("0")},
 )
 integral_A
 
@@ -133,6 +152,10 @@ integral_B = verdict(
     premises=ansatz,
     uses=["5.11"],
     evidence=["B = I₃(ω₁ − ω₂) is constant on the exact pair, whatever the bar and the inertias: I is I₃ alone."],
+    written={
+        "B": form("I_3*(psi_1_dot + phi_1_dot*cos(theta_1) - psi_2_dot - phi_2_dot*cos(theta_2))"),
+        r"\dot B": form("0"),
+    },
 )
 integral_B
 
@@ -147,4 +170,5 @@ verdict(
     I3 * psi_v,
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, *ansatz],
     uses=[integral_A, integral_B],
+    written=form("(B - I_3*phi_dot*(cos(theta_1) + cos(theta_2)))/2", B=B),
 )

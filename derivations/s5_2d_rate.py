@@ -13,10 +13,12 @@ import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.mechanics import momenta
-from lagrotor.pair.lagrangians import ansatz_integrals, pair_with_bar
+from lagrotor.pair.lagrangians import ansatz_integrals, axis, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
 from lagrotor.paper import audit
 from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.form import form
+from lagrotor.paper.letters import rate as moving
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, Premise
 from lagrotor.paper.proof import prove
@@ -59,6 +61,11 @@ verdict(
         f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
         "with the bar of section 4.1.",
     ],
+    written=form(
+        "(2*A - B*(cos(theta_1) + cos(theta_2)))/(I_3*(4 - (cos(theta_1) + cos(theta_2))**2))",
+        A=on_pair["5.12"].relations[0].derived,
+        B=on_pair["5.13"].relations[0].derived,
+    ),
 )
 
 # %% [markdown]
@@ -89,14 +96,32 @@ mean, half = sp.symbols("theta_m delta", real=True)
 one_inclination = Premise(
     "the inclinations differ little, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
 )
+phi_1, phi_2 = PAIR.q[1], PAIR.q[4]
+r_1, r_2 = axis(theta_1, phi_1), axis(theta_2, phi_2)
+axes_and_rates = {
+    "hat_r_1": r_1,
+    "hat_r_2": r_2,
+    "hat_r_1_dot": moving(r_1, PAIR.q, PAIR.v),
+    "hat_r_2_dot": moving(r_2, PAIR.q, PAIR.v),
+}
 verdict(
     "5.16",
     {"B": value_B, "A": value_A},
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
-    correction={"B": I3 * (omega_1 - omega_2)},
+    correction={"B": form("I_3*(omega_1 - omega_2)")},
     wrong="B lacks the factor I: it is 2Iω, an angular momentum as A is.",
     uses=["5.12", "5.13"],
     evidence=["For opposite spins B = 2I₃ω; the two agree as numbers for the paper's rotor, I₃ = 1 kg m²."],
+    written={
+        "B": form("I_3*(omega_1 - omega_2)"),
+        "A": form(
+            "I_3*(omega_1*cos(theta_1) - omega_2*cos(theta_2))"
+            " + a*(phi_1_dot*sin(theta_1)**2 - phi_2_dot*sin(theta_2)**2)"
+            " + b*dot(hat_z, cross(hat_r_1, hat_r_2_dot) - cross(hat_r_2, hat_r_1_dot))",
+            hat_z=sp.Matrix([0, 0, 1]),
+            **axes_and_rates,
+        ),
+    },
 )
 
 # %% [markdown]

@@ -17,6 +17,7 @@ from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ANSATZ, PAIR, R, ell, r0, theta_0
 from lagrotor.paper.ansatz_premises import one_inclination, opposite_azimuths
 from lagrotor.paper.claims.precession_runs import PAPER_R0
+from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH, Premise
 from lagrotor.paper.proof import prove
@@ -49,6 +50,14 @@ verdict(
     {r"\|\vec r_2 - \vec r_1\|": ell, r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": norm(bar)},
     premises=[*units, small],
     uses=["5.09"],
+    written={
+        r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": form(
+            "norm(ell*hat_x + R*(hat_r_2 - hat_r_1))",
+            hat_x=sp.Matrix([1, 0, 0]),
+            hat_r_1=axis(theta_1, phi_1),
+            hat_r_2=axis(theta_2, phi_2),
+        )
+    },
 )
 
 # %% [markdown]
@@ -63,7 +72,11 @@ y_1, y_2 = (R * sp.sin(theta) * sp.sin(azimuth) for theta, azimuth in ((theta_1,
 prove(C_squared, (ell + x_2 - x_1) ** 2 + (y_2 - y_1) ** 2, "the square of the projected length", names=r"C^2")
 
 # %%
-verdict("5.18", {"C^2": C_squared}, premises=[*units, opposite_azimuths()], uses=["5.17"])
+C_written = form(
+    "(ell + R*(sin(theta_2)*cos(phi_2) - sin(theta_1)*cos(phi_1)))**2"
+    " + R**2*(sin(theta_2)*sin(phi_2) - sin(theta_1)*sin(phi_1))**2"
+)
+verdict("5.18", {"C^2": C_squared}, [*units, opposite_azimuths()], uses=["5.17"], written=C_written)
 
 # %% [markdown]
 # ## At one constant inclination
@@ -86,4 +99,10 @@ verdict(
     premises=assumed,
     uses=["5.18"],
     evidence=[f"At r₀ = {PAPER_R0} the bar would have to stretch to {longest:.4f} of its length."],
+    written={
+        "C^2(0)": form("1"),
+        r"C^2(\pi/2)": form("1 + 4*sin(theta_0)**2"),
+        r"C(\pi/2)": form("sqrt(1 + 4*sin(theta_0)**2)"),
+        r"C^2(\phi)": form("1 + 4*sin(theta_0)**2*sin(phi)**2"),
+    },
 )

@@ -19,6 +19,7 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
 from lagrotor.paper.claims.precession_runs import PAPER_R0
+from lagrotor.paper.form import form
 from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
@@ -92,11 +93,18 @@ prove(
 
 # %%
 lengths = [float(sp.sqrt(length_squared.subs({r0: PAPER_R0, Phi: angle}))) for angle in (0, sp.pi / 2)]
+sines_written = {
+    rf"\sin\theta_{i}": form(
+        f"sin(theta_0)*sqrt(1 + (sigma - 1)*sin(Phi)**2) {sign}"
+        " sigma*R*sin(theta_0)**2*sin(Phi)**2*cos(Phi)/(2*ell*sqrt(1 + (sigma - 1)*sin(Phi)**2))"
+    )
+    for i, sign in ((1, "+"), (2, "-"))
+}
 verdict(
     "5.20",
     {r"\sin\theta_1": sines[0], r"\sin\theta_2": sines[1]},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
-    correction={r"\sin\theta_1": s * D + s**2 * change, r"\sin\theta_2": s * D - s**2 * change},
+    correction=sines_written,
     wrong="The correction keeps the bar's length nearly constant, but longer than the bar by 2r₀².",
     uses=["5.19"],
     evidence=[
@@ -104,6 +112,7 @@ verdict(
         f"r₀ = {PAPER_R0}.",
         "No correction of the inclinations alone can keep the bar (5.11): the azimuths must move too (5.22).",
     ],
+    written=sines_written,
 )
 
 # %% [markdown]
@@ -177,11 +186,15 @@ slopes
 
 # %%
 at_paper = float(massless_frequency.subs(r0, PAPER_R0))
+rates_written = {
+    r"\dot\phi": form("(A - B*cos(theta_0))/(2*J*sin(theta_0)**2)"),
+    r"\Omega/\Omega_0": form("1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*r_0**2", k=ell / R),
+}
 verdict(
     "5.21",
     {r"\dot\phi": varied, r"\Omega/\Omega_0": frequency},
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
-    correction={r"\dot\phi": unvaried, r"\Omega/\Omega_0": 1 - curvature * r0**2},
+    correction=rates_written,
     wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
     uses=["5.15", "5.20"],
     evidence=[
@@ -190,6 +203,7 @@ verdict(
         f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
         f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
     ],
+    written=rates_written,
 )
 
 # %% [markdown]
@@ -207,17 +221,23 @@ prove(
 )
 
 # %%
+through_second = {
+    "x_1": "-(ell/2) + R*(r_0*cos(Phi) + r_0**2*sigma/k*sin(Phi)**2",
+    "x_2": "ell/2 + R*(r_0*cos(Phi) - r_0**2*sigma/k*sin(Phi)**2",
+    r"y_1/\sqrt\sigma": "R*(r_0*sin(Phi) - r_0**2/(2*k)*sin(Phi)*cos(Phi)",
+    r"y_2/\sqrt\sigma": "R*(-r_0*sin(Phi) - r_0**2/(2*k)*sin(Phi)*cos(Phi)",
+}
+of_x = " - r_0**3*(3*sigma + k**2*(sigma**2 + sigma - 2))/(48*k**2)*(cos(Phi) - cos(3*Phi))"
+of_y = "((8*k**2 + 5*k**2*sigma - 13*k**2*sigma**2 - 39*sigma)*sin(Phi) + 3*sigma*(k**2*(sigma - 1) + 3)*sin(3*Phi))"
+third = {"x_1": of_x, "x_2": of_x}
+third |= {rf"y_{i}/\sqrt\sigma": f" {sign} r_0**3/(48*k**2)*{of_y}" for i, sign in ((1, "+"), (2, "-"))}
 in_words = "; ".join(f"{name}: {x:.2f} in x, {y:.2f} in y" for name, (x, y) in slopes.items())
 verdict(
     "5.22",
     {"x_1": tips[0], "x_2": tips[1], r"y_1/\sqrt\sigma": R * y_1 / width, r"y_2/\sqrt\sigma": R * y_2 / width},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
-    correction={
-        "x_1": -ell / 2 + R * second[0],
-        "x_2": ell / 2 + R * second[1],
-        r"y_1/\sqrt\sigma": R * across[0],
-        r"y_2/\sqrt\sigma": R * across[1],
-    },
+    correction={name: form(text + ")", rest="r_0^3", k=ell / R) for name, text in through_second.items()},
+    written={name: form(text + third[name] + ")", k=ell / R) for name, text in through_second.items()},
     wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
     uses=["5.20", "5.21"],
     evidence=[

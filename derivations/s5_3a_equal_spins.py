@@ -16,6 +16,7 @@ from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair, rotor_lagrangian
 from lagrotor.pair.symbols import AXES, G_1, G_2, I3, ROTOR, G, J, Omega, Phi, R, a, b, m, omega, omega_1, omega_2
+from lagrotor.paper.form import form
 from lagrotor.paper.premises import EQUAL_SPINS, ONE_KILOGRAM_BAR, PAPERS_ROTOR, Premise, in_parameters
 from lagrotor.paper.proof import prove
 from lagrotor.paper.stating import verdict
@@ -68,6 +69,7 @@ verdict(
         f"From zero crossings of x, spin 20: {one_rate:.4f} rad/s after the shock of 40 N, where sin θ = {one_amplitude:.4f} "
         f"and 16/cos θ = {16 / np.sqrt(1 - one_amplitude**2):.4f}; {one_gentle:.5f} rad/s after one of 0.4 N.",
     ],
+    written=form("I_3*omega/(J*cos(theta))"),
 )
 
 # %% [markdown]
@@ -143,6 +145,11 @@ pair_rate, pair_gentle
 # %%
 own_constant = PAPERS_ROTOR.on(ONE_KILOGRAM_BAR.on(in_parameters(constant)))
 should_be = own_constant * 16
+any_rate = form(
+    "sqrt((a*(G_1**2 + G_2**2) - 2*b*G_1*G_2)/((a - b)*(a + b)**2))/sqrt(2)",
+    G_1=I3 * omega_1,
+    G_2=I3 * omega_2,
+)
 verdict(
     "5.24",
     natural * (1 + eta),
@@ -153,6 +160,7 @@ verdict(
         f"From zero crossings of x on the exact pair: {pair_gentle:.5f} rad/s after a shock of 0.4 N along x, "
         f"{pair_rate:.4f} after one of 40 N (sin θ = {pair_amplitude:.4f}).",
     ],
+    written=any_rate,
 )
 
 # %% [markdown]
@@ -165,7 +173,7 @@ verdict(
     "5.25",
     {r"\dot\phi_{coupled}": natural * (1 + eta), r"c\text{ (equal spins)}": constant},
     premises=[EQUAL_SPINS, ONE_KILOGRAM_BAR, small_motion],
-    correction={r"c\text{ (equal spins)}": J / (J + m * R**2 / 2)},
+    correction={r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
     uses=["5.23", "5.24"],
     evidence=[
         f"The constant should have been {own_constant} = {float(own_constant):.5f}; 0.7125 itself belongs to a bar of "
@@ -173,4 +181,5 @@ verdict(
         "5.28 prints the same constant for both kinds of pair and is refuted: with opposite spins the bar's inertia K counts "
         "as well, and neither of the paper's bars has it.",
     ],
+    written={r"\dot\phi_{coupled}": any_rate, r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
 )

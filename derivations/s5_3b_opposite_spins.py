@@ -38,6 +38,7 @@ from lagrotor.pair.symbols import (
     r0,
     sigma,
 )
+from lagrotor.paper.form import form
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, Premise, in_parameters
 from lagrotor.paper.proof import Formula, prove
@@ -92,8 +93,17 @@ own_rate = PAPERS_ROTOR.on(opposite_rate).subs(omega, 10)
 Formula(sp.factor(inertia_of_product), "K")
 
 # %%
+inertias = {"a": in_parameters(a), "b": in_parameters(b)}
+cone_written = form("I_3*omega/((a + b)*cos(theta))", **inertias)
+square_written = form("(I_3*omega)**2/((a + b)*(a - b))", **inertias)
+through_third_written = form("1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*r_0**2")
 of_spins = natural.subs({G_1: I3 * omega_1, G_2: I3 * omega_2})
 eta = sp.Symbol("eta", real=True)
+any_rate = form(
+    "sqrt((a*(G_1**2 + G_2**2) - 2*b*G_1*G_2)/((a - b)*(a + b)**2))/sqrt(2)",
+    G_1=I3 * omega_1,
+    G_2=I3 * omega_2,
+)
 small_motion = Premise("the motion is so small that its amplitude does not change the rate", {eta: 0})
 of_a_kilogram = float(inertia_of_product.subs(m, 1))
 listed = "; ".join(f"{rate:.4f} for {name}" for name, rate in rates.items())
@@ -104,7 +114,7 @@ verdict(
         r"\Omega_0^2\text{ (opposite spins)}": opposite_rate**2,
     },
     premises=[HEAVY_BAR, LIGHT_BAR_PREMISE, small_motion],
-    correction={r"\Omega_0^2\text{ (opposite spins)}": omega**2 * I3**2 / (with_mass * with_inertia)},
+    correction={r"\Omega_0^2\text{ (opposite spins)}": square_written},
     wrong="The product is 5.7, not 0.57, and no bar that the paper lists has that rate.",
     uses=["5.25"],
     evidence=[
@@ -112,6 +122,7 @@ verdict(
         f"With a bar of 1 kg the rate is {float(product)} rad/s for K = {of_a_kilogram:.4f} kg m².",
         "The constant of equal spins does not carry over: opposite spins twist the bar, and its inertia counts.",
     ],
+    written={r"\dot\phi": any_rate, r"\Omega_0^2\text{ (opposite spins)}": square_written},
 )
 
 # %% [markdown]
@@ -183,8 +194,8 @@ verdict(
     },
     premises=[PAPERS_ROTOR, HEAVY_BAR, LIGHT_BAR_PREMISE],
     correction={
-        r"\dot\phi\text{ (equal spins)}": omega * I3 / (sp.cos(theta) * with_mass),
-        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third,
+        r"\dot\phi\text{ (equal spins)}": cone_written,
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
     wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ.",
     uses=["5.25", "5.26"],
@@ -195,6 +206,16 @@ verdict(
         "That is the symmetric orbit; after a shock along x from rest the centres of precession are displaced, and the rate "
         "rises with the shock (claim C23).",
     ],
+    written={
+        r"\dot\phi\text{ (equal spins)}": cone_written,
+        r"\dot\phi\text{ (opposite spins)}": form(
+            "I_3*omega/sqrt(a**2 - b**2)*(1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*sin(theta)**2)",
+            sigma=with_mass / with_inertia,
+            k=ell / R,
+            **inertias,
+        ),
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
+    },
 )
 
 # %% [markdown]
@@ -226,9 +247,13 @@ verdict(
     },
     premises=[PAPERS_ROTOR, HEAVY_BAR, LIGHT_BAR_PREMISE],
     correction={
-        r"\dot\phi\text{ (equal spins)}": omega * I3 / with_mass,
-        r"\Omega_0^2\text{ (opposite spins)}": omega**2 * I3**2 / (with_mass * with_inertia),
-        r"\Omega_0^2\text{ (any spins)}": any_spins,
+        r"\dot\phi\text{ (equal spins)}": form("I_3*omega/(a + b)", **inertias),
+        r"\Omega_0^2\text{ (opposite spins)}": square_written,
+        r"\Omega_0^2\text{ (any spins)}": form("(a*(G_1**2 + G_2**2) - 2*b*G_1*G_2)/(2*(a + b)*(a**2 - b**2))"),
+    },
+    written={
+        r"\dot\phi\text{ (equal spins)}": form("I_3*omega/(a + b)", **inertias),
+        r"\dot\phi\text{ (opposite spins)}": form("I_3*omega/sqrt(a**2 - b**2)", **inertias),
     },
     wrong="The constant belongs to one bar and to equal spins.",
     uses=["5.25", "5.27"],

@@ -16,6 +16,7 @@ import sympy as sp
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.paper.form import form
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import (
     HEAVY_BAR,
@@ -112,6 +113,11 @@ verdict(
         r"(x_2/x_1, y_2/y_1)\text{ of the precession}": precession,
     },
     premises=[TWO_MODES],
+    written={
+        r"\text{modes}": form("1 + turning_modes", {"turning_modes": r"n_{\text{turning}}"}, turning_modes=1),
+        r"(x_2/y_1, y_2/y_1)\text{ of the toppling}": form("column(0, -(G_1/G_2))"),
+        r"(x_2/x_1, y_2/y_1)\text{ of the precession}": form("column(1, (a*G_2 - b*G_1)/(a*G_1 - b*G_2))"),
+    },
     uses=["5.09"],
     evidence=[
         f"To first order the {without_spins} freedoms without the spins are {oscillations} oscillation, {turnings} steady "
@@ -176,6 +182,10 @@ prove(ratio, through_third, "the rate of the paired precession over the natural 
 
 # %%
 at_theta = ratio.subs(r0, sp.sin(theta)).subs({k: ell / R, sigma: with_mass / with_inertia})
+inertias = {"a": in_parameters(a), "b": in_parameters(b)}
+cone_written = form("I_3*omega/((a + b)*cos(theta))", **inertias)
+square_written = form("(I_3*omega)**2/((a + b)*(a - b))", **inertias)
+through_third_written = form("1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*r_0**2")
 verdict(
     "6.02",
     {
@@ -186,9 +196,18 @@ verdict(
     },
     premises=[PAPERS_ROTOR, HEAVY_BAR, LIGHT_BAR_PREMISE],
     correction={
-        r"\dot\phi\text{ (equal spins)}": omega * I3 / (sp.cos(theta) * with_mass),
-        r"\Omega_0^2\text{ (opposite spins)}": omega**2 * I3**2 / (with_mass * with_inertia),
-        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third,
+        r"\dot\phi\text{ (equal spins)}": cone_written,
+        r"\Omega_0^2\text{ (opposite spins)}": square_written,
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
+    },
+    written={
+        r"\dot\phi\text{ (equal spins)}": cone_written,
+        r"\dot\phi\text{ (opposite spins)}": form(
+            "I_3*omega/sqrt(a**2 - b**2)*(1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*sin(theta)**2)",
+            sigma=with_mass / with_inertia,
+            k=ell / R,
+            **inertias,
+        ),
     },
     wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ.",
     uses=["5.27", "5.28"],

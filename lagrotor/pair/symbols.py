@@ -124,7 +124,16 @@ _add_coordinates()
 def latex(expression: Any) -> str:
     """LaTeX in the glossary's letters, with dots over what a symbol's name calls a velocity or an acceleration."""
     free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
-    return sp.latex(expression, symbol_names={s: _letter_of(s) for s in free})
+    return light(sp.latex(expression, symbol_names={s: _letter_of(s) for s in free}))
+
+
+# sin, cos or tan, perhaps to a power, of one letter in brackets.
+_OF_A_LETTER = re.compile(r"(\\(?:sin|cos|tan)(?:\^\{\d+\})?)\{\\left\((\\?[A-Za-z]+(?:_(?:\{\w+\}|\w))?) ?\\right\)\}")
+
+
+def light(source: str) -> str:
+    r"""LaTeX in which sine, cosine and tangent of one letter need no brackets: \cos\theta."""
+    return _OF_A_LETTER.sub(r"\1 \2", source)
 
 
 def _letter_of(symbol: sp.Symbol) -> str:

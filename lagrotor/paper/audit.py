@@ -145,7 +145,8 @@ def _lines(relations: Iterable[Relation]) -> list[str]:
 
 
 def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
-    found = dict.fromkeys((f"{r.quantity} = " if r.quantity else "") + latex(getattr(r, side)) for r in relations)
+    lines = ((r.quantity, r.written or latex(getattr(r, side))) for r in relations)
+    found = dict.fromkeys((f"{quantity} = " if quantity else "") + line for quantity, line in lines)
     return r" \quad ".join(found) or None
 
 

@@ -30,7 +30,8 @@ class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
     within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
-    scene: values that the text gives for this line; they are put in last, after the premises.
+    scene: values that the text gives for this line; they are put in last, after the premises. written: LaTeX of the derived
+    side, in a correction of what should be printed, as a physicist writes it; granted: it is equal under the premises only.
     """
 
     printed: Side
@@ -40,6 +41,8 @@ class Relation:
     within: sp.Rational | None = None
     quantity: str = ""
     scene: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    written: str = ""
+    granted: bool = False
 
     def under(self, premises: Iterable[Premise]) -> "Relation":
         """The relation with premises put into both sides; an approximation makes it one between leading terms."""

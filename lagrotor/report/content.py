@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import sympy as sp
 
@@ -12,6 +11,7 @@ from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equat
 from lagrotor.paper.catalogue import figures as papers_figures
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Relation, Verdict
+from lagrotor.paper.readable import from_latex
 from lagrotor.paper.tables import Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.errata import corrected
@@ -185,15 +185,20 @@ def counted(counts: dict[str, int]) -> str:
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
-def sides(relations: Iterable[Relation], side: Literal["printed", "derived"]) -> tuple[tuple[str, sp.Basic], ...]:
-    """(quantity in LaTeX, its printed or derived expression) of some relations, each once."""
-    found = ((relation.quantity, getattr(relation, side)) for relation in relations)
-    return tuple(dict.fromkeys((name, e.as_immutable() if isinstance(e, sp.MatrixBase) else e) for name, e in found))
+def derived_lines(relations: Iterable[Relation]) -> tuple[str, ...]:
+    """quantity = what was derived, in LaTeX, each once, as a physicist writes it."""
+    lines = (f"{r.quantity} = {r.written or latex(r.derived)}" for r in relations)
+    return tuple(dict.fromkeys(line.removeprefix(" = ") for line in lines))
 
 
-def equation_line(quantity: str, expression: sp.Basic) -> str:
-    """quantity = expression, in LaTeX."""
-    return f"{quantity} = {latex(expression)}" if quantity else latex(expression)
+def derived_heading(relations: Iterable[Relation]) -> str:
+    """What stands over the derived lines: whether the premises are put in."""
+    return "As derived, under the premises" if any(r.granted for r in relations) else "As derived"
+
+
+def as_read(entry: Equation) -> tuple[str, ...]:
+    """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
+    return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:

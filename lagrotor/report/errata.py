@@ -3,8 +3,6 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-import sympy as sp
-
 from lagrotor.pair.symbols import latex
 from lagrotor.paper.catalogue import equation
 from lagrotor.paper.ledger import Relation, Statement, Verdict
@@ -57,8 +55,8 @@ def corrected(statement: Statement) -> tuple[str, ...]:
 
 def _line(quantity: str, relation: Relation) -> str:
     """quantity = expression, up to a power of what is small where the correction is a series."""
-    if isinstance(relation.printed, sp.MatrixBase) and "=" in quantity:
-        return quantity
+    if relation.written:
+        return f"{quantity} = {relation.written}"
     rest = rf" + O({latex(relation.small ** (relation.claimed + 1))})" if relation.small else ""
     return (f"{quantity} = " if quantity else "") + f"{latex(relation.printed)}{rest}"
 

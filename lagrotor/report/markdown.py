@@ -23,14 +23,14 @@ from lagrotor.report.content import (
     Report,
     anchor,
     contents,
-    equation_line,
+    derived_heading,
+    derived_lines,
     facts,
     figure_facts,
     linked_facts,
     made_beside,
     notation,
     note,
-    sides,
     word,
 )
 from lagrotor.report.errata import errata
@@ -114,8 +114,8 @@ def _equation(verdict: Verdict, report: Report) -> str:
         "As printed:",
         _display(entry.latex),
     ]
-    if derived := sides(statement.relations, "derived"):
-        parts += ["As derived:", *(_display(equation_line(quantity, right)) for quantity, right in derived)]
+    if derived := derived_lines(statement.relations):
+        parts += [f"{derived_heading(statement.relations)}:", *map(_display, derived)]
     parts += [_fact(fact) for fact in facts(verdict, report)]
     return "\n\n".join(parts)
 

@@ -1,7 +1,6 @@
 """The report as one LaTeX file, a supplement to a paper: ASCII, compiled by pdflatex, its pictures in `figures/`."""
 
 from collections.abc import Callable, Iterable
-from itertools import starmap
 
 import sympy as sp
 
@@ -21,13 +20,14 @@ from lagrotor.report.content import (
     Report,
     anchor,
     contents,
+    derived_heading,
+    derived_lines,
     facts,
     figure_facts,
     linked_facts,
     made_beside,
     notation,
     note,
-    sides,
     word,
 )
 from lagrotor.report.errata import errata, latex_block
@@ -74,18 +74,13 @@ def _paper(report: Report, name: str) -> list[str]:
     return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
 
 
-def _derived(quantity: str, expression: sp.Basic) -> str:
-    """What was derived for a quantity, on a line of its own."""
-    return (rf"\({quantity}\) =" if quantity else "") + derived(expression)
-
-
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = equation(verdict.id), verdict.statement
-    found = sides(statement.relations, "derived")
+    found = map(printed, derived_lines(statement.relations))
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
         rf"\textbf{{As printed.}} {printed(entry.latex)}",
-        rf"\textbf{{As derived.}} {' '.join(starmap(_derived, found)) or 'nothing to derive'}",
+        rf"\textbf{{{derived_heading(statement.relations)}.}} {' '.join(found) or 'nothing to derive'}",
         *(_fact(fact) for fact in facts(verdict, report)),
     ]
     return "\n\n".join(filter(None, parts))

@@ -21,6 +21,7 @@ def changed_physics(tmp_path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
         ran: dict[str, scripts.Script] = {}
         original = scripts.run
         monkeypatch.setattr("lagrotor.paper.proof.prove", lambda *sides, **more: None)
+        monkeypatch.setattr("lagrotor.paper.stating.needs_premises", lambda *compared: False)
         monkeypatch.setattr(scripts, "run", lambda kind, stem: ran[stem].names if stem in ran else original(kind, stem))
         for stem in stems:
             text = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair import lagrangians
 from lagrotor.pair.symbols import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper import premises, proof, scripts
+from lagrotor.paper import premises, proof, scripts, stating
 from lagrotor.paper.ansatz_premises import (
     breach,
     no_bar_force,
@@ -103,6 +103,7 @@ def changed(monkeypatch: pytest.MonkeyPatch, stem: str, name: str, change: Calla
     """Verdicts of a script after a function of the pair's Lagrangian is changed; proofs, which would refuse, let pass."""
     monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
     monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
+    monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
     script = scripts.run_file(scripts.folder("derivations") / f"{stem}.py")
     return {s.id: judge(s).verdict for s in script.shown(Statement)}
 

@@ -1,10 +1,37 @@
-"""Printed formulas: LaTeX as MathML, by latex2mathml, in the same layout as the derived expressions."""
+"""Formulas for the page: LaTeX as MathML, by latex2mathml, in the elements and attributes that browsers draw (MathML Core)."""
 
+import re
+import unicodedata
+from collections.abc import Iterator
 from html import unescape
 from importlib.metadata import PackageNotFoundError, version
+from xml.etree.ElementTree import Element, tostring
 
-from lagrotor.report.formulas.mathml_break import math
-from lagrotor.report.formulas.mathml_layout import laid_out
+_ACCENTS = dict(zip("→^ˆ˙¨¯‾―~∼˜", "→ˆˆ˙¨¯¯¯˜˜˜", strict=True))
+_RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"
+_SIGNS = "+-−±∓"
+_OPEN, _CLOSE = "([{⟨", ")]}⟩"
+_NAMES = (
+    "sin",
+    "cos",
+    "tan",
+    "exp",
+    "log",
+    "arcsin",
+    "arctan",
+    "artanh",
+    "arcosh",
+    "arsinh",
+    "tanh",
+    "sech",
+    "cosh",
+    "sinh",
+)
+# The converter reads a style only before braces.
+_STYLE = re.compile(r"\\(mathcal|mathrm|mathbf|mathbb)\s+(\w)")
+_SCRIPTS = ("msub", "msup", "msubsup", "munder", "mover", "munderover", "mfrac", "mroot")
+_PRIMES = "′″‴"
+_THIN = "0.167em"
 
 
 def converter() -> str:
@@ -16,14 +43,135 @@ def converter() -> str:
 
 
 def from_latex(source: str, display: bool = True) -> str | None:
-    """A LaTeX formula as a `<math>` element, on its own line or within one; None where latex2mathml is not installed."""
+    """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed.
+
+    What a wide space parts, and a continuation `\\quad = …`, stands on a line of its own.
+    """
     try:
         from latex2mathml.converter import Converter
     except ModuleNotFoundError:
         return None
-    tree = Converter(display="block" if display else "inline").convert_to_element(
-        source.replace("{aligned}", "{align*}")
-    )
-    for node in tree.iter():
-        node.text = unescape(node.text or "")  # the converter leaves characters as entities
-    return math(laid_out(tree), display)
+    made = []
+    for line in _lines(source) if display else [source]:
+        plain = _STYLE.sub(r"\\\1{\2}", line.replace("{aligned}", "{align*}"))
+        tree = Converter(display="block" if display else "inline").convert_to_element(plain)
+        for node in tree.iter():
+            node.text, node.tail = unescape(node.text or ""), None
+        _tidy(tree)
+        element = Element("math", {"display": "block"} if display else {})
+        element.extend(tree)
+        made.append(tostring(element, encoding="unicode"))
+    return "".join(made)
+
+
+def _lines(source: str) -> Iterator[str]:
+    """The parts of a source between wide spaces outside braces and environments."""
+    depth, part = 0, ""
+    for piece in (
+        source.replace(r"\quad", "\0").replace(r";\ ", ";\0").replace(r"\begin", "{\1").replace(r"\end", "}\2")
+    ):
+        depth += {"{": 1, "}": -1}.get(piece, 0)
+        if piece == "\0" and depth == 0:
+            yield from [_source(part)] if part.strip() else []
+            part = ""
+        else:
+            part += piece
+    yield _source(part)
+
+
+def _source(part: str) -> str:
+    return part.replace("{\1", r"\begin").replace("}\2", r"\end").replace("\0", r"\quad ")
+
+
+def _tidy(element: Element) -> None:
+    """Accents, signs, spaces and styles as browsers and TeX agree on, in place."""
+    before: Element | None = None
+    for child in list(element):
+        _tidy(child)
+        text = child.text or ""
+        if child.tag == "mstyle":
+            child.tag = "mrow"
+        if child.tag == "mtext" and not text.strip("\u00a0 "):
+            child.tag, child.text = "mspace", None
+            child.set("width", "0.25em")
+        if child.tag in ("mi", "mo", "mn"):
+            _leaf(child, text, before)
+        if child.tag in ("mover", "munder") and len(child) == 2 and (child[1].text or "") in _ACCENTS:
+            _accent(child)
+        if child.tag == "mtable":
+            child.set("displaystyle", "true")
+        if child.tag in ("msup", "msubsup"):
+            _raised(child)
+        if element.tag in _SCRIPTS:
+            continue
+        if _named(child) and before is not None and before.tag not in ("mo", "mspace"):
+            _space(element, child)
+        if before is not None and _named(before) and child.tag not in ("mo", "mspace") and not _bracket(child):
+            _space(element, child)
+        before = child
+
+
+def _leaf(child: Element, text: str, before: Element | None) -> None:
+    variant = child.attrib.pop("mathvariant", "")
+    if variant and variant != "normal":
+        child.text = "".join(_styled(letter, variant.upper().replace("BOLD-ITALIC", "BOLD ITALIC")) for letter in text)
+    elif variant or (child.tag == "mi" and len(text) == 1 and text in "ΓΔΘΛΞΠΣΥΦΨΩ∞"):
+        child.set("mathvariant", "normal")
+    if child.tag == "mo" and text in _SIGNS:
+        child.text = "−" if text == "-" else text
+        previous = (before.text or "") if before is not None and before.tag == "mo" else None
+        first = (
+            before is None or before.tag == "mspace" or (previous is not None and previous in _RELATIONS + _OPEN + ",")
+        )
+        child.set("form", "prefix" if first else "infix")
+    elif child.tag == "mo" and text in ("/", ".", ",", ";", "*"):
+        child.text = "∗" if text == "*" else text
+        child.set("lspace", "0")
+        child.set("rspace", "0" if text in "/*" else _THIN)
+    elif text in ("~", "∼"):
+        child.tag, child.text = "mo", "∼"
+        child.attrib |= {"lspace": "0.278em", "rspace": "0.278em"}
+
+
+def _raised(child: Element) -> None:
+    """A prime is raised by the font already; over an accent a power stands no higher than over a letter."""
+    if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
+        child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
+    elif child[0].tag == "mover":
+        base = Element("mpadded", {"height": ".6em"})
+        base.append(child[0])
+        child[0] = base
+
+
+def _accent(child: Element) -> None:
+    child.set("accent" if child.tag == "mover" else "accentunder", "true")
+    mark = child[1]
+    mark.tag, mark.text = "mo", _ACCENTS[mark.text or ""]
+    mark.attrib = {"stretchy": "false"}
+    if mark.text == "→":  # the whole arrow is wider than a letter
+        mark.set("style", "font-size: .65em")
+
+
+def _named(element: Element) -> bool:
+    """Whether an element is the name of a function, perhaps with a power."""
+    core = element[0] if element.tag in ("msup", "msub") and len(element) else element
+    return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
+
+
+def _bracket(element: Element) -> bool:
+    first = element[0] if element.tag in ("mrow", "msup") and len(element) else element
+    first = first[0] if first.tag == "mrow" and len(first) else first
+    return first.tag == "mo" and (first.text or "") in _OPEN
+
+
+def _space(parent: Element, child: Element) -> None:
+    parent.insert(list(parent).index(child), Element("mspace", {"width": _THIN}))
+
+
+def _styled(character: str, style: str) -> str:
+    """A letter or digit in bold, double-struck …: browsers know no other `mathvariant` than normal."""
+    name = unicodedata.name(character, "").replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
+    try:
+        return unicodedata.lookup(f"MATHEMATICAL {style} {name}")
+    except KeyError:
+        return character

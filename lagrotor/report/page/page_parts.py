@@ -6,14 +6,22 @@ from lagrotor.paper.catalogue import claims, equation
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.content import Report, anchor, facts, figure_facts, linked_facts, sides
+from lagrotor.report.content import (
+    Report,
+    anchor,
+    as_read,
+    derived_heading,
+    derived_lines,
+    facts,
+    figure_facts,
+    linked_facts,
+)
 from lagrotor.report.errata import Erratum
 from lagrotor.report.page.derivation_pages import reached_in
 from lagrotor.report.page.embed import embedded, size
 from lagrotor.report.page.page_pieces import (
     badge,
     code,
-    equations,
     fact_list,
     fold,
     formulas,
@@ -34,14 +42,14 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     """As printed beside as derived; what is said of it; folds with the source and the steps."""
     entry, statement = equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
-    derived = equations(sides(statement.relations, "derived")) or "<p>nothing to derive</p>"
-    read = equations(sides(statement.relations, "printed"))
+    derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
+    read = code("\n".join(as_read(entry)))
     how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
-    source = code(entry.latex) + how + (f"<p>As read, to be judged:</p>{read}" if read else "")
+    source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
-        f"{_beside(f'As printed{number}', printed, 'As derived', derived)}"
+        f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
         f"{reached_in(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )

@@ -5,14 +5,11 @@ from html import escape
 
 import sympy as sp
 
+from lagrotor.pair.symbols import latex
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
-from lagrotor.report.content import Fact, Report, anchor, equation_line, word
-from lagrotor.report.formulas.mathml import mathml
+from lagrotor.report.content import Fact, Report, anchor, word
 from lagrotor.report.formulas.mathml_latex import from_latex
-
-# Characters of MathML that fill a page.
-_LONGEST = 15_000
 
 
 def prose(text: str) -> str:
@@ -48,7 +45,7 @@ def _cell(cell: Cell, report: Report) -> str:
     if isinstance(cell, FigureLink):
         drawn = any(picture.key == cell.key for picture in report.pictures)
         return links([f"figure {cell.key}"]) if drawn else f"figure {escape(cell.key)}"
-    return mathml(cell, display=False) if isinstance(cell, sp.Basic) else prose(cell)
+    return inline(cell) if isinstance(cell, sp.Basic) else prose(cell)
 
 
 def fact_list(found: Iterable[Fact]) -> str:
@@ -58,7 +55,7 @@ def fact_list(found: Iterable[Fact]) -> str:
 
 
 def _fact(fact: Fact) -> str:
-    symbols = "".join(f" {mathml(letter, display=False)}" for letter in fact.formulas if letter.is_Symbol)
+    symbols = "".join(f" {inline(letter)}" for letter in fact.formulas if letter.is_Symbol)
     parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
     parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
     parts.append(formulas(formula for formula in fact.formulas if not formula.is_Symbol))
@@ -67,21 +64,14 @@ def _fact(fact: Fact) -> str:
 
 
 def formulas(expressions: Iterable[sp.Basic]) -> str:
-    """Each expression on a line of its own, which scrolls when it is too wide; folded when they would fill a page."""
-    drawn = "".join(f'<div class="wide">{mathml(expression)}</div>' for expression in expressions)
-    return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
+    """Each expression on a line of its own."""
+    return "".join(typeset(latex(expression)) for expression in expressions)
 
 
-def equations(lines: Iterable[tuple[str, sp.Basic]]) -> str:
-    """(quantity, expression) as equations, each on a line of its own; a matrix below its quantity, broken where it is wide;
-    folded when they would fill a page."""
-    drawn = "".join(
-        (typeset(f"{quantity} =") if quantity else "") + formulas([expression])
-        if isinstance(expression, sp.MatrixBase)
-        else typeset(equation_line(quantity, expression))
-        for quantity, expression in lines
-    )
-    return fold("Long: component by component", drawn, "long") if len(drawn) > _LONGEST else drawn
+def inline(expression: sp.Basic) -> str:
+    """An expression within a line; its LaTeX where the converter is not installed."""
+    source = latex(expression)
+    return from_latex(source, display=False) or f"<code>{escape(source)}</code>"
 
 
 def typeset(source: str) -> str:

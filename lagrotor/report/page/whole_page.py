@@ -22,7 +22,6 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import errata
 from lagrotor.report.formulas.font import font_face
-from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.page.page_parts import (
     claim_entry,
     count_entry,
@@ -33,7 +32,7 @@ from lagrotor.report.page.page_parts import (
     headline_entry,
     picture_entry,
 )
-from lagrotor.report.page.page_pieces import badge, code, file_link, link, links, prose, rows, side_by_side
+from lagrotor.report.page.page_pieces import badge, code, file_link, inline, link, links, prose, rows, side_by_side
 from lagrotor.report.results import balance, headlines
 
 _HERE = Path(__file__).parent
@@ -101,7 +100,7 @@ def _verdicts(report: Report) -> str:
 
 
 def _notation(report: Report) -> str:
-    lines = [(mathml(symbol, display=False), prose(meaning), escape(unit)) for symbol, meaning, unit in notation()]
+    lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation()]
     return rows(("Symbol", "Meaning", "Unit"), lines)
 
 

@@ -9,12 +9,11 @@ from importlib.resources import files
 
 import pytest
 
-from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.pair.symbols import GLOSSARY, latex
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import statements
 from lagrotor.paper.catalogue import equations
 from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
-from lagrotor.report.formulas.mathml import mathml
 from lagrotor.report.formulas.mathml_latex import from_latex
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
@@ -62,11 +61,9 @@ def formulas() -> Iterator[str]:
     for stem in scripts.names("derivations", "s"):
         for statement in statements(stem):
             for relation in (*statement.relations, *statement.correction):
-                yield mathml(relation.printed, display=False)
-                yield mathml(relation.derived, display=False)
-            for relation in statement.correction:
-                yield from filter(None, [from_latex(relation.quantity)] if relation.quantity else [])
-    yield from map(mathml, GLOSSARY)
+                line = f"{relation.quantity} = {relation.written or latex(relation.derived)}"
+                yield from filter(None, [from_latex(line)])
+    yield from filter(None, (from_latex(latex(letter)) for letter in GLOSSARY))
 
 
 @pytest.fixture(scope="module")
