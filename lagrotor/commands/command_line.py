@@ -13,6 +13,7 @@ from lagrotor.commands.benchmark_commands import add_benchmark_commands
 from lagrotor.commands.options import Parser
 from lagrotor.commands.paper_commands import add_paper_commands
 from lagrotor.commands.scene_commands import add_scene_commands
+from lagrotor.commands.structure_commands import add_structure_commands
 from lagrotor.commands.terminal import say
 from lagrotor.errors import LagrotorError
 
@@ -87,5 +88,6 @@ def _parser() -> argparse.ArgumentParser:
 
     add_paper_commands(command)
     add_scene_commands(command)
+    add_structure_commands(command)
     add_benchmark_commands(command)
     return parser

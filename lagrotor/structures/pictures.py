@@ -1,13 +1,17 @@
 """Pictures of a structure: its plan, its roots, and a run over time."""
 
+from math import inf
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.drawing.style import OKABE_ITO, paper_style
+from lagrotor.drawing.style import MODEL, OKABE_ITO, PAPER, paper_style
 from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
+from lagrotor.structures.small_motion import small_motion
+from lagrotor.structures.standing import stands
 
 
 def draw_plan(panel: Axes, s: Assembly) -> None:
@@ -26,6 +30,32 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
         panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
+
+
+def structure_picture(s: Assembly) -> Figure:
+    """The plan, and the roots s = growth + i rate of small motion about upright, where that is at rest."""
+    with paper_style():
+        figure = RunFigure(figsize=(9.0, 4.6))
+        plan, roots = figure.subplots(1, 2, width_ratios=(1.2, 1))
+        draw_plan(plan, s)
+        roots.set(xlabel="growth [1/s]", ylabel="rate [rad/s]", title="Roots of small motion")
+        if s.natural:
+            found, standing = small_motion(s).roots[0], stands(s)
+            for grows, ink in ((False, MODEL), (True, PAPER)):
+                part = found[(found.real > 0) == grows]
+                roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
+            roots.margins(0.15)
+            roots.axvline(0, color=INK, linewidth=0.8)
+            factor = standing.critical_spin
+            least = (
+                "no spins hold it"
+                if factor == inf
+                else f"stands from {factor:.4g} times its spins on"
+                if factor
+                else "stands"
+            )
+            figure.suptitle(("Stands" if standing.stands else "Does not stand") + f"; {least}")
+    return figure
 
 
 def run_picture(s: Assembly, t: Array, tips: Array, energy: Array) -> Figure:

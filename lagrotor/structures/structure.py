@@ -1,8 +1,13 @@
 """`Structure`: any number of rotors and bars, and what can be found out about it."""
 
+from typing import TYPE_CHECKING
+
 from lagrotor.structures import characteristic, simulation, small_motion, standing
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.closing import check_closure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class Structure(Assembly):
@@ -20,3 +25,9 @@ class Structure(Assembly):
     stands = standing.stands
     critical_spin = standing.critical_spin
     characteristic = characteristic.characteristic
+
+    def plot(self) -> "Figure":
+        """The plan of the structure and the roots of its small motion: a figure that a notebook shows."""
+        from lagrotor.structures.pictures import structure_picture
+
+        return structure_picture(self)

@@ -1,0 +1,106 @@
+"""The command that is given a structure: whether it stands, its modes, a picture or a film of it."""
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from lagrotor.commands.options import Command, check_folder
+from lagrotor.errors import InputError
+from lagrotor.files import FILMS, PICTURES
+
+_ENDINGS = (*PICTURES, *FILMS, ".toml")
+
+
+def add_structure_commands(command: Command) -> None:
+    """structure."""
+    added = command(
+        "structure",
+        structure_command,
+        "whether a structure of rotors and bars stands, and its modes",
+        "lagrotor structure corner --out corner.png",
+    )
+    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
+    added.add_argument("structure", metavar="FILE", help=says)
+    added.add_argument(
+        "--out", type=Path, metavar="FILE", help="write a picture, a film (.gif, .mp4) or the .toml itself"
+    )
+    added.add_argument("--t-end", type=float, metavar="S", help="length of the film, s (default: the gallery's, or 5)")
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+
+
+def structure_command(given: argparse.Namespace) -> int:
+    from lagrotor.commands.terminal import table
+    from lagrotor.structures.document import read_structure
+    from lagrotor.structures.gallery import GALLERY, example
+
+    if given.structure == "list":
+        print(table(("name", "what it shows"), [(name, each.says) for name, each in GALLERY.items()]))
+        return 0
+    if given.out and given.out.suffix not in _ENDINGS:
+        raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
+    if given.out:
+        check_folder(given.out.parent)
+    s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
+    if given.out:
+        ready = GALLERY.get(given.structure)
+        _write(s, given.out, given.t_end or (ready.duration if ready else 5.0))
+    found = _summary(s)
+    print(json.dumps(found, indent=1, ensure_ascii=False) if given.json else _table(found))
+    return 0
+
+
+def _write(s: Any, out: Path, duration: float) -> None:
+    import numpy as np
+
+    from lagrotor.files import write_beside
+    from lagrotor.structures.document import write_structure
+
+    if out.suffix == ".toml":
+        write_structure(s, out)
+    elif out.suffix in PICTURES:
+        write_beside(out, lambda file: s.plot().savefig(file, format=out.suffix[1:]))
+    else:
+        from lagrotor.drawing.film import check_film
+
+        check_film(out, duration, 25.0)
+        tilt = 0.05 * np.random.default_rng(1).standard_normal((len(s.joints), 2))
+        s.simulate(np.linspace(0, duration, math.ceil(100 * duration) + 1), tilt, tol=1e-6).animate(out)
+
+
+def _summary(s: Any) -> dict[str, Any]:
+    standing, modes = s.stands(), s.modes()
+    return {
+        "rotors": len(s.joints),
+        "bars": len(s.bars),
+        "freedoms": len(modes.rates),
+        "stands": standing.stands,
+        "why": standing.why,
+        "growth": standing.growth,
+        "critical_spin": standing.critical_spin if standing.critical_spin < math.inf else None,
+        "topple": modes.topple,
+        "modes": [{"rate": float(w), "growth": float(g)} for w, g in zip(modes.rates, modes.growth, strict=True)],
+    }
+
+
+def _table(found: dict[str, Any]) -> str:
+    from lagrotor.commands.terminal import table
+
+    factor = found["critical_spin"]
+    rows = [
+        ("stands", ("yes: " if found["stands"] else "no: ") + found["why"]),
+        (
+            "least spin",
+            "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed",
+        ),
+        (
+            "freedoms",
+            f"{found['freedoms']} of {found['rotors']} rotors under {found['bars']} bars; {found['topple']} modes grow",
+        ),
+        *(
+            (f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s")
+            for k, m in enumerate(found["modes"], 1)
+        ),
+    ]
+    return table(("structure", ""), rows)

@@ -1,0 +1,79 @@
+"""Structures as TOML: the fields of `Structure`, read and written; what is not one of them is refused."""
+
+import tomllib
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
+from lagrotor.pair.scene import Link, Rotor
+from lagrotor.structures.assembly import Assembly, Brace
+from lagrotor.structures.structure import Structure
+
+_PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
+
+
+def read_structure(path: str | Path) -> Structure:
+    """The structure that a TOML file describes. Raises InputError with the reason where there is none."""
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: {error}: give a TOML file that can be read") from None
+    try:
+        return structure_of(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path} is no TOML: {error}") from None
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def structure_of(given: dict[str, Any]) -> Structure:
+    """The structure of a table with the fields' names. Raises InputError for names that are none, or values that make
+    no sense."""
+    names = [field.name for field in fields(Assembly)]
+    if unknown := [name for name in given if name not in names]:
+        raise InputError(f"{unknown[0]!r} is no field of a structure: they are {', '.join(names)}")
+    if "joints" not in given:
+        raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")
+    made = dict(given)
+    for name, kind in _PARTS.items():
+        if name in given:
+            tables = given[name] if isinstance(given[name], list) else [given[name]]
+            made[name] = [_part(name, kind, table) for table in tables]
+    return Structure(**made)
+
+
+def _part(name: str, kind: type, table: Any) -> Any:
+    known = [field.name for field in fields(kind)]
+    if not isinstance(table, dict) or any(key not in known for key in table):
+        raise InputError(f"{name} = {table!r} must be a table of {', '.join(known)}")
+    try:
+        return kind(**table)
+    except TypeError:
+        raise InputError(f"{name} = {table!r} lacks one of {', '.join(known)}") from None
+
+
+def toml_of(s: Assembly) -> str:
+    """The structure as TOML that `read_structure` reads back to the same."""
+    lines = [
+        f"{field.name} = {_value(getattr(s, field.name))}" for field in fields(Assembly) if field.name not in _PARTS
+    ]
+    for name in _PARTS:
+        parts = getattr(s, name)
+        once = name != "braces" and len(set(parts)) == 1
+        for part in parts[:1] if once else parts:
+            lines += ["", f"[{name}]" if once else f"[[{name}]]"]
+            lines += [f"{key} = {_value(value)}" for key, value in asdict(part).items()]
+    return "\n".join([*lines, ""])
+
+
+def write_structure(s: Assembly, path: str | Path) -> Path:
+    """Write the structure as TOML, whole or not at all. Raises InputError where that cannot be."""
+    return write_text(Path(path), toml_of(s))
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    return repr(value)

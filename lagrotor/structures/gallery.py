@@ -1,0 +1,84 @@
+"""Ten structures to look at: name → the structure, in a line what it shows, and how long its film runs."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from math import cos, pi, sin
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.pair.scene import Link
+from lagrotor.structures.assembly import Brace
+from lagrotor.structures.structure import Structure
+
+_PAIR: dict[str, Any] = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}
+_SQUARE: dict[str, Any] = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "bars": [(0, 1), (1, 2), (2, 3), (3, 0)]}
+_WEIGHT: dict[str, Any] = {"gravity": 9.81, "load": 2.0}
+
+
+@dataclass(frozen=True)
+class Example:
+    """make: gives the structure; says: what it shows; duration: of its film, s."""
+
+    make: Callable[[], Structure]
+    says: str
+    duration: float
+
+
+def _row() -> Structure:
+    return Structure(joints=[(k, 0) for k in range(4)], bars=[(k, k + 1) for k in range(3)], spins=40, **_WEIGHT)
+
+
+def _hexagon() -> Structure:
+    joints = [(cos(k * pi / 3), sin(k * pi / 3)) for k in range(6)]
+    return Structure(joints=joints, bars=[(k, (k + 1) % 6) for k in range(6)], spins=[50, -50] * 3, **_WEIGHT)
+
+
+def _grid() -> Structure:
+    bars = [(i, i + 1) for i in range(9) if i % 3 < 2] + [(i, i + 3) for i in range(6)]
+    spins = [-24.0 if i % 4 == 0 else 48.0 for i in range(9)]
+    return Structure(joints=[(i % 3, i // 3) for i in range(9)], bars=bars, spins=spins, **_WEIGHT)
+
+
+GALLERY = {
+    "top": Example(
+        lambda: Structure(joints=[(0, 0)], spins=30, **_WEIGHT), "a loaded rotor alone, which its spin holds", 6
+    ),
+    "pair": Example(
+        lambda: Structure(**_PAIR, spins=[10, -10], link=Link(1, 0.01, 0.1)), "the paper's pair, without weight", 6
+    ),
+    "loaded-pair": Example(
+        lambda: Structure(**_PAIR, spins=[60, -60], **_WEIGHT), "a pair under load: no spins hold it", 2.5
+    ),
+    "braced-pair": Example(
+        lambda: Structure(**_PAIR, spins=40, **_WEIGHT, braces=[Brace(0, (0.0, 1.0, 1.0), 400.0)]),
+        "a brace across the bar at one tip, and the pair stands",
+        5,
+    ),
+    "corner": Example(
+        lambda: Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[35, 0, 35], **_WEIGHT),
+        "three rotors, two bars: the smallest jointed structure that stands",
+        6,
+    ),
+    "row": Example(_row, "a straight row: what the spins do not act on falls", 2.5),
+    "square": Example(
+        lambda: Structure(**_SQUARE, spins=[-35, 35, 35, 35], **_WEIGHT),
+        "four in a square, one spinning the other way",
+        6,
+    ),
+    "plate": Example(
+        lambda: Structure(joints=_SQUARE["joints"], bars=[*_SQUARE["bars"], (0, 2)], spins=60, **_WEIGHT),
+        "a rigid plate on four rotors: three freedoms, an odd number, fall",
+        2.5,
+    ),
+    "hexagon": Example(_hexagon, "a ring of six with spins that alternate", 5),
+    "grid": Example(_grid, "nine rotors, the diagonal at half speed the other way: the least spin found for them", 5),
+}
+
+
+@cache
+def example(name: str) -> Structure:
+    """The structure of that name. Raises InputError where there is none."""
+    if name not in GALLERY:
+        raise InputError(f"structure: {name!r} is neither a .toml file nor one of {', '.join(GALLERY)}")
+    return GALLERY[name].make()

@@ -1,0 +1,90 @@
+"""A structure as TOML and back, the gallery, the command."""
+
+import json
+
+import pytest
+
+from lagrotor import Brace, Link, Rotor, Structure
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.structures.document import read_structure, structure_of, toml_of, write_structure
+from lagrotor.structures.gallery import GALLERY, example
+
+STANDS = {
+    "top": True, "pair": False, "loaded-pair": False, "braced-pair": True, "corner": True, "row": False, "square": True,
+    "plate": False, "hexagon": True, "grid": True,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_the_gallery_is_read_back_as_it_was_written(name, tmp_path) -> None:
+    s = example(name)
+    assert read_structure(write_structure(s, tmp_path / "s.toml")) == s
+    assert s.stands().stands is STANDS[name]
+
+
+def test_every_field_is_kept() -> None:
+    s = Structure(
+        joints=[(0, 0), (1, 0.1), (0.5, 2)], bars=[(0, 1), (1, 2, 1.9)], spins=[1, -2, 3.5], rotor=[Rotor(),
+        Rotor(2), Rotor()],
+        link=[Link(), Link(1, 0.2, 0.1)], gravity=9.81, load=[0, 1, 2], friction=0.1, hinge=[0, 1, 0], spin_friction=0.01,
+        braces=[Brace(0, 2, 3.0, 0.1), Brace(1, (0.0, 1.0, 0.5), 2.0)],
+    )  # fmt: skip
+    import tomllib
+
+    assert structure_of(tomllib.loads(toml_of(s))) == s
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("joints = [[0, 0]", "no TOML"),
+        ("bars = []", "joints is missing"),
+        ("joints = [[0, 0]]\nspin = 3", "'spin' is no field"),
+        ("joints = [[0, 0]]\n[rotor]\nweight = 3", "must be a table of mass"),
+        ("joints = [[0, 0]]\n[[braces]]\ntip = 0", "lacks one"),
+        ("joints = [[0, 0]]\nload = -1", "below zero"),
+        ("joints = 3", "must be a list"),
+        ('joints = [["a", 0]]', "not a number"),
+        ("joints = [[0, 0]]\nrotor = 3", "must be a table"),
+    ],
+)
+def test_a_file_that_is_no_structure_is_refused(text, reason, tmp_path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=reason) as refusal:
+        read_structure(path)
+    assert "bad.toml" in str(refusal.value)
+
+
+def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
+    path = tmp_path / "c.toml"
+    assert main(["structure", "corner", "--out", str(path)]) == 0
+    assert "yes: every small motion stays bounded" in capsys.readouterr().out
+    assert main(["structure", str(path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["stands"] and found["freedoms"] == 4 and len(found["modes"]) == 4 and found["critical_spin"] < 1
+    assert main(["structure", "list"]) == 0
+    assert all(name in capsys.readouterr().out + " ".join(GALLERY) for name in GALLERY)
+    assert main(["structure", "loaded-pair"]) == 0
+    assert "none holds it" in capsys.readouterr().out
+
+
+def test_the_command_draws(tmp_path, capsys) -> None:
+    for name in ("square.png", "square.gif"):
+        assert main(["structure", "square", "--out", str(tmp_path / name), "--t-end", "0.2"]) == 0
+        assert (tmp_path / name).stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    "given", [["nothing"], ["missing.toml"], ["corner", "--out", "c.docx"], ["corner", "--out", "/no/c.png"]]
+)
+def test_the_command_refuses_in_a_line(given, capsys) -> None:
+    assert main(["structure", *given]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_run_is_plotted() -> None:
+    s = example("corner")
+    picture = s.simulate([0, 0.1, 0.2], tilt=[(0.1, 0)] * 3).plot()
+    assert len(picture.axes) == 5 and len(s.plot().axes) == 2
