@@ -1,9 +1,11 @@
 """`Structure`: any number of rotors and bars, and what can be found out about it."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
+from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures import characteristic, simulation, small_motion, standing
-from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.closing import check_closure
 
 if TYPE_CHECKING:
@@ -15,6 +17,23 @@ class Structure(Assembly):
 
     Raises InputError for bars that cannot close, a bar to itself, dependent constraints, no freedom left, loads below zero.
     """
+
+    if TYPE_CHECKING:  # what may be given, which the fields then hold as tuples
+
+        def __init__(
+            self,
+            joints: Sequence[Sequence[float]],
+            bars: Sequence[Sequence[float]] = (),
+            spins: float | Sequence[float] = 0.0,
+            rotor: Rotor | Sequence[Rotor] = ...,
+            link: Link | Sequence[Link] = ...,
+            gravity: float = 0.0,
+            load: float | Sequence[float] = 0.0,
+            friction: float | Sequence[float] = 0.0,
+            hinge: float | Sequence[float] = 0.0,
+            braces: Sequence[Brace | Sequence[Any]] = (),
+            spin_friction: float | Sequence[float] = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         super().__post_init__()
