@@ -145,7 +145,7 @@ def exact_and_linear(motion: sp.Matrix, impulse: dict[sp.Symbol, float]) -> tupl
     speeds = [float(speed) for speed in mine.diff(t).subs(t, 0)]
     rates = ((speeds[1], (speeds[0] + speeds[2]) / 2, 0.0), (speeds[1], (speeds[0] - speeds[2]) / 2, 0.0))
     run = simulate(Scene(spins=(10, -10), link=HEAVY, rates=rates), turn_times, "minimal", 1e-12)
-    return run.axes[:, :, 0].mean(0), sp.lambdify(t, mine[1])(turn_times)
+    return run.axes[:, :, 0].mean(0), sp.lambdify(t, mine[1], "numpy")(turn_times)
 
 
 sizes = (0.05, 0.1, 0.2)

@@ -169,7 +169,7 @@ curves = {
     "corrected": (second[0].subs(own), across[0].subs(own)),
     "series of order 3": (x_1.subs(own), y_1.subs(own)),
 }
-functions = {name: sp.lambdify([r0, Phi], pair) for name, pair in curves.items()}
+functions = {name: sp.lambdify([r0, Phi], pair, "numpy") for name, pair in curves.items()}
 errors: dict[str, list[list[float]]] = {name: [] for name in curves}
 changes = []
 for size in amplitudes:
@@ -210,12 +210,13 @@ verdict(
 # ## The trajectories
 #
 # The left joint is at $-\ell/2$, the right one at $+\ell/2$. In $x$ the paper has the right second harmonic and lacks a
-# constant of second order, by which the two centres stand apart:
+# constant of second order, by which the two centres stand apart. The mean of a polynomial of second degree in $\cos\Phi$ and
+# $\sin\Phi$ is that of its values at four phases a quarter turn apart:
 
 # %%
 tips = -ell / 2 + R * x_1, ell / 2 + R * x_2
 prove(
-    tuple(sp.integrate(e, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi) for e in (R * second[0], printed[0])),
+    tuple(sum(e.subs(Phi, turn * sp.pi / 2) for turn in range(4)) / 4 for e in (R * second[0], printed[0])),
     (r0**2 * sigma * R**2 / (2 * ell), -(r0**2) / 2),
     "the mean of x₁ from its joint, derived and printed",
 )

@@ -237,7 +237,7 @@ tested = scene(12)
 short, long = (run_after(tested, turns, 1e-11) for turns in (8, 24))
 law = sp.lambdify(T, changed.subs({a: 1, b: 0,
     P_X: tested.shock.impulse[0], G: 10, k: 1, nu: toppling_after_shock(tested), X_dot: wander_after_shock(tested)
-}))  # fmt: skip
+}), "numpy")  # fmt: skip
 seen = turning_rate(long) - turning_rate(short)
 said = mean_over(long.t, law(long.t - tested.shock.at)) - mean_over(short.t, law(short.t - tested.shock.at))
 assert abs(said / seen - 1) < 0.15

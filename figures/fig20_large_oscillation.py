@@ -37,7 +37,7 @@ def data() -> dict[str, np.ndarray]:
     curves = {"paper": paper_axes(R0, phase)}
     for order in (3, 9):
         series = paired_series(order, sp.Integer(1), sp.Integer(1))
-        curve = sp.lambdify([r0, Phi], [series.expression(part) for part in (series.x, series.Y, series.z)])
+        curve = sp.lambdify([r0, Phi], [series.expression(part) for part in (series.x, series.Y, series.z)], "numpy")
         first, later = (np.array([part + 0 * phase for part in curve(R0, angle)]).T for angle in (phase, phase + np.pi))
         curves[f"order_{order}"] = np.array([first, later * [-1, 1, 1]])
     orbit = exact_orbit(Scene(spins=(10, -10)), R0)

@@ -4,7 +4,6 @@ import argparse
 import json
 import os
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -154,5 +153,7 @@ def _throughput(measure: Any, quick: bool) -> "list[Throughput]":
     """In one process a core; here, when quick, as starting them costs more than the run."""
     if quick:
         return list(measure(256))
+    from concurrent.futures import ProcessPoolExecutor
+
     with ProcessPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None) as executor:
         return list(measure(8192, executor))

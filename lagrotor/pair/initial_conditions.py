@@ -4,16 +4,24 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import project_position, project_velocity
-from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.pair.symbols import AXES, a, b, k
 
 Array = NDArray[np.floating[Any]]
+
+
+@generated(((),))
+def _constrained() -> str:
+    """(r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6), 57 numbers."""
+    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.pair.lagrangians import axes_pair
+    from lagrotor.pair.symbols import AXES, a, b, k
+
+    system = axes_pair()
+    return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass)))
 
 
 def consistent_scene(
@@ -35,19 +43,19 @@ def consistent_scene(
         raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         raise InputError("consistent_scene: axes and rates must be finite")
-    system = axes_pair()
-    values: dict[Any, float] = dict(zip((a, b), scene.inertias, strict=True))
-    values[k] = (link or Link()).length / scene.rotor.length
-    mass = np.array(system.mass.subs(values), dtype=float)
-    g = sp.lambdify([AXES.q], [e.subs(values) for e in system.constraints])
-    G = sp.lambdify([AXES.q], system.rows.subs(values))
+
+    from lagrotor.mechanics import project_position, project_velocity
+
+    def parts(state: Array) -> Array:
+        return np.array(_constrained()(*state.tolist(), *scene.inertias, scene.k), dtype=float)
 
     def residual(state: Array) -> Array:
-        return np.array(g(state), dtype=float)
+        return parts(state)[:3]
 
     def slope(state: Array) -> Array:
-        return np.array(G(state), dtype=float)
+        return parts(state)[3:21].reshape(3, 6)
 
+    mass = parts(q)[21:].reshape(6, 6)
     q = project_position(residual, slope, q, mass)
     v = project_velocity(slope(q), v, mass)
     return replace(scene, axes=_pair(q), rates=_pair(v))

@@ -22,7 +22,7 @@ def renew() -> None:
 
 def generated_code() -> dict[Path, str]:
     """Every `generated.txt` of the package, derived anew."""
-    for name in ("lagrotor.models.simulate", "lagrotor.models.orbits.variational"):
+    for name in ("lagrotor.models.simulate", "lagrotor.models.orbits.precession"):
         import_module(name)
     return generated.files()
 
