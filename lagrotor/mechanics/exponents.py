@@ -16,7 +16,8 @@ from dataclasses import dataclass
 
 from sympy.polys.domains.domain import Domain
 
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, constant
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
+from lagrotor.mechanics.order_by_order import GrowingSeries, Unknowns
 from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, solve_harmonic
 
 Parts = dict[str, list[FourierSeries]]  # of "p" and "q", one series an unknown
@@ -28,18 +29,18 @@ _OTHER = {"p": "q", "q": "p"}
 class Perturbed:
     """orbit + xi p + eta q to first order in xi and eta, with xi' = A eta, eta' = B xi.
 
-    It is added, multiplied and differentiated like a FourierSeries, so that equations written for an orbit give, put to
+    It is added, multiplied and differentiated like the series of its parts, so that equations written for an orbit give, put to
     it, the variational equations too. exchange: the sign that p and q take where the equations use half a period later.
     """
 
-    orbit: FourierSeries
-    p: FourierSeries
-    q: FourierSeries
-    A: FourierSeries
-    B: FourierSeries
+    orbit: Series
+    p: Series
+    q: Series
+    A: Series
+    B: Series
     exchange: int
 
-    def _with(self, orbit: FourierSeries, p: FourierSeries, q: FourierSeries) -> "Perturbed":
+    def _with(self, orbit: Series, p: Series, q: Series) -> "Perturbed":
         return Perturbed(orbit, p, q, self.A, self.B, self.exchange)
 
     def __add__(self, other: "Perturbed") -> "Perturbed":
@@ -71,8 +72,7 @@ class Perturbed:
 
     def constant(self, value: Coefficient) -> "Perturbed":
         """The constant `value`."""
-        nothing = FourierSeries({}, self.orbit.order)
-        return self._with(self.orbit.constant(value), nothing, nothing)
+        return self._with(self.orbit.constant(value), self.p.constant(0), self.q.constant(0))
 
 
 @dataclass(frozen=True)
@@ -112,33 +112,56 @@ def characteristic_exponents(
     for part, i in fixed.items():
         parts[part][i] = constant(field.one, order)
     drift = {part: variation.of_drift(part, parts, orbit) for part in "pq"}
-    slow = {part: FourierSeries({}, order) for part in "pq"}  # B from the equations' p part, A from their q part
+    growing = Unknowns()
+    unknowns = {part: [growing.series(series) for series in parts[part]] for part in "pq"}
+    slow = {
+        part: growing.series(FourierSeries({}, order)) for part in "pq"
+    }  # B from the equations' p part, A from their q part
+    equations = variation.put_in(growing, unknowns, slow, orbit)
     operators: dict[tuple[str, int], list[Column]] = {}
     for n in range(1, order + 1):
-        now = variation.of(n, parts, slow, orbit)
+        now = {part: [getattr(equation, part).at(n) for equation in equations] for part in "pq"}
         for part in "pq":
             for h in range(n, -1, -2):
                 if (part, h) not in operators:
                     operators[part, h] = variation.operator(part, h, parity[part], orbit)
-                wanted = {key: -v for key, v in variation.column(now, part, n).items() if abs(key[1]) == h}
+                wanted = {
+                    (i, key): -v for i, waves in enumerate(now[part]) for key, v in waves.items() if abs(key) == h
+                }
                 extra, mean = (drift[part], (fixed[part], field.zero)) if h == 0 else (None, None)
                 values, shift = solve_harmonic(operators[part, h], wanted, extra, mean, field)
                 for j, value in enumerate(values):
-                    if value:
-                        parts[part][j] += FourierSeries({(n, -h if parity[part][j] else h): value}, order)
-                if shift:
-                    slow[part] += constant(shift, order, n)
-    return ExponentSeries(slow["q"], slow["p"], tuple(parts["p"]), tuple(parts["q"]))
+                    growing.found(unknowns[part][j], n, -h if parity[part][j] else h, value)
+                growing.found(slow[part], n, 0, shift)
+        growing.forget(n)
+    p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
+    return ExponentSeries(growing.through(slow["q"], order), growing.through(slow["p"], order), p, q)
 
 
 @dataclass(frozen=True)
 class _Variation:
-    """The variational equations of `residual` along an orbit, order by order."""
+    """The variational equations of `residual` along an orbit."""
 
     residual: Residual
     field: Domain
     order: int
     exchange: int
+
+    def put_in(
+        self,
+        growing: Unknowns,
+        parts: dict[str, list[GrowingSeries]],
+        slow: dict[str, GrowingSeries],
+        orbit: PeriodicSeries,
+    ) -> list[Perturbed]:
+        """The equations with a perturbation put in whose parts and rates A, B are still to be found."""
+
+        def at(f: FourierSeries, p: GrowingSeries, q: GrowingSeries) -> Perturbed:
+            return Perturbed(growing.series(f), p, q, slow["q"], slow["p"], self.exchange)
+
+        nothing = growing.series(FourierSeries({}, self.order))
+        unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
+        return self.residual(unknowns, at(orbit.frequency, nothing, nothing))
 
     def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
         """The equations with the perturbation put in, through eps**n."""

@@ -8,6 +8,7 @@ from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
+from lagrotor.mechanics.order_by_order import Unknowns
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
 
@@ -41,32 +42,35 @@ def lindstedt_poincare(
     """
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]
-    unknowns = [FourierSeries({(0, 0): r} if r else {}, order) for r in rest]
-    unknowns = [
-        u + FourierSeries({(1, h): v for h, v in m.items()}, order) for u, m in zip(unknowns, mode, strict=True)
+    begins = [
+        constant(r, order) + FourierSeries({(1, h): v for h, v in m.items()}, order)
+        for r, m in zip(rest, mode, strict=True)
     ]
-    frequency = constant(one, order)
+    growing = Unknowns()
+    unknowns, frequency = [growing.series(begin) for begin in begins], growing.series(constant(one, order))
+    equations = residual(unknowns, frequency)
     operators: dict[int, list[dict[tuple[int, int], Coefficient]]] = {}
-    drift = _frequency_column(residual, unknowns, one)
+    drift = _frequency_column(residual, begins, one)
 
     for n in range(2, order + 1):
-        now = residual([u.through(n) for u in unknowns], frequency.through(n))
+        now = [equation.at(n) for equation in equations]
         # The highest harmonics first: the mode's own takes what the amplitude's definition leaves.
         at_zero = field.zero
         for h in range(n, -1, -2):
             if h not in operators:
                 operators[h] = _columns(residual, rest, sines, h, one)
-            wanted = {(i, key): -v for i, r in enumerate(now) for key, v in r.harmonics(n).items() if abs(key) == h}
+            wanted = {(i, key): -v for i, waves in enumerate(now) for key, v in waves.items() if abs(key) == h}
             extra = drift if h == 1 else None
             fixed = (amplitude, -at_zero) if h == 1 else None
             values, shift = solve_harmonic(operators[h], wanted, extra, fixed, field)
             for j, value in enumerate(values):
-                if value:
-                    unknowns[j] += FourierSeries({(n, -h if sines[j] else h): value}, order)
+                growing.found(unknowns[j], n, -h if sines[j] else h, value)
             at_zero += field.zero if sines[amplitude] else values[amplitude]
             if shift:
-                frequency += constant(shift, order, n - 1)
-    return PeriodicSeries(tuple(unknowns), frequency)
+                growing.found(frequency, n - 1, 0, shift)
+                growing.forget(n - 1)
+        growing.forget(n)
+    return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
 
 
 def _columns(

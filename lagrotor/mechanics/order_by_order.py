@@ -1,0 +1,129 @@
+"""Fourier series in an amplitude that are known order by order, and what is made of them, each order computed once.
+
+An equation is written once, of series whose higher orders are still unknown. Its coefficient of eps**n is then evaluated from
+those of the parts up to n, which are kept: through order N an equation costs about N**2 products of harmonics, where one that
+is evaluated anew for each order costs N**3. van der Hoeven, Relax, but don't be too lazy, J. Symb. Comp. 34 (2002).
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries
+
+Waves = Mapping[int, Coefficient]  # of one power of eps: cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
+
+
+@dataclass(eq=False)
+class GrowingSeries:
+    """A series whose coefficients of eps**n are `compute`d when they are read, and kept. `all`: every series made together."""
+
+    compute: Callable[[int], Waves]
+    all: list[GrowingSeries] = field(repr=False)
+    kept: dict[int, Waves] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.all.append(self)
+
+    def at(self, n: int) -> Waves:
+        """The coefficients of eps**n."""
+        if n not in self.kept:
+            self.kept[n] = self.compute(n)
+        return self.kept[n]
+
+    def _made(self, compute: Callable[[int], Waves]) -> GrowingSeries:
+        return GrowingSeries(compute, self.all)
+
+    def __add__(self, other: GrowingSeries) -> GrowingSeries:
+        return self._made(lambda n: _sum(self.at(n), other.at(n)))
+
+    def __neg__(self) -> GrowingSeries:
+        return self._made(lambda n: {h: -v for h, v in self.at(n).items()})
+
+    def __sub__(self, other: GrowingSeries) -> GrowingSeries:
+        return self + (-other)
+
+    def __mul__(self, other: GrowingSeries) -> GrowingSeries:
+        return self._made(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]))
+
+    def scaled(self, factor: Coefficient) -> GrowingSeries:
+        """factor × f."""
+        return self._made(lambda n: {h: v * factor for h, v in self.at(n).items()})
+
+    def derivative(self) -> GrowingSeries:
+        """df/dPhi."""
+        return self._made(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
+
+    def half_period_later(self) -> GrowingSeries:
+        """f(Phi + pi)."""
+        return self._made(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
+
+    def constant(self, value: Coefficient) -> GrowingSeries:
+        """The constant `value`."""
+        return self._made(lambda n: {0: value} if n == 0 and value else {})
+
+
+class Unknowns:
+    """Series whose coefficients are found order by order, and the equations made of them."""
+
+    def __init__(self) -> None:
+        self._all: list[GrowingSeries] = []
+        self._known: dict[GrowingSeries, dict[int, dict[int, Coefficient]]] = {}
+
+    def series(self, known: FourierSeries) -> GrowingSeries:
+        """An unknown that begins with the terms of `known`."""
+        terms: dict[int, dict[int, Coefficient]] = defaultdict(dict)
+        for (n, h), value in known.terms.items():
+            terms[n][h] = value
+        made = GrowingSeries(lambda n: terms.get(n, {}), self._all)
+        self._known[made] = terms
+        return made
+
+    def found(self, series: GrowingSeries, n: int, h: int, value: Coefficient) -> None:
+        """The coefficient of eps**n of an unknown's harmonic h; `forget` what was computed without it."""
+        if value:
+            self._known[series][n][h] = value
+
+    def forget(self, n: int) -> None:
+        """Compute the coefficients of eps**n anew when they are next read."""
+        for series in self._all:
+            series.kept.pop(n, None)
+
+    def through(self, series: GrowingSeries, order: int) -> FourierSeries:
+        """An unknown's terms that are known, through eps**order."""
+        terms = self._known[series].items()
+        return FourierSeries({(n, h): v for n, waves in terms for h, v in waves.items() if n <= order}, order)
+
+
+def _sum(a: Waves, b: Waves) -> Waves:
+    total = dict(a)
+    for h, value in b.items():
+        total[h] = total[h] + value if h in total else value
+    return {h: v for h, v in total.items() if v}
+
+
+def _product(pairs: list[tuple[Waves, Waves]]) -> Waves:
+    """The sum of products of waves, by cos p cos q = (cos(p−q) + cos(p+q))/2 and its kin."""
+    total: dict[int, Coefficient] = defaultdict(int)
+    for first, second in pairs:
+        if not first:
+            continue
+        for q, v in second.items():
+            half = v / 2
+            for p, u in first.items():
+                part = u * half
+                i, j = abs(p), abs(q)
+                if p >= 0 and q >= 0:
+                    total[abs(i - j)] += part
+                    total[i + j] += part
+                elif p < 0 and q < 0:
+                    total[abs(i - j)] += part
+                    total[i + j] -= part
+                else:
+                    sine, cosine = (i, j) if p < 0 else (j, i)
+                    total[-(i + j)] += part
+                    if sine != cosine:
+                        total[-abs(sine - cosine)] += part if sine > cosine else -part
+    return {h: v for h, v in total.items() if v}
