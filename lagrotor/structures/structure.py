@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures import characteristic, simulation, small_motion, standing
+from lagrotor.structures import characteristic, response, simulation, small_motion, standing
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.closing import check_closure
 
@@ -44,6 +44,7 @@ class Structure(Assembly):
     stands = standing.stands
     critical_spin = standing.critical_spin
     characteristic = characteristic.characteristic
+    response = response.response
 
     def plot(self) -> "Figure":
         """The plan of the structure and the roots of its small motion: a figure that a notebook shows."""
