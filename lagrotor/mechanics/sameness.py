@@ -27,6 +27,8 @@ def same_as(system: Equations, other: Equations) -> Decision:
             f"same_as: {system.c.q} and {other.c.q} are not the same coordinates: write one system in those of the other "
             "with in_coordinates"
         )
+    if (direct := _from_lagrangians(system, other)).answer == "zero":
+        return direct
     if not (system.multipliers or other.multipliers):
         direct = decide_equal(system.motion, other.motion)
         if direct.answer == "zero":
@@ -36,6 +38,14 @@ def same_as(system: Equations, other: Equations) -> Decision:
     if decision.answer == "nonzero" and (system.multipliers or other.multipliers):
         return replace(decision, answer="undecided", reason=f"Off the constraints they differ. {decision.reason}")
     return decision
+
+
+def _from_lagrangians(system: Equations, other: Equations) -> Decision:
+    """Whether only the Lagrangians may differ, and do not."""
+    parts = [(e.constraints, e.rolling, e.dissipation, e.forces) for e in (system, other)]
+    if parts[0] != parts[1]:
+        return Decision("undecided", (), "More than the Lagrangians may differ.")
+    return decide_equal(system.L, other.L)
 
 
 def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:

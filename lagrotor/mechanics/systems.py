@@ -11,7 +11,7 @@ from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.running.integration import Array, Engine, Values
+    from lagrotor.mechanics.running.integration import Array, Engine, Rhs, Values
     from lagrotor.mechanics.running.simulation import Run
 
 
@@ -49,6 +49,12 @@ class System(Equations):
         from lagrotor.mechanics.running import integration
 
         return integration.consistent(self, values, q0, v0, t)
+
+    def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
+        """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.integration`."""
+        from lagrotor.mechanics.running import integration
+
+        return integration.rhs(self, values, engine)
 
     def simulate(
         self,

@@ -7,6 +7,7 @@ one quantity (a matrix element, a pivot) from being multiplied out; common subex
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -70,7 +71,7 @@ def reduce_common(program: Program) -> tuple[list[Stage], list[sp.Expr]]:
 
 
 def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
-    return sorted((s for s in expression.free_symbols if s in body), key=str, reverse=True)
+    return sorted((s for s in expression.free_symbols if s in body), key=attrgetter("name"), reverse=True)
 
 
 def operations(program: Program) -> int:

@@ -6,6 +6,7 @@ What depends on the parameters alone is worked out once, and squares are product
 
 from collections.abc import Callable
 from dataclasses import replace
+from operator import attrgetter
 from typing import Any
 
 import sympy as sp
@@ -56,12 +57,13 @@ def _factor(e: sp.Expr, show: _Products) -> str:
 
 def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: bool) -> list[str]:
     """The stages as assignments to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
-    last = {s: i for i, (_, e) in enumerate(stages) for s in e.free_symbols}
+    used_in = [e.free_symbols for _, e in stages]
+    last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
     free, lines, used = list[str](), list[str](), 0
     for i, (name, expression) in enumerate(stages):
         right = _quick(expression, show) if quick else show.doprint(expression)
-        free += [show.names[s] for s in sorted(expression.free_symbols & passing, key=str) if last[s] == i]
+        free += [show.names[s] for s in sorted(used_in[i] & passing, key=attrgetter("name")) if last[s] == i]
         if not free:
             free, used = [f"_{used}"], used + 1
         show.names[name] = free.pop()

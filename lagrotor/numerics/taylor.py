@@ -144,16 +144,13 @@ def compile_taylor(program: Program, states: int) -> Callable[[Array, tuple[floa
 
     Some times faster than numpy for a thousand points.
     """
-    heyoka = _heyoka()
-    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
-    outputs = _translated(program, known, heyoka)
-    compiled = heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
+    compiled = _compiled(program)
 
     def evaluate(points: Array, parameters: tuple[float, ...]) -> Array:
         found = []
         for i in range(0, len(points), _BLOCK):
             block = points[i : i + _BLOCK]
-            arguments = np.empty((len(known), len(block)))
+            arguments = np.empty((len(program.arguments), len(block)))
             arguments[:states] = block.T
             for row, value in zip(arguments[states:], parameters, strict=True):
                 row[:] = value
@@ -161,6 +158,26 @@ def compile_taylor(program: Program, states: int) -> Callable[[Array, tuple[floa
         return np.concatenate(found, axis=1)
 
     return evaluate
+
+
+def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:
+    """The program, for given parameters, as a compiled right-hand side (s, y) → y', for any solver."""
+    compiled, inputs = _compiled(program), np.array([*[0.0] * states, *parameters])
+
+    def rhs(s: float, y: Array) -> Array:
+        inputs[:states] = y
+        return np.asarray(compiled(inputs))
+
+    return rhs
+
+
+@lru_cache(maxsize=16)
+def _compiled(program: Program) -> Any:
+    """The program as heyoka's function of an array of its arguments."""
+    heyoka = _heyoka()
+    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
+    outputs = _translated(program, known, heyoka)
+    return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
 
 
 def _size(tol: float, order: int) -> float:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.errors import InputError, NotASymmetryError
-from lagrotor.mechanics import System, constrained_accelerations, coordinates, t, total_derivative
+from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, t, total_derivative
 
 m, l, g, k, R, Omega, A, w = sp.symbols("m l g k R Omega A omega", positive=True)
 ANGLE = coordinates("theta")
@@ -265,3 +265,24 @@ def test_the_law_of_energy_holds_for_any_driven_quadratic_system(terms: list[int
     left = total_derivative(system.energy, C).subs(moved).subs(state)
     assert left == system.power.subs(state)
     assert not np.isnan(float(left))
+
+
+def test_four_rods_in_relative_and_absolute_angles_are_decided_by_their_lagrangians() -> None:
+    """Their equations of motion are beyond what is decided."""
+    c, m, l, g = coordinates("a b c d"), *sp.symbols("m l g", positive=True)
+
+    def lagrangian(weight: sp.Expr) -> sp.Expr:
+        L, x, z, angle, rate = sp.S.Zero, sp.S.Zero, sp.S.Zero, sp.S.Zero, sp.S.Zero
+        for i, (q, v) in enumerate(zip(c.q, c.v, strict=True)):
+            angle, rate = angle + q, rate + v
+            x, z = x - l * sp.cos(angle) * rate, z + l * sp.sin(angle) * rate
+            L += m * (x**2 + z**2) / 2 + weight * g * l * (4 - i) * sp.cos(angle)
+        return L
+
+    frame, L = Frame(c), sp.S.Zero
+    for q in c.q:
+        frame = frame.turned("y", q)
+        bob, frame = frame.body(m, centre=(0, 0, -l)), frame.moved(0, 0, -l)
+        L = L + bob.kinetic - bob.potential((0, 0, -g))
+    assert System(c, L).same_as(System(c, lagrangian(m))).answer == "zero"
+    assert decide_equal(System(c, L).L, lagrangian(2 * m)).answer == "nonzero"

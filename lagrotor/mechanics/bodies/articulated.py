@@ -135,6 +135,8 @@ def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence
             E = keep.each(U[0] * inverse), keep.each(U[1] * inverse)
             u = [keep(tau[number] - s[0].dot(N) - s[1].dot(F)) for tau, (N, F) in zip(torques, forces[i], strict=True)]
             factors[-1].append(Factor(number, s, E, inverse, u))
+            if parent < 0 and s is joint.columns[-1]:
+                break
             I = _eliminated(I, U, E, s, keep)
             forces[i] = [
                 (keep.each(N + E[0] * x), keep.each(F + E[1] * x)) for (N, F), x in zip(forces[i], u, strict=True)

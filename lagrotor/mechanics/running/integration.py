@@ -1,6 +1,6 @@
 """States of a system at any times: its program compiled, integrated, and brought back onto its constraints."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any, Literal
 
@@ -22,11 +22,12 @@ from lagrotor.mechanics.running.programs import (
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.rhs import rate_factory
-from lagrotor.numerics.taylor import integrate_taylor
+from lagrotor.numerics.taylor import integrate_taylor, taylor_rhs
 
 Array = NDArray[np.float64]
 Engine = Literal["core", "fast"]
 Values = Mapping[Any, Any]
+Rhs = Callable[[float, Array], Any]
 MOST = 10_000_000  # evaluations of one integration
 _CHUNK = 32  # samples between two projections with the fast engine
 
@@ -54,6 +55,22 @@ def states(
 @lru_cache(maxsize=64)
 def rhs_factory(given: Generated) -> Any:
     return rate_factory(given.program, len(given.states))
+
+
+def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
+    """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): for any solver, and the fastest that the engine has.
+
+    engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
+
+    Raises InputError for a value that is missing, and without heyoka.
+    """
+    given = motion_program(system)
+    parameters = parameter_values(given, values)
+    fast = engine == "fast"
+    function = taylor_rhs(given.program, len(given.states), parameters) if fast else rhs_factory(given)(*parameters)
+    if not depends_on_time(system):
+        return function
+    return lambda t, y: function(t, np.append(y, t))[:-1]
 
 
 def _taylor(given: Generated, parameters: Any, start: Array, wanted: Array, tol: float, project: Any) -> Array:

@@ -65,6 +65,36 @@ def test_a_rod_of_multipliers_swings_as_the_angle_does_and_keeps_its_length(engi
     assert run.drift.shape == run.energy.shape == (101,)
 
 
+def test_a_right_hand_side_is_for_any_solver_and_knows_the_time(engine: str) -> None:
+    """A pendulum whose support moves up and down, by scipy's solver and by its equation."""
+    (theta,), (theta_v,) = ANGLE.q, ANGLE.v
+    L = m * l**2 * theta_v**2 / 2 + m * l * (g - A * w**2 * sp.cos(w * t)) * sp.cos(theta)
+    driven = System(ANGLE, L, dissipation=k * theta_v**2 / 2)
+    rhs = driven.rhs(VALUES, engine)
+    for time, y in ((0.3, (0.5, 0.2)), (1.7, (-1.0, 3.0))):
+        pull = 9.81 - 0.1 * 20**2 * np.cos(20 * time)
+        expected = [y[1], -pull / 0.8 * np.sin(y[0]) - 0.2 * y[1] / (1.3 * 0.8**2)]
+        np.testing.assert_allclose(rhs(time, np.array(y)), expected, rtol=1e-13)
+    found = solve_ivp(rhs, (0, 1), (0.5, 0.2), "DOP853", rtol=1e-11, atol=1e-11).y[:, -1]
+    run = driven.simulate(VALUES, (0.5,), (0.2,), (0, 1), 1e-11)
+    np.testing.assert_allclose(found, [run.q[-1, 0], run.v[-1, 0]], atol=1e-8)
+    with pytest.raises(InputError, match="A, k, l, m, omega without a value"):
+        driven.rhs({g: 9.81})
+
+
+@pytest.mark.parametrize("name", ["rate", "bare", "s", "y", "c_0", "y0_", "_0", "d0_", "lambda", "e", "pi", "sin"])
+def test_a_parameter_may_have_any_name(name: str) -> None:
+    """None meets a name of the generated code."""
+    K, (theta,), (theta_v,) = sp.Symbol(name, positive=True), ANGLE.q, ANGLE.v
+    L = K * theta_v**2 / 2 * (1 + sp.sin(theta) ** 2) + K * g * sp.cos(theta)
+    run, other = (
+        System(ANGLE, L.subs(K, s)).simulate({s: 1.7, g: 9.81}, (0.5,), (0.2,), (0, 0.5, 1))
+        for s in (K, sp.Symbol("K"))
+    )
+    assert (run.q == other.q).all() and (run.energy == other.energy).all()
+    np.testing.assert_array_equal(run.evaluate(K * theta), 1.7 * run.q[:, 0])
+
+
 def test_a_start_off_the_constraints_is_refused_with_the_nearest_on_them() -> None:
     with pytest.raises(ConstraintError, match=r"nearest state on them is q0 = \(0\.8, 0\), v0 = \(0, 1\)"):
         rod().simulate(VALUES, (1.0, 0), (0.5, 1), [0, 1])
