@@ -6,10 +6,10 @@
 # **Assumptions.** The paper's step of 1 ms. Its stiffness and damping are $S = 2000(M/n)\omega_s^2$,
 # $D = 500(M/n)\omega_s$ with $n$ and $\omega_s$ not given: n = 20, $\omega_s$ = 10 make them 10⁴ N/m and 250 kg/s (C08).
 #
-# What is measured, and how it is decided: `lagrotor/paper/claims/simulator.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/simulator.py`.
 
 # %%
-from lagrotor.paper.claims.simulator import C03, C04, C05
+from lagrotor.paper.rotor_pair.claims.simulator import C03, C04, C05
 
 # %% [markdown]
 # ## C03: orthogonality

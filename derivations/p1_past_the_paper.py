@@ -10,15 +10,15 @@
 import sympy as sp
 
 from lagrotor.pair.symbols import G, Omega, P, att, nu, p_y, r0
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.theory.drift_after_shock import cancelling_impulse
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.stability import growth_squared
 from lagrotor.theory.toppling import toppling_threshold
 
-_stems = scripts.names("derivations", "t")
-t1, t2, t3, t4, t5, t6, t7, t8, t9, t10 = (scripts.run("derivations", stem) for stem in _stems)
+_stems = PAPER.scripts.names("derivations", "t")
+t1, t2, t3, t4, t5, t6, t7, t8, t9, t10 = (PAPER.scripts.run("derivations", stem) for stem in _stems)
 Omega_0, energy, wander, growth, power = (sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda"))
 
 

@@ -18,8 +18,9 @@ from lagrotor.pair.lagrangians import axis, rotor_lagrangian
 from lagrotor.pair.symbols import I3, ROTOR, J, R, m, omega_1, omega_2
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation, vector
-from lagrotor.paper.premises import Premise, parameter_premise
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.shared_premises import about_parameters
 from lagrotor.paper.stating import verdict
 
 theta, phi, psi = ROTOR.q
@@ -38,7 +39,7 @@ shared = F - m * A
 Formula(shared, r"\vec F_A + \vec F_B")
 
 # %%
-massless_link = parameter_premise("the link is massless, m = 0", {m: 0})
+massless_link = about_parameters("the link is massless, m = 0", {m: 0})
 verdict(
     "2.01",
     shared,

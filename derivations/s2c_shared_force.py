@@ -14,15 +14,16 @@
 import sympy as sp
 
 from lagrotor.pair.symbols import I3, J, R, m, omega_1, omega_2
-from lagrotor.paper import scripts
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, vector
-from lagrotor.paper.premises import EQUAL_SPINS, Premise
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.shared_premises import EQUAL_SPINS
 from lagrotor.paper.stating import verdict
 
-rotors = scripts.run("derivations", "s2a_angular_momentum")
-pair = scripts.run("derivations", "s2b_linear_pair")
+rotors = PAPER.scripts.run("derivations", "s2a_angular_momentum")
+pair = PAPER.scripts.run("derivations", "s2b_linear_pair")
 F, A, shared, massless_link = (rotors[name] for name in ("F", "A", "shared", "massless_link"))
 
 # %% [markdown]

@@ -16,14 +16,14 @@ import sympy as sp
 
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.symbols import ROTOR
-from lagrotor.paper import scripts
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rotation, symmetric, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import verdict
 
-particles = scripts.run("derivations", "s3a_particles")
+particles = PAPER.scripts.run("derivations", "s3a_particles")
 masses, places, velocities, arms, L = (particles[name] for name in ("masses", "places", "velocities", "arms", "L"))
 centre_of_mass = particles["centre_of_mass"]
 theta, phi, psi = ROTOR.q

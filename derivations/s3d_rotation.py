@@ -16,14 +16,14 @@ import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import PAIR, ROTOR
-from lagrotor.paper import scripts
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross_matrix, inverse, rotation, vector
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import verdict
 
-body = scripts.run("derivations", "s3b_rigid_body")
+body = PAPER.scripts.run("derivations", "s3b_rigid_body")
 theta, phi, _ = ROTOR.q
 dt = sp.Symbol("Delta_t", positive=True)
 Omega, L, X_r = map(vector, ("Omega", "L", "X_r"))

@@ -19,8 +19,8 @@ from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
 from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation
-from lagrotor.paper.premises import ABOUT_JOINT, EQUAL_INERTIAS
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.shared_premises import ABOUT_JOINT, EQUAL_INERTIAS
 from lagrotor.paper.stating import verdict
 
 theta, phi, psi = ROTOR.q

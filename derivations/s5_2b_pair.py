@@ -15,12 +15,18 @@ import sympy as sp
 from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.symbols import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
-from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
 from lagrotor.paper.notebook import Remark
-from lagrotor.paper.premises import ABOUT_JOINT, BAR_AS_LONG_AS_ROTORS, MASSLESS_BAR, UNIT_LENGTH, in_parameters
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.shared_premises import (
+    ABOUT_JOINT,
+    BAR_AS_LONG_AS_ROTORS,
+    MASSLESS_BAR,
+    UNIT_LENGTH,
+    in_parameters,
+)
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.paired_precession.series import paired_series
 

@@ -15,13 +15,14 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.mechanics import momenta
 from lagrotor.pair.lagrangians import ansatz_integrals, axis, pair_with_bar
 from lagrotor.pair.symbols import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
-from lagrotor.paper import audit
-from lagrotor.paper.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate as moving
 from lagrotor.paper.notebook import Remark
-from lagrotor.paper.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, Premise
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import prove
+from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.shared_premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
 
@@ -46,7 +47,7 @@ prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two 
 # under no premise; it must then give back $\dot\phi$.
 
 # %%
-on_pair = {s.id: s for s in audit.statements("s5_2c_first_integrals")}
+on_pair = {s.id: s for s in PAPER.stated("s5_2c_first_integrals")}
 massless = natural_rate(Scene(spins=(10, -10)))
 heavy = natural_rate(Scene(spins=(10, -10), link=Link(mass=1, inertia=1)))
 verdict(
@@ -63,8 +64,8 @@ verdict(
     ],
     written=form(
         "(2*A - B*(cos(theta_1) + cos(theta_2)))/(I_3*(4 - (cos(theta_1) + cos(theta_2))**2))",
-        A=on_pair["5.12"].relations[0].derived,
-        B=on_pair["5.13"].relations[0].derived,
+        A=on_pair["5.12"].derived["A"],
+        B=on_pair["5.13"].derived["B"],
     ),
 )
 

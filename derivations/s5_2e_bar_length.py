@@ -15,12 +15,13 @@ import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
 from lagrotor.pair.symbols import ANSATZ, PAIR, R, ell, r0, theta_0
-from lagrotor.paper.ansatz_premises import one_inclination, opposite_azimuths
-from lagrotor.paper.claims.precession_runs import PAPER_R0
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
-from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH, Premise
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import prove
+from lagrotor.paper.rotor_pair.ansatz_premises import one_inclination, opposite_azimuths
+from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0
+from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH
 from lagrotor.paper.stating import verdict
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q

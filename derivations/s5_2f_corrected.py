@@ -18,10 +18,10 @@ from lagrotor import Scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
-from lagrotor.paper.claims.precession_runs import PAPER_R0
 from lagrotor.paper.form import form
-from lagrotor.paper.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0
+from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency

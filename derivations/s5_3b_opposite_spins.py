@@ -40,8 +40,9 @@ from lagrotor.pair.symbols import (
 )
 from lagrotor.paper.form import form
 from lagrotor.paper.notebook import Remark
-from lagrotor.paper.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, Premise, in_parameters
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency

@@ -18,7 +18,8 @@ from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
 from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
 from lagrotor.paper.form import form
 from lagrotor.paper.notebook import Remark
-from lagrotor.paper.premises import (
+from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.rotor_pair.shared_premises import (
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,
     PAPERS_ROTOR,
@@ -27,7 +28,6 @@ from lagrotor.paper.premises import (
     TWO_MODES,
     in_parameters,
 )
-from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency

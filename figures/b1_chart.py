@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.drawing.style import OKABE_ITO
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 # Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.
 LOOKS = {
@@ -39,7 +39,7 @@ ALT = (
 @cache
 def data() -> dict[str, np.ndarray]:
     """Errors (m) and evaluations (9, 11), NaN where a method failed; errors (11,) of the closed form; front (n, 2); floor."""
-    made = scripts.run("derivations", "b1_chart")
+    made = PAPER.scripts.run("derivations", "b1_chart")
     found, tolerances = made["found"], made["TOLERANCES"]
     errors, evaluations = np.full((2, len(LOOKS), len(tolerances)), np.nan)
     closed = np.full(len(tolerances), np.nan)

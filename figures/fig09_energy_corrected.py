@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from lagrotor import simulate
 from lagrotor.drawing.style import EXACT, MODEL
 from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.shocked_runs import paper_run
+from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"

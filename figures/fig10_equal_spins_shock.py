@@ -15,7 +15,7 @@ from lagrotor.drawing.style import EXACT, MODEL, OKABE_ITO
 from lagrotor.models.spring_link.run import paper_system
 from lagrotor.models.spring_link.system import step_limit
 from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.shocked_runs import paper_run, pulse
+from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
 
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, simulate
 from lagrotor.drawing.style import CORRECTED, EXACT, PAPER, with_residual
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.paper.printed_curves import ansatz_axes, paper_axes, series_axes
+from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes, paper_axes, series_axes
 from lagrotor.pictures.panels import over_one_turn
 
 R0, TOL = 0.204, 1e-11

@@ -14,7 +14,7 @@ from lagrotor import Scene, natural_rate, simulate
 from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
-from lagrotor.paper.shocked_runs import paper_run
+from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 BARS = {"heavy": HEAVY, "light": LIGHT}

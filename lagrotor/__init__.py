@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.precession import paired_scene, precession_orbit
     from lagrotor.models.simulate import simulate
     from lagrotor.pair.initial_conditions import consistent_scene
-    from lagrotor.paper.audit import audit
+    from lagrotor.paper.papers import Paper
+    from lagrotor.paper.rotor_pair.own_paper import audit
     from lagrotor.structures.assembly import Brace
     from lagrotor.structures.structure import Structure
     from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
@@ -24,7 +25,8 @@ if TYPE_CHECKING:
 _LATER = {
     "Brace": "lagrotor.structures.assembly",
     "Structure": "lagrotor.structures.structure",
-    "audit": "lagrotor.paper.audit",
+    "Paper": "lagrotor.paper.papers",
+    "audit": "lagrotor.paper.rotor_pair.own_paper",
     "cancelling_force": "lagrotor.theory.drift_after_shock",
     "consistent_scene": "lagrotor.pair.initial_conditions",
     "floquet": "lagrotor.models.orbits.floquet",
@@ -41,6 +43,7 @@ _LATER = {
 __all__ = [
     "Brace",
     "Link",
+    "Paper",
     "Rotor",
     "Scene",
     "Shock",

@@ -29,6 +29,10 @@ class ProofError(LagrotorError, AssertionError):
     """A step of a derivation that does not hold, or that cannot be decided."""
 
 
+class ScriptError(LagrotorError):
+    """A script of a paper that fails: the message names its file and line."""
+
+
 class SingularError(LagrotorError, ArithmeticError):
     """Coordinates or constraints that are singular at this state."""
 

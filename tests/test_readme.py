@@ -47,10 +47,10 @@ def test_the_shell_commands_are_understood(capsys: pytest.CaptureFixture[str], t
 
 
 def test_the_table_of_verdicts_is_the_record() -> None:
-    from lagrotor.paper.record import recorded
+    from lagrotor.paper.rotor_pair.own_paper import PAPER
 
     for kind, pattern in (("equations", r"\d"), ("claims", "C")):
-        counts = Counter(row.verdict for name, row in recorded().items() if re.match(pattern, name))
+        counts = Counter(row.verdict for name, row in PAPER.recorded.items() if re.match(pattern, name))
         said = re.search(rf"\| {kind} \| (.*) \|", text())
         assert said, kind
         assert said[1] == ", ".join(f"{n} {verdict}" for verdict, n in counts.most_common())

@@ -1,13 +1,20 @@
-"""The commands about the paper: reproduce, audit, claims, figure. Exit status 1 when a verdict is not as recorded."""
+"""The commands about a paper: init, reproduce, audit, claims, figure. Exit status 1 when a verdict is not as recorded.
+
+Without --paper they are about the paper that lagrotor was written for.
+"""
 
 import argparse
 from collections import Counter
 from collections.abc import Collection
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lagrotor.commands.options import Command, check_folder
 from lagrotor.commands.terminal import progress, say, table, wrapped
 from lagrotor.errors import InputError
+
+if TYPE_CHECKING:
+    from lagrotor.paper.papers import Paper
 
 
 def add_paper_commands(command: Command) -> None:
@@ -18,35 +25,52 @@ def add_paper_commands(command: Command) -> None:
         "judge every equation, draw every figure, write the report",
         "lagrotor reproduce --out report",
     )
+    _add_paper(added)
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
     added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
     added.description = "Judge the paper's equations. For single ids only their own derivations run."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
+    _add_paper(added)
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+    added.add_argument("--record", action="store_true", help="put the verdicts on record, once they have been read")
 
     added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
+    _add_paper(added)
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
+    added.add_argument("--record", action="store_true", help="put the outcomes on record, once they have been read")
 
     added = command("figure", figure_command, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
-    added.add_argument(
-        "keys", nargs="+", metavar="N", help="the paper's figure number, or the name of another: t1 to t10, b1, m1"
-    )
+    added.add_argument("keys", nargs="+", metavar="N", help="a figure's number, or letter and number, such as t6")
+    _add_paper(added)
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
 
+def _add_paper(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--paper", type=Path, metavar="DIR", help="a paper's folder (default: the rotor pair's)")
+
+
+def _paper(given: argparse.Namespace) -> "Paper":
+    if given.paper is None:
+        from lagrotor.paper.rotor_pair.own_paper import PAPER
+
+        return PAPER
+    from lagrotor.paper.papers import opened
+
+    return opened(given.paper.resolve())
+
+
 def reproduce_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.record import recorded
     from lagrotor.report.content import counted
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce
 
-    made = reproduce(given.out, progress, given.jobs)
+    paper = _paper(given)
+    made = reproduce(paper, given.out, progress, given.jobs)
     page = given.out / "index.html"
-    judged = sum(made.equations.values())
-    print(f"{judged} equations judged: {counted(made.equations) or 'none'}; {made.waiting} not yet judged")
+    print(f"{sum(made.equations.values())} equations: {counted(made.equations) or 'none'}")
     if made.claims:
         print(f"{sum(made.claims.values())} claims tried: {counted(made.claims)}")
     if made.taken == ["report"]:
@@ -58,33 +82,43 @@ def reproduce_command(given: argparse.Namespace) -> int:
     print(f"{made.figures} figures; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
-    return _compared(made.changes, bool(recorded()))
+    return _compared(made.changes, bool(paper.recorded))
 
 
 def audit_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper import audit, scripts
-    from lagrotor.paper.catalogue import equations
-    from lagrotor.paper.record import changes, recorded
-    from lagrotor.report.content import note, word
+    from lagrotor.paper import verdict_text
+    from lagrotor.paper.audit import NOT_YET
+    from lagrotor.report.content import counted, note, word
 
-    identifiers = [_known(identifier, equations()) for identifier in given.ids]
-    with progress(len(identifiers) or len(scripts.names("derivations", "s"))) as step:
-        shown = [audit.audit(i, step) for i in identifiers] if identifiers else list(audit.audit(progress=step))
+    paper = _paper(given)
+    identifiers = [_known(identifier, paper.equations) for identifier in given.ids]
+    with progress(len(identifiers) or len(paper.stating_scripts)) as step:
+        found = None if identifiers else paper.audit(progress=step)
+        shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
+    waiting = found.waiting if found is not None else ()
     if given.json:
-        print(audit.to_json(shown))
+        print(verdict_text.to_json(shown, paper, waiting))
     elif identifiers:
-        print("\n\n".join(map(audit.in_words, shown)))
+        print("\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown))
     else:
-        rows = [(v.id, word(v.verdict), ": ".join(filter(None, (equations()[v.id].title, note(v))))) for v in shown]
+        titles = {i: entry.title for i, entry in paper.equations.items()}
+        rows = [(v.id, word(v.verdict), ": ".join(filter(None, (titles[v.id], note(v))))) for v in shown]
+        rows += [(i, word(NOT_YET), titles[i]) for i in waiting]
         print(table(("id", "verdict", "equation: order, premises"), rows))
-    on_record = recorded()
-    return _compared(changes({v.id: v.verdict for v in shown}, on_record, identifiers or equations()), bool(on_record))
+        if found is not None and waiting:
+            say(f"{len(found.ids)} equations: {counted(found.counts)}", 0)
+    if given.record:
+        return say(f"put on record in {paper.renew_record(shown)}", 0)
+    changes = paper.changes({v.id: v.verdict for v in shown}, identifiers or paper.equations)
+    return _compared(changes, bool(paper.recorded))
 
 
 def _known(identifier: str, ids: Collection[str]) -> str:
     """An id that the paper has. Raises InputError that names near ones: 5.1 may be 5.01 or 5.10."""
     if identifier in ids:
         return identifier
+    if not ids:
+        raise InputError(f"{identifier!r} is not in the catalogue: it is empty")
     section, _, place = identifier.rpartition(".")
     near = [i for i in (f"{section}.0{place}", f"{section}.{place}0", f"C{identifier.lstrip('Cc'):0>2}") if i in ids]
     first, last = next(iter(ids)), list(ids)[-1]
@@ -94,33 +128,37 @@ def _known(identifier: str, ids: Collection[str]) -> str:
 
 def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import claim_tests
-    from lagrotor.paper.catalogue import claims
-    from lagrotor.paper.record import changes, recorded
     from lagrotor.report.content import word
 
-    wanted = frozenset(_known(identifier, claims()) for identifier in given.ids) or frozenset(claims())
+    paper = _paper(given)
+    wanted = frozenset(_known(identifier, paper.claims) for identifier in given.ids) or frozenset(paper.claims)
     with progress(len(wanted)) as step:
-        results = claim_tests.evaluate(step, wanted)
+        results = paper.evaluate(step, wanted)
     if given.json:
-        print(claim_tests.to_json(results))
+        print(claim_tests.to_json(results, paper.claims))
     else:
         for result in results:
             identifier, finding = result.test.id, result.finding
-            print(wrapped(f"{identifier}  {claims()[identifier].text}", 5))
+            print(wrapped(f"{identifier}  {paper.claims[identifier].text}", 5))
             print(wrapped(f"     {word(finding.outcome)}: {finding.explanation}", 5), end="\n\n")
-    on_record = recorded()
-    return _compared(changes({r.test.id: r.finding.outcome for r in results}, on_record, wanted), bool(on_record))
+    if untested := sorted(wanted - {result.test.id for result in results}):
+        say(f"not yet tested: {', '.join(untested)}", 0)
+    if given.record:
+        return say(f"put on record in {paper.renew_record(results)}", 0)
+    changes = paper.changes({r.test.id: r.finding.outcome for r in results}, [i for i in paper.claims if i in wanted])
+    return _compared(changes, bool(paper.recorded))
 
 
 def figure_command(given: argparse.Namespace) -> int:
     from lagrotor.pictures.figures import check_keys, draw
 
     check_folder(given.out)
-    keys = check_keys(given.keys)
+    scripts = _paper(given).scripts
+    keys = check_keys(given.keys, scripts)
     with progress(len(keys)) as step:
         for key in keys:
             step(f"figure {key}")
-            picture = draw(key, given.out)
+            picture = draw(key, given.out, scripts)
             print(picture.svg, picture.png, sep="\n")
     return 0
 

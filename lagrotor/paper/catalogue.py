@@ -1,26 +1,24 @@
-"""The scope of the audit as data: every equation, claim and figure of the paper, in its order."""
+"""The scope of an audit as data: every equation, claim and figure of a paper, in its order, and the letters it is written in."""
 
 import re
-import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper.folder_modules import importable
+from lagrotor.paper.title_page import TitlePage, row, title_page, toml
 
-_FOLDER = Path(__file__).parent
-# The paper's headings over its equations.
-SECTIONS = {
-    "2": "Preliminary analysis",
-    "3": "Rigid body simulation",
-    "4": "Modeling and validation",
-    "5.2": "Free precessions of the anti-spin rotor pair",
-    "5.2.1": "Confirmation of theory",
-    "5.3": "Natural precession rate of the coupled oscillators",
-    "6": "Conclusion",
-}
+if TYPE_CHECKING:
+    from lagrotor.paper.letters import Letters
+
+Row = TypeVar("Row", bound="Equation | Claim | Figure")
+_CLAIM = re.compile(r"C\d+")
 
 
 @dataclass(frozen=True)
@@ -54,56 +52,12 @@ class Equation:
     section: str
     title: str
     latex: str
-    number: int | None = None
+    number: int | str | None = None
     line: tuple[Mapping[str, Any], ...] = ()
     reading: str = ""
     letters: Mapping[str, str] = field(default_factory=dict)
     refers: Mapping[str, str] = field(default_factory=dict)
     measured: bool = False
-
-    @property
-    def declared(self) -> dict[str, Any]:
-        """The letters that the equation's section has besides the glossary's, by name."""
-        from lagrotor.paper.letters import declared
-
-        return declared(_letters(self.section))
-
-    @cached_property
-    def lines(self) -> tuple[Line, ...]:
-        """The printed lines as expressions. Raises InputError where one cannot be read."""
-        from lagrotor.paper.letters import read
-
-        names = self.declared
-        for letter, meaning in self.letters.items():
-            names[letter] = read(meaning, names, f"equation {self.id}, letter {letter}")
-        return tuple(_line(row, names, f"equation {self.id}") for row in self.line)
-
-
-def _line(row: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
-    from lagrotor.paper.letters import components, read
-
-    def read_off(digits: str) -> Any:
-        number = read(digits, {}, where)
-        return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
-
-    scene = [(read(name, names, where), read(value, names, where)) for name, value in row.get("scene", {}).items()]
-    return Line(
-        quantity=row["quantity"],
-        members=tuple(read(member, names, where) for member in row.get("members", ())),
-        order=row.get("order", 0),
-        small=read(row["small"], names, where) if "small" in row else None,
-        within=read_off(row["read_off"]) if "read_off" in row else None,
-        scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
-        names=row.get("names", False),
-    )
-
-
-@cache
-def _letters(section: str) -> Mapping[str, str]:
-    """The letters that a section has besides the glossary's, kind → names."""
-    with (_FOLDER / "equations.toml").open("rb") as file:
-        found: Mapping[str, str] = tomllib.load(file).get("letters", {}).get(section, {})
-    return found
 
 
 @dataclass(frozen=True)
@@ -132,37 +86,162 @@ class Figure:
     shows: str
     equations: tuple[str, ...] = ()
 
-
-def _rows(name: str, key: str) -> list[dict[str, Any]]:
-    with (_FOLDER / f"{name}.toml").open("rb") as file:
-        rows = tomllib.load(file)[key]
-    return [{name: tuple(value) if isinstance(value, list) else value for name, value in row.items()} for row in rows]
-
-
-@cache
-def equations() -> dict[str, Equation]:
-    """Every equation by id, in the paper's order."""
-    return {row["id"]: Equation(**row) for row in _rows("equations", "equation")}
+    @property
+    def id(self) -> int:
+        """Its number."""
+        return self.number
 
 
-@cache
-def claims() -> dict[str, Claim]:
-    """Every claim by id, in the paper's order."""
-    return {row["id"]: Claim(**row) for row in _rows("claims", "claim")}
+def is_claim(identifier: str) -> bool:
+    """Whether an id is that of a claim, C and a number, not that of an equation."""
+    return _CLAIM.fullmatch(identifier) is not None
 
 
-@cache
-def figures() -> dict[int, Figure]:
-    """Every figure by number."""
-    return {row["number"]: Figure(**row) for row in _rows("figures", "figure")}
+@dataclass(frozen=True)
+class Catalogue:
+    """What a paper's folder says: `paper.toml`, `equations.toml`, and, where there are any, claims, figures, symbols.
+
+    Raises InputError, with the file and the id, for a folder without `paper.toml`, an id given twice, a section or an
+    equation that the paper does not have, a key that means nothing. The printed lines are read when they are used.
+    """
+
+    folder: Path
+    modules: dict[str, ModuleType] = field(default_factory=dict, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "folder", Path(self.folder).resolve())
+        for problem in self._problems():
+            raise InputError(problem)
+
+    @cached_property
+    def about(self) -> TitlePage:
+        """The whole of `paper.toml`."""
+        return title_page(self.folder)
+
+    @property
+    def title(self) -> str:
+        """The paper's title."""
+        return self.about.title
+
+    @cached_property
+    def equations(self) -> dict[str, Equation]:
+        """Every equation by id, in the paper's order."""
+        return self._rows("equations", "equation", Equation)
+
+    @cached_property
+    def claims(self) -> dict[str, Claim]:
+        """Every claim by id, in the paper's order."""
+        return self._rows("claims", "claim", Claim) if (self.folder / "claims.toml").is_file() else {}
+
+    @cached_property
+    def figures(self) -> dict[int, Figure]:
+        """Every figure by number."""
+        return self._rows("figures", "figure", Figure) if (self.folder / "figures.toml").is_file() else {}
+
+    @property
+    def data(self) -> list[Path]:
+        """The files that every verdict rests on: the TOML files and the letters."""
+        return sorted(file for file in self.folder.iterdir() if file.suffix == ".toml" or file.name == "symbols.py")
+
+    @cached_property
+    def _equations_toml(self) -> dict[str, Any]:
+        return toml(self.folder / "equations.toml")
+
+    def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
+        file = self.folder / f"{name}.toml"
+        given = self._equations_toml if name == "equations" else toml(file)
+        found: dict[Any, Row] = {}
+        for each in given.get(key, []):
+            where = f"{file}: {key} {each.get('id', each.get('number', '?')) if isinstance(each, dict) else '?'}"
+            read: Row = row(kind, each, where)
+            if read.id in found:
+                raise InputError(f"{where}: the id is given twice")
+            found[read.id] = read
+        return found
+
+    def _problems(self) -> Iterator[str]:
+        """What does not fit together, one sentence each."""
+        file, sections = self.folder / "paper.toml", self.about.sections
+        for name, rows in (("equations", self.equations), ("claims", self.claims), ("figures", self.figures)):
+            for entry in rows.values():
+                where = f"{self.folder / name}.toml: {entry.id}"
+                if name == "equations" and entry.section not in sections:
+                    yield f"{where}: section {entry.section!r} is not among the sections of {file}"
+                if (name == "claims") != is_claim(str(entry.id)):
+                    yield f"{where}: ids of claims, and only these, are C and a number"
+                named = entry.refers.values() if isinstance(entry, Equation) else entry.equations
+                yield from (f"{where}: there is no equation {other}" for other in named if other not in self.equations)
+        yield from (f"{file}: results: there is no equation {i}" for i in self.about.results if i not in self.equations)
+
+    def equation(self, identifier: str) -> Equation:
+        """One equation; refuses an id that the paper does not have."""
+        if identifier in self.equations:
+            return self.equations[identifier]
+        ids = list(self.equations)
+        known = f"ids run from {ids[0]} to {ids[-1]}" if ids else "it has no equations yet"
+        raise InputError(f"equation {identifier!r} is not in the catalogue: {known}")
+
+    def importable(self) -> Any:
+        """A context in which modules of the paper's folder can be imported by their names."""
+        return importable(self.folder, self.modules)
+
+    @cached_property
+    def _symbols(self) -> ModuleType | None:
+        """The module `symbols` of the folder; it defines GLOSSARY, and may define FUNCTIONS, LATEX, WRITTEN_OUT."""
+        if not (self.folder / "symbols.py").is_file():
+            return None
+        with self.importable():
+            try:
+                return import_module("symbols")
+            except Exception as error:
+                raise InputError(f"{self.folder / 'symbols.py'}: {type(error).__name__}: {error}") from error
+
+    @property
+    def glossary(self) -> Glossary:
+        """The paper's letters with meanings and units."""
+        return getattr(self._symbols, "GLOSSARY", None) or Glossary()
+
+    @property
+    def written_out(self) -> Mapping[Any, Any]:
+        """Letters that stand for expressions in others; they are written out before the values of a scene are put in."""
+        return getattr(self._symbols, "WRITTEN_OUT", {})
+
+    def letters(self, section: str) -> "Letters":
+        """What the printed lines of a section are written in, besides the functions of every paper."""
+        from lagrotor.paper.letters import Letters, declared
+
+        own = {symbol.name: symbol for symbol in self.glossary}
+        given = self._equations_toml.get("letters", {}).get(section, {})
+        names = {**own, **getattr(self._symbols, "FUNCTIONS", {}), **declared(given)}
+        return Letters(names, getattr(self._symbols, "LATEX", {}))
+
+    def lines(self, identifier: str) -> tuple[Line, ...]:
+        """The printed lines of an equation as expressions. Raises InputError where one cannot be read."""
+        from lagrotor.paper.letters import read
+
+        entry = self.equation(identifier)
+        names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"
+        for letter, meaning in entry.letters.items():
+            names[letter] = read(meaning, names, f"{where}, letter {letter}")
+        return tuple(_line(each, names, where) for each in entry.line)
 
 
-def equation(identifier: str) -> Equation:
-    """One equation; refuses an id that the paper does not have."""
-    try:
-        return equations()[identifier]
-    except KeyError:
-        raise InputError(
-            f"equation {identifier!r} is not in the catalogue: ids run from {next(iter(equations()))} "
-            f"to {next(reversed(equations()))}"
-        ) from None
+def _line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
+    from lagrotor.paper.letters import components, read
+
+    def read_off(digits: str) -> Any:
+        number = read(digits, {}, where)
+        return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
+
+    if "quantity" not in given:
+        raise InputError(f"{where}: a line has no quantity: say in LaTeX what it is about")
+    scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
+    return Line(
+        quantity=given["quantity"],
+        members=tuple(read(member, names, where) for member in given.get("members", ())),
+        order=given.get("order", 0),
+        small=read(given["small"], names, where) if "small" in given else None,
+        within=read_off(given["read_off"]) if "read_off" in given else None,
+        scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
+        names=given.get("names", False),
+    )

@@ -6,13 +6,12 @@ contradicts the claim, and must then come out otherwise.
 
 import json
 import time
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-from lagrotor.paper import scripts
-from lagrotor.paper.catalogue import claims
+from lagrotor.paper.catalogue import Claim
 from lagrotor.paper.tables import Table
 
 Outcome = Literal["confirmed", "confirmed-if", "refuted"]
@@ -96,8 +95,7 @@ class ClaimTest:
     def _repr_html_(self) -> str:
         finding = self.result.finding
         rows = tuple((part.says, part.outcome) for part in finding.parts)
-        title = f"{self.id}: {claims()[self.id].text}"
-        return Table(title, ("part of the claim", finding.outcome), rows, finding.explanation)._repr_html_()
+        return Table(self.id, ("part of the claim", finding.outcome), rows, finding.explanation)._repr_html_()
 
 
 @dataclass(frozen=True)
@@ -110,28 +108,8 @@ class Result:
     seconds: float
 
 
-def claim_tests() -> dict[str, ClaimTest]:
-    """Every test that a script shows, by claim, in the paper's order. Nothing is run."""
-    found: dict[str, ClaimTest] = {}
-    for stem in scripts.names("derivations", "c"):
-        found |= {test.id: test for test in scripts.executed("derivations", stem).shown(ClaimTest)}
-    return {identifier: found[identifier] for identifier in claims() if identifier in found}
-
-
-def evaluate(progress: Callable[[str], None] | None = None, wanted: Collection[str] | None = None) -> list[Result]:
-    """Every claim (or the wanted ones) in the paper's order; `progress` gets each claim's id before its run."""
-    results = []
-    for identifier, test in claim_tests().items():
-        if wanted is None or identifier in wanted:
-            if progress:
-                progress(f"claim {identifier}")
-            results.append(test.result)
-    return results
-
-
-def record(result: Result) -> dict[str, Any]:
+def as_data(result: Result, entry: Claim) -> dict[str, Any]:
     """One claim as the JSON object of `lagrotor claims --json`."""
-    entry = claims()[result.test.id]
     return {
         "id": entry.id,
         "section": entry.section,
@@ -146,6 +124,6 @@ def record(result: Result) -> dict[str, Any]:
     }
 
 
-def to_json(results: list[Result]) -> str:
+def to_json(results: Iterable[Result], claims: Mapping[str, Claim]) -> str:
     """All claims as a JSON list."""
-    return json.dumps([record(r) for r in results], indent=1, ensure_ascii=False)
+    return json.dumps([as_data(r, claims[r.test.id]) for r in results], indent=1, ensure_ascii=False)

@@ -1,5 +1,6 @@
 """A result as a physicist writes it: one text in vectors and sums gives both its LaTeX and its components."""
 
+import inspect
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,10 +10,10 @@ import sympy as sp
 from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
 from lagrotor.errors import InputError
-from lagrotor.pair.symbols import GLOSSARY, latex, light
-from lagrotor.paper.letters import read, scalars
+from lagrotor.mechanics.glossary import latex, light
+from lagrotor.paper.letters import Letters, read
 
-# How many particles, bodies or rotors a sum runs over where the derivation does not say.
+# How many particles or bodies a sum runs over where the derivation does not say.
 _MANY = 3
 _CONSTANTS = ("pi", "sqrt", "sin", "cos", "tan", "exp", "Integer", "Rational", "Float")
 
@@ -21,7 +22,7 @@ _CONSTANTS = ("pi", "sqrt", "sin", "cos", "tan", "exp", "Integer", "Rational", "
 class Form:
     """`text` in the letters of a section and `letters`, whose values are components; `tex` and `value` are read off it.
 
-    Besides what a printed line may call, cross(u, v), dot(u, v), axis(theta, phi) …: transpose(A), and sum_i(…), the sum over
+    Besides what a printed line may call, cross(u, v), dot(u, v) …: transpose(A), and sum_i(…), the sum over
     i = 1 … `many`, in which X_i is X_1, X_2, …. tex: names → LaTeX where the letter alone does not say it, such as
     {"n": r"\\hat\\Omega"}. series: the power of what is small from which on terms are left out, in LaTeX.
     """
@@ -32,21 +33,22 @@ class Form:
     many: int = _MANY
     rest: str = ""
 
-    def value(self, declared: Mapping[str, Any]) -> Any:
+    def value(self, section: Letters) -> Any:
         """The components, with the section's letters. Raises InputError where the text cannot be read."""
         calls = {"transpose": lambda A: A.T}
-        return read(_expanded(self.text, self.many), {**declared, **calls, **self.letters}, "form")
+        return read(_expanded(self.text, self.many), {**section.names, **calls, **self.letters}, "form")
 
-    def tex(self, declared: Mapping[str, Any]) -> str:
+    def tex(self, section: Letters) -> str:
         """The text as LaTeX: vectors with arrows, sums as sums, in the order in which it is written."""
-        known = {**scalars(), **declared, **self.letters}
-        calls: dict[str, Any] = {each.__name__: each for each in (cross, dot, norm, axis, sum_i, transpose, column)}
-        local: dict[str, Any] = dict(calls)
+        known, written = {**section.names, **self.letters}, {**section.latex, **self.names}
+        calls: dict[str, Any] = {each.__name__: each for each in (cross, dot, norm, sum_i, transpose, column)}
+        own = {name for name, value in known.items() if name in written and inspect.isfunction(value)}
+        local: dict[str, Any] = calls | {name: _named_function(name, written[name]) for name in own}
         symbols: dict[sp.Symbol, str] = {}
         for name in set(re.findall(r"[A-Za-z_]\w*", self.text)) - set(local) - set(_CONSTANTS):
             kind = known.get(name, known.get(re.sub(r"_i(?=_|$)", "_1", name)))
             local[name] = sp.Symbol(name, commutative=not isinstance(kind, sp.MatrixBase))
-            symbols[local[name]] = self.names.get(name) or _name(name, kind)
+            symbols[local[name]] = written.get(name) or _name(name, kind)
         made = parse_expr(
             self.text,
             local_dict=local,
@@ -54,8 +56,8 @@ class Form:
             transformations=(auto_number, rationalize),
             evaluate=False,
         )
-        written = light(sp.latex(made, symbol_names=symbols, order="none", long_frac_ratio=2))
-        return written + (f" + O({self.rest})" if self.rest else "")
+        shown = light(sp.latex(made, symbol_names=symbols, order="none", long_frac_ratio=2))
+        return shown + (f" + O({self.rest})" if self.rest else "")
 
 
 def form(text: str, names: Mapping[str, str] | None = None, many: int = _MANY, rest: str = "", **letters: Any) -> Form:
@@ -80,7 +82,7 @@ def _expanded(text: str, many: int) -> str:
 
 def _name(name: str, kind: Any) -> str:
     """The LaTeX of a letter: an arrow on a vector, a hat on hat_r, a dot on r_dot."""
-    if isinstance(kind, sp.Symbol) and kind.name == name and (kind in GLOSSARY or not name.startswith("Delta_")):
+    if isinstance(kind, sp.Symbol) and kind.name == name and not name.startswith("Delta_"):
         return latex(kind)
     if name.startswith("Delta_"):
         return rf"\Delta {name[6:]}"
@@ -124,11 +126,9 @@ class norm(sp.Function):  # type: ignore[misc]  # noqa: N801
         return rf"\left\|{printer._print(self.args[0])}\right\|" + (f"^{{{exp}}}" if exp else "")
 
 
-class axis(sp.Function):  # type: ignore[misc]  # noqa: N801
-    """The unit vector of an inclination and an azimuth."""
-
-    def _latex(self, printer: Any, exp: Any = None) -> str:
-        return r"\hat{r}"
+def _named_function(name: str, tex: str) -> Any:
+    """A function whose values are written as one letter, such as the unit vector of an axis."""
+    return type(name, (sp.Function,), {"_latex": lambda self, printer, exp=None: tex})
 
 
 class transpose(sp.Function):  # type: ignore[misc]  # noqa: N801

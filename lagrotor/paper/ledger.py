@@ -1,8 +1,8 @@
 """The ledger: it holds what the paper prints, is given what was derived and what was assumed, and decides.
 
-A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. `judge` tries the
+A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. `decide` tries the
 premises, fewest first, on both sides at once, and decides by exact identity or by the order of the first term that differs;
-nothing else can.
+nothing else can. `judge` does the same for a printed expression by itself.
 """
 
 import time
@@ -14,10 +14,11 @@ import sympy as sp
 
 from lagrotor.algebra import Decision, agreement_order, decide_equal
 from lagrotor.errors import InputError, NotExactError
-from lagrotor.pair.symbols import GLOSSARY
-from lagrotor.paper.catalogue import equation
-from lagrotor.paper.premises import Premise, subsets
-from lagrotor.paper.tables import Cell, Table
+from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper.letters import read
+from lagrotor.paper.premises import Given, Premise, premises_of, subsets
+from lagrotor.paper.readable import readable
+from lagrotor.paper.tables import Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
@@ -60,7 +61,7 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 
 @dataclass(frozen=True)
 class Statement:
-    """What one equation of the paper is held to.
+    """What one equation of a paper is held to; id: its id, empty where it belongs to none; title: what it is about.
 
     relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
     correction: what should stand there, as relations of their own. wrong: what is wrong, in a line. names: the line only
@@ -77,15 +78,11 @@ class Statement:
     measured: bool = False
     depends_on: tuple[str, ...] = ()
     evidence: tuple[str, ...] = ()
+    title: str = ""
 
     def __post_init__(self) -> None:
-        for identifier in (self.id, *self.depends_on):
-            equation(identifier)
         if not self.relations and not self.names:
             raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
-
-    def _repr_html_(self) -> str:
-        return verdict_table([judge(self)])._repr_html_()
 
 
 @dataclass(frozen=True)
@@ -117,6 +114,10 @@ class Verdict:
         """The premises as one sentence; None where nothing was assumed."""
         return "; ".join(premise.sentence for premise in self.premises) or None
 
+    def __repr__(self) -> str:
+        head, decided, why = _row(self)
+        return "\n  ".join((f"{head}: {decided[0]}", *decided[1:], *why))
+
     def _repr_html_(self) -> str:
         return verdict_table([self])._repr_html_()
 
@@ -126,11 +127,12 @@ def verdict_table(verdicts: Iterable[Verdict]) -> Table:
     return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
 
 
-def _row(v: Verdict) -> tuple[Cell, ...]:
-    order = f"through order {v.order} in {v.small}" if v.verdict == "holds-to-order" else ""
+def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
+    order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
-    decided = tuple(filter(None, (v.verdict, *(p.sentence for p in v.premises), order, corrected)))
-    return f"{v.id}: {equation(v.id).title}", decided, tuple(filter(None, (v.statement.wrong, *v.evidence)))
+    decided = (v.verdict, *(p.sentence for p in v.premises), order, corrected)
+    named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
+    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence)))
 
 
 @dataclass(frozen=True)
@@ -145,15 +147,31 @@ class _Finding:
 _AGREES = ("holds", "holds-to-order")
 
 
-def judge(statement: Statement) -> Verdict:
-    """Decide a statement; the correction, where there is one, by the same rules."""
+def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
+    """One printed expression held against a derived one: `judge("m*g*l*sin(theta)", derived).verdict`.
+
+    printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`. given: what may be
+    assumed, as premises or as a substitution {J: I_3}. small, order: where equality is claimed through small**order only.
+    Raises InputError for text that cannot be read.
+    """
+    right, premises = sp.sympify(derived), premises_of(given)
+    if isinstance(printed, str):
+        sides = [sp.sympify(side) for premise in premises for pair in premise.put.items() for side in pair]
+        letters = {s.name: s for side in (right, *sides, *filter(None, [small])) for s in side.free_symbols}
+        printed = read(printed, letters, "judge")
+    return decide(Statement("", (Relation(sp.sympify(printed), right, small, order),), premises))
+
+
+def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
+    """Decide a statement; the correction, where there is one, by the same rules. glossary: what its letters mean."""
     began = time.perf_counter()
-    answer, finding, used = _decided(statement.relations, statement)
+    meanings = Glossary() if glossary is None else glossary
+    answer, finding, used = _decided(statement.relations, statement, meanings)
     if statement.measured and finding.answer in _AGREES:
         answer = "measured"
     corrected: Answer | None = None
     if statement.correction:
-        corrected, _, granted = _decided(statement.correction, statement)
+        corrected, _, granted = _decided(statement.correction, statement, meanings)
         used = granted if answer == "refuted" else used
     return Verdict(
         statement=statement,
@@ -168,7 +186,9 @@ def judge(statement: Statement) -> Verdict:
     )
 
 
-def _decided(relations: tuple[Relation, ...], statement: Statement) -> tuple[Answer, _Finding, tuple[Premise, ...]]:
+def _decided(
+    relations: tuple[Relation, ...], statement: Statement, glossary: Glossary
+) -> tuple[Answer, _Finding, tuple[Premise, ...]]:
     """What is decided of relations under the statement's premises, and the fewest of these that it needs."""
     if statement.names:
         return "definition", _Finding("definition"), ()
@@ -176,14 +196,8 @@ def _decided(relations: tuple[Relation, ...], statement: Statement) -> tuple[Ans
     if finding.answer not in _AGREES:
         return finding.answer, finding, ()
     if finding.small is not None and all(premise.small != finding.small for premise in used):
-        used = (*used, _smallness(finding.small))
+        used = (*used, Premise(f"small {glossary.meaning(finding.small)} {finding.small}", small=finding.small))
     return ("holds-if" if finding.answer == "holds" and used else finding.answer), finding, used
-
-
-def _smallness(small: sp.Symbol) -> Premise:
-    """The approximation that the print itself makes, as a premise."""
-    what = GLOSSARY[small].meaning.split(":")[0] if small in GLOSSARY else "parameter"
-    return Premise(f"small {what} {small}", small=small)
 
 
 def _fewest_premises(

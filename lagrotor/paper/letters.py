@@ -1,15 +1,13 @@
-"""The letters of the paper: what each name in a printed line stands for, as sympy symbols, vectors and functions."""
+"""What the names in a printed line stand for: sympy symbols, vectors, and the functions that every paper may call."""
 
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
 from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
 from lagrotor.errors import InputError
-from lagrotor.pair.lagrangians import axis
-from lagrotor.pair.symbols import GLOSSARY
 
 
 def vector(name: str) -> sp.Matrix:
@@ -72,23 +70,26 @@ def column(*entries: sp.Expr) -> sp.Matrix:
 
 # What a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{f.__name__: f for f in (axis, rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
+    **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
     **{
         name: getattr(sp, name)
-        for name in ("sin", "cos", "tan", "exp", "sqrt", "eye", "diag", "zeros", "diff", "integrate")
+        for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "Abs", "sinh", "cosh", "tanh", "asin", "acos", "atan")
     },
+    **{name: getattr(sp, name) for name in ("eye", "diag", "zeros", "diff", "integrate")},
     **{name: getattr(sp, name) for name in ("pi", "oo", "Integer", "Float", "Rational")},
 }
 
 
-@cache
-def scalars() -> dict[str, sp.Symbol]:
-    """Every symbol of the glossary by its name."""
-    return {symbol.name: symbol for symbol in GLOSSARY}
+@dataclass(frozen=True)
+class Letters:
+    """What a section is written in: name → symbol, vector or function; name → LaTeX where the name alone does not say it."""
+
+    names: Mapping[str, Any] = field(default_factory=dict)
+    latex: Mapping[str, str] = field(default_factory=dict)
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Letters that a section has besides the glossary's: kind → names in a row.
+    """Letters that a section has besides the paper's own: kind → names in a row.
 
     Kinds: "vector", (3, 1); "symmetric", a symmetric matrix (3, 3); or an assumption of sympy's, such as "real" or
     "positive". Raises InputError for another kind.
@@ -112,7 +113,7 @@ def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
 
     Raises InputError where it cannot be read, or holds a letter that is not declared.
     """
-    names = {**FUNCTIONS, **scalars(), **letters}
+    names = {**FUNCTIONS, **letters}
     try:
         value = parse_expr(
             text, local_dict=names, global_dict=dict(FUNCTIONS), transformations=(auto_number, rationalize)

@@ -1,18 +1,13 @@
 """Premises: what is assumed when an equation is judged, in words, as a substitution, and whether the paper's scene keeps it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import combinations
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.pair.lagrangians import INERTIAS, J_OF
-from lagrotor.pair.symbols import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
-
-# The paper's own rotor and bar (section 4.1), SI units, and the lighter bar of section 5.2.1.
-PAPERS_OWN: Mapping[sp.Symbol, sp.Expr] = {I1: 1, I3: 1, M: 1, R: 1, ell: 1, m: 1, K: 1}
-LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational(1, 10)}
+from lagrotor.paper.readable import readable
 
 
 @dataclass(frozen=True)
@@ -41,53 +36,42 @@ class Premise:
 
 
 def parameter_premise(
-    says: str, put: Mapping[sp.Symbol, sp.Expr], own: Mapping[sp.Symbol, Any] = PAPERS_OWN
+    says: str,
+    put: Mapping[sp.Symbol, Any],
+    own: Mapping[sp.Symbol, Any],
+    meanings: Mapping[sp.Symbol, sp.Expr] | None = None,
 ) -> Premise:
-    """A premise about parameters, such as J = I_3: how far the paper's own values break it is computed from them."""
+    """A premise about parameters, such as ell = R: how far the paper's own values break it is computed from them.
+
+    own: letter → the value of the paper's own scene. meanings: letters that stand for expressions in other letters.
+    """
     off = []
     for left, right in put.items():
-        sides = [(side, in_parameters(sp.sympify(side)).subs(own)) for side in (left, right)]
+        sides = [(side, written_out(sp.sympify(side), meanings or {}).subs(own)) for side in (left, right)]
         (_, here), (_, there) = sides
         if here.is_number and there.is_number and here != there:
             off += [f"{sp.pretty(side)} = {float(value):g}" for side, value in sides if side != value]
     return Premise(says, put, broken=", ".join(off))
 
 
-def massless_bar() -> Premise:
-    """The bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
-    own = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
-    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=own)
+def written_out(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
+    """The expression with each letter replaced by what it stands for, one after the other: later ones may be in earlier."""
+    for letter, meaning in meanings.items():
+        expression = expression.subs(letter, meaning)
+    return expression
 
 
-def in_parameters(expression: Any) -> Any:
-    """The expression in the rotor's and the bar's own parameters: a, b, k, J by what they are."""
-    return expression.subs(INERTIAS, simultaneous=True).subs(J, J_OF)
+Given: TypeAlias = "Mapping[sp.Basic, Any] | Iterable[Premise]"
+
+
+def premises_of(given: Given) -> tuple[Premise, ...]:
+    """Premises as they are, or one for each row of a substitution, old → new."""
+    if isinstance(given, Mapping):
+        return tuple(Premise(f"{readable(str(old))} = {readable(str(new))}", {old: new}) for old, new in given.items())
+    return tuple(given)
 
 
 def subsets(premises: tuple[Premise, ...]) -> Iterator[tuple[Premise, ...]]:
     """Every choice of premises, fewest first: the first under which an equation holds is what it needs."""
     for size in range(len(premises) + 1):
         yield from combinations(premises, size)
-
-
-# Premises that several derivations share. Where more than one is offered, they are put in in this order.
-ABOUT_JOINT = parameter_premise("I₁ is read as the transverse inertia about the ground joint, I₁ = J", {I1: J})
-MASSLESS_BAR = massless_bar()
-EQUAL_INERTIAS = parameter_premise("the inertias about the ground joint are equal, J = I₃", {J: I3})
-BAR_AS_LONG_AS_ROTORS = parameter_premise("the bar is as long as the rotors, ℓ = R", {ell: R})
-UNIT_LENGTH = parameter_premise("lengths are measured in units of the rotor's, R = 1", {R: 1})
-PAPERS_ROTOR = parameter_premise(
-    "the rotor is the paper's, I₁ = I₃ = M = R = ℓ = 1", {I1: 1, I3: 1, M: 1, R: 1, ell: 1}
-)
-ONE_KILOGRAM_BAR = parameter_premise("the bar has a mass of 1 kg", {m: 1})
-HEAVY_BAR = parameter_premise("the bar is that of section 4.1, m = K = 1", {m: 1, K: 1})
-LIGHT_BAR_PREMISE = Premise("the bar is that of section 5.2.1, m = 0.01, K = 0.1", LIGHT_BAR)
-EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
-OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
-# What sections 5.2 and 6 call a mode (6.01 and claim C24): 1 where a motion of this kind counts as one, 0 where not.
-TURNING_COUNTS, RESTING_COUNTS = sp.symbols("turning_counts resting_counts", real=True)
-TWO_MODES = Premise(
-    "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
-    "displacement of the precession centre, which rests, does not",
-    {TURNING_COUNTS: 1, RESTING_COUNTS: 0},
-)

@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal
 from lagrotor.errors import ProofError
-from lagrotor.pair.symbols import latex
+from lagrotor.mechanics.glossary import latex
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ def scientific(value: float, digits: int = 0) -> str:
 
 
 def from_latex(source: str) -> str:
-    r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any spins)} is Ω₀² (any spins)."""
+    r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
     text = re.sub(
         r"\\(?:text|mathcal|mathrm)\s*\{([^{}]*)\}|\\(?:mathcal|mathrm)\s+(\w)", lambda m: m[1] or m[2], source
     )

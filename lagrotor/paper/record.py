@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lagrotor.errors import LagrotorError
-from lagrotor.paper.catalogue import claims, equations
-
-RECORDED = Path(__file__).with_name("recorded.json")
 
 
 @dataclass(frozen=True)
@@ -19,15 +16,15 @@ class OnRecord:
     uses: Sequence[str] = ()
 
 
-def recorded() -> dict[str, OnRecord]:
+def recorded(file: Path) -> dict[str, OnRecord]:
     """The record by id; empty when there is none yet. Raises LagrotorError for a broken file."""
     try:
-        rows = json.loads(RECORDED.read_text(encoding="utf-8"))
+        rows = json.loads(file.read_text(encoding="utf-8"))
         return {i: OnRecord(**({"verdict": row} if isinstance(row, str) else row)) for i, row in rows.items()}
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise LagrotorError(f"{RECORDED} cannot be read ({error!r}): restore it") from None
+        raise LagrotorError(f"{file} cannot be read ({error!r}): restore it") from None
 
 
 def as_text(found: Mapping[str, OnRecord]) -> str:
@@ -39,31 +36,29 @@ def as_text(found: Mapping[str, OnRecord]) -> str:
     return "{\n " + ",\n ".join(rows) + "\n}\n"
 
 
-def changes(found: Mapping[str, str], on_record: Mapping[str, OnRecord], only: Iterable[str] = ()) -> list[str]:
-    """A sentence for each id in `only`, or of all, whose verdict differs from the one on record."""
+def changes(found: Mapping[str, str], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
+    """A sentence for each of the ids whose verdict differs from the one on record; none where there is no record."""
     if not on_record:
         return []
-    wanted = set(only) or found.keys() | on_record.keys()
     before = {i: row.verdict for i, row in on_record.items()}
     return [
         f"{i}: recorded {before.get(i, 'nothing')}, found {found.get(i, 'nothing')}"
-        for i in (*equations(), *claims())
-        if i in wanted and before.get(i) != found.get(i)
+        for i in ids
+        if before.get(i) != found.get(i)
     ]
 
 
-def reaches_result(identifier: str, verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> bool:
+def reaches_result(
+    identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
+) -> bool:
     """Whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
+    ends = set(results)
     seen, left = {identifier}, [identifier]
     while left:
         current = left.pop()
-        if current in RESULTS and verdicts.get(current) == "refuted":
+        if current in ends and verdicts.get(current) == "refuted":
             return True
         users = {user for user, used in uses.items() if current in used} - seen
         seen |= users
         left += users
     return False
-
-
-# The equations in which the paper's work ends: the rate, the trajectories, the natural frequency.
-RESULTS = ("2.12", "5.15", "5.22", "5.28", "6.02")

@@ -1,16 +1,20 @@
-"""The literate scripts: where they live, how one is run cell by cell, and what its cells show."""
+"""The literate scripts of a paper: where they lie, how one is run cell by cell, and what its cells show."""
 
 import ast
 import re
-from dataclasses import dataclass
-from functools import cache
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
-from lagrotor.errors import LagrotorError
+from lagrotor.errors import InputError, LagrotorError, ScriptError
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _CELL = re.compile(r"^# %%.*$", re.MULTILINE)
+Kind = Literal["derivations", "figures"]
 
 
 def beside(name: str) -> Path:
@@ -19,21 +23,6 @@ def beside(name: str) -> Path:
         if (base / name).exists():
             return base / name
     raise LagrotorError(f"{name} is missing beside {_PACKAGE}: install lagrotor again")
-
-
-def folder(name: str) -> Path:
-    """The folder `derivations` or `figures`."""
-    return beside(name)
-
-
-def names(kind: str, prefix: str = "") -> list[str]:
-    """Stems of the scripts in a folder, in order, t2 before t10.
-
-    Derivations: s… sections, c… claims, m… tables, t… theory past the paper, p… the table of it, g… the gallery of
-    textbook systems.
-    """
-    found = (path.stem for path in folder(kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
-    return sorted(found, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
 
 
 @dataclass(frozen=True)
@@ -61,15 +50,95 @@ class Script:
         return found
 
 
-@cache
-def executed(kind: str, stem: str) -> Script:
-    """Run one script, once in a process."""
-    return run_file(folder(kind) / f"{stem}.py")
+@dataclass(frozen=True)
+class Scripts:
+    """The folders `derivations/` and `figures/` in `base`. importable: the context in which a script runs.
+
+    A script is run once; what it shows is kept.
+    """
+
+    base: Path
+    importable: Callable[[], AbstractContextManager[None]] = nullcontext
+    ran: dict[Path, Script] = field(default_factory=dict, repr=False, compare=False)
+
+    def path(self, kind: Kind, stem: str) -> Path:
+        """The file of a script."""
+        return self.base / kind / f"{stem}.py"
+
+    def names(self, kind: Kind, prefix: str = "") -> list[str]:
+        """Stems of the scripts in a folder that begin with `prefix`, in order, t2 before t10."""
+        found = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
+        return sorted(found, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
+
+    def executed(self, kind: Kind, stem: str) -> Script:
+        """Run one script, once. Raises ScriptError with the file and the line where it fails."""
+        path = self.path(kind, stem)
+        if path not in self.ran:
+            _tree(path)
+            with self._within(path):
+                self.ran[path] = run_file(path)
+        return self.ran[path]
+
+    def run(self, kind: Kind, stem: str) -> dict[str, Any]:
+        """The names that a script defines."""
+        return self.executed(kind, stem).names
+
+    def called(self, kind: Kind, stem: str, name: str) -> Any:
+        """What a function of a script returns. Raises ScriptError with the file and the line where it fails."""
+        function = self.run(kind, stem)[name]
+        with self._within(self.path(kind, stem)):
+            return function()
+
+    @contextmanager
+    def _within(self, path: Path) -> Iterator[None]:
+        with self.importable():
+            try:
+                yield
+            except Exception as error:
+                raise ScriptError(_failure(path, error)) from error
+
+    @cached_property
+    def stating(self) -> dict[str, tuple[str, int]]:
+        """Equation's id → (stem of the derivation that judges it, line), read off the scripts without running them.
+
+        Raises InputError where two verdicts are on one equation.
+        """
+        found: dict[str, tuple[str, int]] = {}
+        for stem in self.names("derivations"):
+            for identifier, line in verdicts_in(self.path("derivations", stem)):
+                if identifier in found:
+                    first = "{}.py:{}".format(*found[identifier])
+                    raise InputError(f"{stem}.py:{line}: a verdict on {identifier} stands in {first} already")
+                found[identifier] = stem, line
+        return found
 
 
-def run(kind: str, stem: str) -> dict[str, Any]:
-    """The names that a script defines."""
-    return executed(kind, stem).names
+def verdicts_in(path: Path) -> list[tuple[str, int]]:
+    """(equation's id, line) of each verdict that a derivation states. Raises ScriptError where it is no Python."""
+    found = []
+    tree = _tree(path) if "verdict(" in path.read_text(encoding="utf-8") else ast.Module([], [])
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "verdict" and node.args:
+            first = node.args[0]
+            if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                found.append((first.value, node.lineno))
+    return found
+
+
+def _tree(path: Path) -> ast.Module:
+    try:
+        return ast.parse(path.read_text(encoding="utf-8"), str(path))
+    except SyntaxError as error:
+        raise ScriptError(f"{path}:{error.lineno}: {error.msg}") from None
+
+
+def _failure(path: Path, error: Exception) -> str:
+    """file:line: what went wrong, the line being that of the script itself."""
+    if isinstance(error, SyntaxError):
+        return f"{path}:{error.lineno}: {error.msg}"
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    kind = "" if isinstance(error, LagrotorError) else f"{type(error).__name__}: "
+    return f"{path}:{lines[-1] if lines else 1}: {kind}{error}"
 
 
 def run_file(path: Path) -> Script:
@@ -100,21 +169,3 @@ def _execute(body: str, before: int, path: Path, defined: dict[str, Any]) -> lis
         else:
             exec(compile(ast.Module([node], []), str(path), "exec"), defined)
     return shown
-
-
-@cache
-def stating() -> dict[str, str]:
-    """Equation's id → stem of the derivation that judges it, read off the scripts without running them."""
-    found = {}
-    for stem in names("derivations", "s"):
-        for node in ast.walk(ast.parse((folder("derivations") / f"{stem}.py").read_text(encoding="utf-8"))):
-            if (
-                isinstance(node, ast.Call)
-                and isinstance(node.func, ast.Name)
-                and node.func.id == "verdict"
-                and node.args
-            ):
-                first = node.args[0]
-                if isinstance(first, ast.Constant) and isinstance(first.value, str):
-                    found[first.value] = stem
-    return found

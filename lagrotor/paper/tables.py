@@ -1,4 +1,4 @@
-"""Tables that the report shows: runs side by side (scripts m…), and what holds beyond the paper (scripts p…)."""
+"""Tables that the report shows: runs side by side and what holds beyond the paper."""
 
 import re
 from dataclasses import dataclass
@@ -6,8 +6,6 @@ from html import escape
 from typing import TypeAlias
 
 import sympy as sp
-
-from lagrotor.paper import scripts
 
 
 @dataclass(frozen=True)
@@ -52,11 +50,3 @@ def _inside(cell: Cell) -> str:
         drawn = _DOTTED.sub(r"<mover><mi>\1</mi><mo>˙</mo></mover>", sp.mathml(cell, printer="presentation"))
         return f'<math displaystyle="true">{drawn}</math>'
     return escape(f"figure {cell.key}" if isinstance(cell, FigureLink) else cell)
-
-
-def tables(prefix: str = "m") -> list[Table]:
-    """Every table of the derivations with this prefix, in the order of the scripts."""
-    found: list[Table] = []
-    for stem in scripts.names("derivations", prefix):
-        found += scripts.run("derivations", stem)["tables"]
-    return found

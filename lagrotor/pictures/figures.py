@@ -1,8 +1,8 @@
 """Run a figure's script and keep its picture.
 
-A script `figures/figNN_*.py` (one of the paper's figures), `figures/tN_*.py` (past the paper), `figures/bN_*.py` (speed
-against accuracy) or `figures/mN_*.py` (where methods fail) defines `figure() -> matplotlib.figure.Figure`, the strings
-TITLE, CAPTION and ALT, and may define `measure() -> dict[str, float]`, the numbers read off it.
+A script `figures/figNN_*.py` (one of the paper's figures) or `figures/tN_*.py` (another, by a letter and a number) defines
+`figure() -> matplotlib.figure.Figure`, the strings TITLE, CAPTION and ALT, and may define `measure() -> dict[str, float]`,
+the numbers read off it.
 """
 
 import re
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.files import write_beside
-from lagrotor.paper import scripts
+from lagrotor.paper.scripts import Scripts
 
 
 @dataclass(frozen=True)
@@ -32,40 +32,42 @@ class Picture:
     measured: dict[str, float]
 
 
-def stems() -> dict[str, str]:
-    """The scripts that draw figures: key → stem; the paper's, "1" to "28", then "b1" …, "m1" …, "t1" …."""
-    found = [(re.match(r"(?:fig0*|(?=[bmt]))([bmt]?\d+)_", stem), stem) for stem in scripts.names("figures")]
+def stems(scripts: Scripts) -> dict[str, str]:
+    """The scripts that draw figures: key → stem; the paper's by number, then those with a letter, "b1" …, "t1" …."""
+    found = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
     return dict(sorted(((match[1], stem) for match, stem in found if match), key=lambda row: not row[0].isdigit()))
 
 
-def check_keys(keys: Iterable[str]) -> list[str]:
+def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
     """The keys, each once, 07 read as 7; raises InputError for one that no script draws."""
-    drawn = stems()
+    drawn = stems(scripts)
     wanted = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
     for key in wanted:
         if key not in drawn:
-            raise InputError(f"figure {key!r} has no script: those drawn are {', '.join(drawn)}")
+            raise InputError(f"figure {key!r} has no script: those drawn are {', '.join(drawn) or 'none'}")
     return wanted
 
 
-def draw(key: str, folder: Path) -> Picture:
+def draw(key: str, folder: Path, scripts: Scripts) -> Picture:
     """Draw one figure of `stems()` and write `<stem>.svg` and `<stem>.png` into `folder`: the same bytes every time.
 
-    Raises InputError when the folder cannot be written to.
+    Raises InputError when the folder cannot be written to or a script lacks what every figure has, ScriptError where it fails.
     """
     from lagrotor.drawing.style import paper_style
 
-    stem = stems()[key]
+    stem = stems(scripts)[key]
     with paper_style():
         script = scripts.run("figures", stem)
-        figure = script["figure"]()
+        if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
+            raise InputError(f"{scripts.path('figures', stem)}: it defines no {lacking[0]}")
+        figure = scripts.called("figures", stem, "figure")
         svg = write_beside(
             folder / f"{stem}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
         )
         png = write_beside(
             folder / f"{stem}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
         )
-    measured = script["measure"]() if "measure" in script else {}
+    measured = scripts.called("figures", stem, "measure") if "measure" in script else {}
     return Picture(
         stem=stem,
         key=key,

@@ -6,24 +6,18 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from lagrotor.pair.symbols import GLOSSARY, latex
-from lagrotor.paper.catalogue import SECTIONS, Equation, claims, equation, equations
-from lagrotor.paper.catalogue import figures as papers_figures
+from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.audit import NOT_YET
+from lagrotor.paper.catalogue import Equation, is_claim
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Relation, Verdict
+from lagrotor.paper.papers import Paper
 from lagrotor.paper.readable import from_latex
 from lagrotor.paper.tables import Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.errata import corrected
 
-TITLE = "Dynamics of Axially Coupled Rotor Pairs"
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
-HOW_TO_READ = (
-    "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
-    "procedure; each claim made in words is tested by a run; each figure is drawn again. Every number here was "
-    "computed by the run that wrote this page, but for seconds, which are on record with their machine. An "
-    "equation goes by its section and place, such as 5.07, a claim as C08."
-)
 # File of the report's folder → what it is.
 _BESIDE = {
     "index.html": "this report as a page",
@@ -36,6 +30,12 @@ _BESIDE = {
     "api.html": "the names to use from Python",
 }
 
+_HOW_TO_READ = (
+    "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
+    "procedure; each claim made in words is tested by a run; each figure is drawn again. Every number here was "
+    "computed by the run that wrote this page, but for seconds, which are on record with their machine."
+)
+
 MEANINGS = {
     "holds": "the printed and the derived expression are the same, decided exactly",
     "holds-if": "they are the same under the condition that is named",
@@ -44,6 +44,7 @@ MEANINGS = {
     "measured": "a number read off a run, beside what it should have been",
     "definition": "the line only gives a name",
     "undecided": "outside what can be decided exactly; numbers are given as evidence",
+    NOT_YET: "no derivation states it yet",
 }
 CLAIM_MEANINGS = {
     "confirmed": "its run agrees",
@@ -53,52 +54,66 @@ CLAIM_MEANINGS = {
 
 
 @dataclass(frozen=True)
-class Report:
-    """All that one run found. `changes`: verdicts that differ from the recorded ones, a sentence each.
+class ShownPart:
+    """A part of the report besides equations and claims: tables, then (title, sentence) of what was found, then figures."""
 
-    claims: the paper's claims after their tests; findings: (title, sentence) of what the derivations found besides;
-    tables: runs side by side; past: tables of what holds beyond the paper, and theory: its findings; speed, stability:
-    tables of accuracy against cost, and of where methods fail; derivations: (stem, title, HTML); model: HTML; versions:
-    (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
+    name: str
+    heading: str
+    tables: tuple[Table, ...] = ()
+    remarks: tuple[tuple[str, str], ...] = ()
+    pictures: tuple[Picture, ...] = ()
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that one run found of a paper. `changes`: verdicts that differ from the recorded ones, a sentence each.
+
+    claims: the paper's claims after their tests; parts: what is shown besides; derivations: (stem, title, HTML); model: HTML;
+    versions: (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
     """
 
+    paper: Paper
     verdicts: tuple[Verdict, ...]
     pictures: tuple[Picture, ...]
     changes: tuple[str, ...]
     claims: tuple[Result, ...] = ()
-    findings: tuple[tuple[str, str], ...] = ()
-    tables: tuple[Table, ...] = ()
-    past: tuple[Table, ...] = ()
-    theory: tuple[tuple[str, str], ...] = ()
-    speed: tuple[Table, ...] = ()
-    stability: tuple[Table, ...] = ()
+    parts: tuple[ShownPart, ...] = ()
     derivations: tuple[tuple[str, str, str], ...] = ()
     model: str = ""
     versions: tuple[tuple[str, str], ...] = ()
     inputs: tuple[tuple[str, str], ...] = ()
 
-    def pictures_of(self, letter: str) -> list[Picture]:
-        """The figures whose keys begin with a letter: none for the paper's, t, b (benchmarks), m (stability)."""
-        return [picture for picture in self.pictures if picture.key.rstrip("0123456789") == letter]
+    @property
+    def title(self) -> str:
+        """The paper's title."""
+        return self.paper.title
+
+    @property
+    def how_to_read(self) -> str:
+        """What the report does with equations, claims and figures, and by what they go."""
+        ids = [f"An equation goes by its number, such as {i}" for i in list(self.paper.equations)[:1]]
+        ids += [f"a claim as {i}" for i in list(self.paper.claims)[:1]]
+        return f"{_HOW_TO_READ} {', '.join(ids)}."
 
     @property
     def waiting(self) -> list[Equation]:
         """Equations of the paper that no derivation states yet."""
         judged = {verdict.id for verdict in self.verdicts}
-        return [entry for entry in equations().values() if entry.id not in judged]
+        return [entry for entry in self.paper.equations.values() if entry.id not in judged]
 
     @property
     def sections(self) -> dict[str, list[Verdict]]:
         """Verdicts by section of the paper."""
         found: dict[str, list[Verdict]] = {}
         for verdict in self.verdicts:
-            found.setdefault(equation(verdict.id).section, []).append(verdict)
+            found.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
         return found
 
     @property
     def counts(self) -> dict[str, int]:
         """How many equations have each verdict, in the order of `MEANINGS`, those with none left out."""
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
+        counted[NOT_YET] = len(self.waiting)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
     @property
@@ -107,17 +122,21 @@ class Report:
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
+    def part(self, name: str) -> ShownPart:
+        """The part of this name."""
+        return next(part for part in self.parts if part.name == name)
+
     def users(self, identifier: str) -> tuple[str, ...]:
         """Ids of the equations that use this one."""
         return tuple(v.id for v in self.verdicts if identifier in v.statement.depends_on)
 
     def claims_about(self, identifier: str) -> tuple[str, ...]:
         """Ids of the claims, among those tried, that are about this equation."""
-        return tuple(r.test.id for r in self.claims if identifier in claims()[r.test.id].equations)
+        return tuple(r.test.id for r in self.claims if identifier in self.paper.claims[r.test.id].equations)
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
         """The figures, among those drawn, that show this equation, such as "figure 19"."""
-        shown = {str(number) for number, entry in papers_figures().items() if identifier in entry.equations}
+        shown = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
         return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in shown)
 
 
@@ -136,27 +155,22 @@ def anchor(identifier: str) -> str:
     """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") is on the page."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
-    return f"claim-{identifier}" if identifier in claims() else f"eq-{identifier}"
+    return f"claim-{identifier}" if is_claim(identifier) else f"eq-{identifier}"
 
 
 def contents(report: Report) -> list[tuple[str, str]]:
     """The sections of a report that have something in them, in their order: (anchor, heading)."""
-    paper = [(f"section-{name}", f"{name} {SECTIONS[name]}", True) for name in report.sections]
+    paper = [(f"section-{name}", f"{name} {report.paper.about.sections[name]}", True) for name in report.sections]
     listed = [
         ("summary", "In short", True),
         ("verdicts", "Verdicts", True),
-        ("notation", "Notation", True),
+        ("notation", "Notation", bool(report.paper.glossary)),
         ("errata", "Errata", any(v.verdict == "refuted" for v in report.verdicts)),
-        ("model", "The interactive model", True),
+        ("model", "The interactive model", bool(report.model)),
         *paper,
         ("claims", "Claims", bool(report.claims)),
         ("derivations", "Derivations", bool(report.derivations)),
-        ("findings", "Findings", bool(report.findings)),
-        ("figures", "Figures", bool(report.pictures_of(""))),
-        ("tables", "Tables", bool(report.tables)),
-        ("past", "Past the paper", bool(report.past or report.theory or report.pictures_of("t"))),
-        ("speed", "Speed against accuracy", bool(report.speed or report.pictures_of("b"))),
-        ("stability", "Where methods fail", bool(report.stability or report.pictures_of("m"))),
+        *((part.name, part.heading, True) for part in report.parts),
         ("waiting", "Not yet judged", bool(report.waiting)),
         ("cite", "How to cite", True),
         ("made", "How this was made", True),
@@ -164,9 +178,9 @@ def contents(report: Report) -> list[tuple[str, str]]:
     return [(name, heading) for name, heading, there in listed if there]
 
 
-def notation() -> list[tuple[sp.Symbol, str, str]]:
+def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
     """The letters of the report: (symbol, meaning, unit), without velocities and accelerations, which have dots."""
-    shown = (entry for symbol, entry in GLOSSARY.items() if not symbol.name.endswith("dot"))
+    shown = (entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot"))
     return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
 
 
@@ -236,7 +250,7 @@ _REACHES = {
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
     """The equations and figures that a claim is about, as far as they are in the report."""
-    entry, judged = claims()[result.test.id], {verdict.id for verdict in report.verdicts}
+    entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
     drawn = {picture.key for picture in report.pictures}
     if ids := tuple(i for i in entry.equations if i in judged):
         yield Fact("Equations", ids=ids)
@@ -246,11 +260,11 @@ def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
 
 def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
     """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
-    entry = papers_figures().get(int(picture.key)) if picture.key.isdigit() else None
+    entry = report.paper.figures.get(int(picture.key)) if picture.key.isdigit() else None
     judged = {verdict.id for verdict in report.verdicts}
     if entry and (ids := tuple(i for i in entry.equations if i in judged)):
         yield Fact("Equations", ids=ids)
-    if ids := tuple(r.test.id for r in report.claims if picture.key in claims()[r.test.id].figures):
+    if ids := tuple(r.test.id for r in report.claims if picture.key in report.paper.claims[r.test.id].figures):
         yield Fact("Claims", ids=ids)
 
 

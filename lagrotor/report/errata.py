@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from lagrotor.pair.symbols import latex
-from lagrotor.paper.catalogue import equation
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.ledger import Relation, Statement, Verdict
+from lagrotor.paper.papers import Paper
 from lagrotor.report.latex import END, head, printed, prose
 
 
@@ -30,12 +30,12 @@ class Erratum:
         return "a result of the paper that depends on it, or is it, is refuted too"
 
 
-def errata(verdicts: Iterable[Verdict]) -> Iterator[Erratum]:
+def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
     """The refuted equations of an audit, in its order."""
     listed = list(verdicts)
     for verdict in listed:
         if verdict.verdict == "refuted":
-            statement, entry = verdict.statement, equation(verdict.id)
+            statement, entry = verdict.statement, paper.equation(verdict.id)
             yield Erratum(
                 id=entry.id,
                 title=entry.title,
@@ -61,11 +61,10 @@ def _line(quantity: str, relation: Relation) -> str:
     return (f"{quantity} = " if quantity else "") + f"{latex(relation.printed)}{rest}"
 
 
-def latex_document(verdicts: Iterable[Verdict]) -> str:
+def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref."""
-    paper = "Dynamics of Axially Coupled Rotor Pairs"
-    title = rf"\section*{{Errata to \emph{{{paper}}}}}"
-    return "\n".join([head(f"Errata to {paper}") + title, *map(latex_block, errata(verdicts)), END])
+    title = rf"\section*{{Errata to \emph{{{prose(paper.title)}}}}}"
+    return "\n".join([head(f"Errata to {paper.title}") + title, *map(latex_block, errata(verdicts, paper)), END])
 
 
 def latex_block(e: Erratum) -> str:

@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.printing.latex import tex_greek_dictionary
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from lagrotor.pair.symbols import latex
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
 
 _HEAD = r"""\documentclass[11pt]{article}
@@ -65,7 +65,7 @@ _LONGEST = 2_500
 
 def head(title: str) -> str:
     """What a document begins with; its title as plain ASCII, for what a viewer shows of the PDF."""
-    about = rf"\hypersetup{{pdftitle={{{title}}},pdfauthor={{The lagrotor developers}}}}"
+    about = rf"\hypersetup{{pdftitle={{{prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{about}\n\\begin{{document}}\n"
 
 
@@ -124,7 +124,7 @@ def derived(expression: sp.Basic) -> str:
 
 
 def inline(expression: sp.Basic) -> str:
-    """An expression in the glossary's letters, without dollar signs; a matrix has room for its fractions."""
+    """An expression without dollar signs; a matrix has room for its fractions."""
     source = _LONE.sub(r" \1 ", latex(expression))
     tall = r"\begin{matrix}" in source and r"\frac" in source
     return source.replace(r"\frac", r"\dfrac").replace(r"\\", r"\\\noalign{\vskip 6pt}") if tall else source

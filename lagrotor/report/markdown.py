@@ -5,22 +5,21 @@ from collections.abc import Callable, Iterable, Iterator
 
 import sympy as sp
 
-from lagrotor.pair.symbols import latex
-from lagrotor.paper.catalogue import claims, equation
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.papers import Paper
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
     CLAIM_MEANINGS,
-    HOW_TO_READ,
     MEANINGS,
     SUBTITLE,
-    TITLE,
     Fact,
     Report,
+    ShownPart,
     anchor,
     contents,
     derived_heading,
@@ -41,9 +40,9 @@ def markdown(report: Report) -> str:
     """The whole report; figures are linked as `figures/<stem>.svg`."""
     listed = contents(report)
     blocks = [
-        f"# {TITLE}",
+        f"# {report.title}",
         f"{SUBTITLE}.",
-        _prose(HOW_TO_READ),
+        _prose(report.how_to_read),
         "\n".join(f"- [{heading}](#{name})" for name, heading in listed),
     ]
     for name, heading in listed:
@@ -54,7 +53,7 @@ def markdown(report: Report) -> str:
 def _section(name: str, report: Report) -> list[str]:
     if name.startswith("section-"):
         return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
-    return list(_PARTS[name](report))
+    return list(_PARTS[name](report)) if name in _PARTS else _shown(report.part(name), report)
 
 
 def _summary(report: Report) -> Iterator[str]:
@@ -67,8 +66,8 @@ def _summary(report: Report) -> Iterator[str]:
     for number, headline in enumerate(headlines(report), 1):
         yield f"### {number}. {_prose(headline.title)}"
         yield _prose(headline.text)
-        if headline.formula is not None:
-            yield _formula(headline.formula)
+        if headline.formula:
+            yield _display(headline.formula)
         if headline.ids:
             yield f"Shown in {_links(headline.ids)}"
     yield "### Equations"
@@ -79,12 +78,10 @@ def _summary(report: Report) -> Iterator[str]:
         yield "\n".join(f"- {count} {word(answer)}: {CLAIM_MEANINGS[answer]}" for answer, count in tried)
 
 
-def _shown(
-    tables: Iterable[Table], found: Iterable[tuple[str, str]], pictures: Iterable[Picture], r: Report
-) -> list[str]:
-    blocks = [block for table in tables for block in _side_by_side(table)]
-    blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in found]
-    return blocks + [_picture(picture, r) for picture in pictures]
+def _shown(part: ShownPart, report: Report) -> list[str]:
+    blocks = [block for table in part.tables for block in _side_by_side(table)]
+    blocks += [f"**{_prose(title)}.** {_prose(text)}" for title, text in part.remarks]
+    return blocks + [_picture(picture, report) for picture in part.pictures]
 
 
 def _cite(report: Report) -> list[str]:
@@ -102,12 +99,15 @@ def _made(report: Report) -> list[str]:
 
 
 def _table(report: Report) -> str:
-    rows = [(_links([v.id]), _prose(equation(v.id).title), word(v.verdict), _prose(note(v))) for v in report.verdicts]
+    rows = [
+        (_links([v.id]), _prose(report.paper.equation(v.id).title), word(v.verdict), _prose(note(v)))
+        for v in report.verdicts
+    ]
     return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
 
 
 def _equation(verdict: Verdict, report: Report) -> str:
-    entry, statement = equation(verdict.id), verdict.statement
+    entry, statement = report.paper.equation(verdict.id), verdict.statement
     parts = [
         _place(anchor(verdict.id)),
         f"### {verdict.id} {_prose(entry.title)}: {word(verdict.verdict)}",
@@ -133,10 +133,10 @@ def _fact(fact: Fact) -> str:
     )
 
 
-def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
+def errata_blocks(verdicts: Iterable[Verdict], paper: Paper) -> list[str]:
     """The errata sheet as Markdown blocks, without a heading of its own; none when nothing is refuted."""
     blocks: list[str] = []
-    for e in errata(verdicts):
+    for e in errata(verdicts, paper):
         used = ", ".join(f"[{i}](report.md#{anchor(i)})" for i in e.used_by) or "none"
         blocks += [
             _place(f"erratum-{e.id}"),
@@ -152,7 +152,7 @@ def errata_blocks(verdicts: Iterable[Verdict]) -> list[str]:
 
 
 def _claim(result: Result, report: Report) -> str:
-    entry, finding = claims()[result.test.id], result.finding
+    entry, finding = report.paper.claims[result.test.id], result.finding
     parts = [_place(anchor(entry.id)), f"### {entry.id} section {entry.section}: {word(finding.outcome)}"]
     parts += [f"> {_prose(entry.text)}", _prose(finding.explanation)]
     if finding.condition:
@@ -218,23 +218,15 @@ _PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
     "verdicts": lambda report: [_table(report)],
     "notation": lambda report: [
         _rows(
-            ("Symbol", "Meaning", "Unit"), [(f"${latex(s)}$", _prose(meaning), unit) for s, meaning, unit in notation()]
+            ("Symbol", "Meaning", "Unit"),
+            [(f"${latex(s)}$", _prose(meaning), unit) for s, meaning, unit in notation(report)],
         )
     ],
-    "errata": lambda report: errata_blocks(report.verdicts),
+    "errata": lambda report: errata_blocks(report.verdicts, report.paper),
     "model": lambda report: ["Sliders and both tips in motion, in a browser: [index.html](index.html#model)."],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
     "derivations": lambda report: [
         "\n".join(f"- [{_prose(name)}](index.html#derivation-{stem})" for stem, name, _ in report.derivations)
-    ],
-    "findings": lambda report: _shown((), report.findings, (), report),
-    "figures": lambda report: _shown((), (), report.pictures_of(""), report),
-    "tables": lambda report: _shown(report.tables, (), (), report),
-    "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
-    "speed": lambda report: [*_shown((), (), report.pictures_of("b"), report), *_shown(report.speed, (), (), report)],
-    "stability": lambda report: [
-        *_shown((), (), report.pictures_of("m"), report),
-        *_shown(report.stability, (), (), report),
     ],
     "waiting": lambda report: [_rows(("Equation", "Title"), [(e.id, _prose(e.title)) for e in report.waiting])],
     "cite": _cite,

@@ -1,5 +1,5 @@
-"""Renew what is on record: `python -m lagrotor.report.renew_record` the verdicts that `reproduce`, `audit` and `claims` compare
-with; with `speed`, the timings that the report shows; with `code`, the functions kept as source in `generated.txt` files.
+"""Renew what is kept: `python -m lagrotor.report.renew_record speed` the timings that the report shows, `… code` the functions
+kept as source in `generated.txt` files. Verdicts are put on record by `lagrotor audit --record`, `lagrotor claims --record`.
 """
 
 import sys
@@ -9,15 +9,6 @@ from pathlib import Path
 from lagrotor.benchmark.recorded_speed import renew_speed
 from lagrotor.files import write_text
 from lagrotor.numerics import generated
-from lagrotor.paper import audit, claim_tests
-from lagrotor.paper.record import RECORDED, OnRecord, as_text
-
-
-def renew() -> None:
-    """Judge every equation, try every claim, and write the verdicts with what they use."""
-    found = {v.id: OnRecord(v.verdict, v.statement.depends_on) for v in audit.audit()}
-    found |= {result.test.id: OnRecord(result.finding.outcome) for result in claim_tests.evaluate()}
-    write_text(RECORDED, as_text(found))
 
 
 def generated_code() -> dict[Path, str]:
@@ -34,7 +25,7 @@ def renew_code() -> None:
 
 
 if __name__ == "__main__":
-    renewals = {(): renew, ("speed",): renew_speed, ("code",): renew_code}
-    if tuple(sys.argv[1:]) not in renewals:
-        sys.exit("usage: python -m lagrotor.report.renew_record [speed | code]")
-    renewals[tuple(sys.argv[1:])]()
+    renewals = {"speed": renew_speed, "code": renew_code}
+    if len(sys.argv) != 2 or sys.argv[1] not in renewals:
+        sys.exit("usage: python -m lagrotor.report.renew_record speed | code")
+    renewals[sys.argv[1]]()

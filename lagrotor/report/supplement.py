@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable
 
 import sympy as sp
 
-from lagrotor.paper.catalogue import claims, equation
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.tables import Cell, FigureLink, Table
@@ -12,12 +11,11 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
     CLAIM_MEANINGS,
-    HOW_TO_READ,
     MEANINGS,
     SUBTITLE,
-    TITLE,
     Fact,
     Report,
+    ShownPart,
     anchor,
     contents,
     derived_heading,
@@ -38,16 +36,22 @@ from lagrotor.report.results import Headline, balance, headlines
 def supplement(report: Report) -> str:
     """The whole report, its sections in the order of the page; the live model is the page's alone."""
     blocks = [
-        rf"\title{{{prose(TITLE)}\\ \large {prose(SUBTITLE)}}}",
+        rf"\title{{{prose(report.title)}\\ \large {prose(SUBTITLE)}}}",
         r"\author{}\date{}\maketitle",
-        prose(HOW_TO_READ),
+        prose(report.how_to_read),
     ]
     blocks += [r"\setcounter{tocdepth}{2}\tableofcontents"]
     for name, heading in contents(report):
         if name != "model":
             blocks.append(rf"\section*{{{prose(heading)}}}\addcontentsline{{toc}}{{subsection}}{{{prose(heading)}}}")
-            blocks += _paper(report, name) if name.startswith("section-") else _PARTS[name](report)
-    return "\n\n".join([head(TITLE), *filter(None, blocks), END])
+            blocks += _section(report, name)
+    return "\n\n".join([head(report.title), *filter(None, blocks), END])
+
+
+def _section(report: Report, name: str) -> list[str]:
+    if name.startswith("section-"):
+        return _paper(report, name)
+    return _PARTS[name](report) if name in _PARTS else _shown(report.part(name), report)
 
 
 def _summary(report: Report) -> list[str]:
@@ -60,13 +64,16 @@ def _summary(report: Report) -> list[str]:
 
 
 def _headline(headline: Headline) -> str:
-    formula = derived(headline.formula) if headline.formula is not None else ""
+    formula = printed(headline.formula) if headline.formula else ""
     shown = f"Shown in {_links(headline.ids)}." if headline.ids else ""
     return f"{_titled(headline.title, headline.text)} {formula} {shown}"
 
 
 def _verdicts(report: Report) -> list[str]:
-    rows = [(_link(v.id), prose(equation(v.id).title), word(v.verdict), prose(note(v))) for v in report.verdicts]
+    rows = [
+        (_link(v.id), prose(report.paper.equation(v.id).title), word(v.verdict), prose(note(v)))
+        for v in report.verdicts
+    ]
     return [table(("Equation", "Title", "Verdict", "Order or condition"), rows)]
 
 
@@ -75,7 +82,7 @@ def _paper(report: Report, name: str) -> list[str]:
 
 
 def _equation(verdict: Verdict, report: Report) -> str:
-    entry, statement = equation(verdict.id), verdict.statement
+    entry, statement = report.paper.equation(verdict.id), verdict.statement
     found = map(printed, derived_lines(statement.relations))
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
@@ -94,7 +101,7 @@ def _fact(fact: Fact) -> str:
 
 
 def _claim(result: Result, report: Report) -> str:
-    entry, finding = claims()[result.test.id], result.finding
+    entry, finding = report.paper.claims[result.test.id], result.finding
     parts = [
         _heading(entry.id, f"{word(finding.outcome)} (section {entry.section})", entry.id),
         rf"\begin{{quote}}{prose(entry.text)}\end{{quote}}",
@@ -106,11 +113,10 @@ def _claim(result: Result, report: Report) -> str:
     return "\n\n".join(filter(None, parts))
 
 
-def _shown(
-    tables: Iterable[Table], found: Iterable[tuple[str, str]], pictures: Iterable[Picture], report: Report
-) -> list[str]:
-    drawn = [_picture(picture, report) for picture in pictures]
-    return [*(_side_by_side(each, report) for each in tables), *(_titled(*finding) for finding in found), *drawn]
+def _shown(part: ShownPart, report: Report) -> list[str]:
+    drawn = [_picture(picture, report) for picture in part.pictures]
+    found = [_titled(*remark) for remark in part.remarks]
+    return [*(_side_by_side(each, report) for each in part.tables), *found, *drawn]
 
 
 def _side_by_side(shown: Table, report: Report) -> str:
@@ -182,22 +188,14 @@ _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "verdicts": _verdicts,
     "notation": lambda report: [
         table(
-            ("Symbol", "Meaning", "Unit"), [(inline(s), prose(meaning), prose(unit)) for s, meaning, unit in notation()]
+            ("Symbol", "Meaning", "Unit"),
+            [(inline(s), prose(meaning), prose(unit)) for s, meaning, unit in notation(report)],
         )
     ],
-    "errata": lambda report: [latex_block(e) for e in errata(report.verdicts)],
+    "errata": lambda report: [latex_block(e) for e in errata(report.verdicts, report.paper)],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
     "derivations": lambda report: [
         table(("Derivation", "Script"), [(prose(name), prose(f"{stem}.py")) for stem, name, _ in report.derivations])
-    ],
-    "findings": lambda report: _shown((), report.findings, (), report),
-    "figures": lambda report: _shown((), (), report.pictures_of(""), report),
-    "tables": lambda report: _shown(report.tables, (), (), report),
-    "past": lambda report: _shown(report.past, report.theory, report.pictures_of("t"), report),
-    "speed": lambda report: [*_shown((), (), report.pictures_of("b"), report), *_shown(report.speed, (), (), report)],
-    "stability": lambda report: [
-        *_shown((), (), report.pictures_of("m"), report),
-        *_shown(report.stability, (), (), report),
     ],
     "waiting": _waiting,
     "cite": _cite,

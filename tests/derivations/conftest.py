@@ -5,7 +5,9 @@ from collections.abc import Callable
 import pytest
 
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import Statement, Verdict, judge
+from lagrotor.paper.ledger import Verdict, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.stating import Stated
 
 Edit = tuple[str, str, str]  # script, text, what takes its place
 
@@ -19,18 +21,18 @@ def changed_physics(tmp_path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
 
     def verdicts(edits: list[Edit], *stems: str) -> dict[str, Verdict]:
         ran: dict[str, scripts.Script] = {}
-        original = scripts.run
         monkeypatch.setattr("lagrotor.paper.proof.prove", lambda *sides, **more: None)
         monkeypatch.setattr("lagrotor.paper.stating.needs_premises", lambda *compared: False)
-        monkeypatch.setattr(scripts, "run", lambda kind, stem: ran[stem].names if stem in ran else original(kind, stem))
         for stem in stems:
-            text = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
+            original = PAPER.scripts.path("derivations", stem)
+            text = original.read_text(encoding="utf-8")
             for _, old, new in (edit for edit in edits if edit[0] == stem):
                 assert text.count(old) == 1, (stem, old)
                 text = text.replace(old, new)
             path = tmp_path / f"{stem}.py"
             path.write_text(text, encoding="utf-8")
             ran[stem] = scripts.run_file(path)
-        return {s.id: judge(s) for script in ran.values() for s in script.shown(Statement)}
+            monkeypatch.setitem(PAPER.scripts.ran, original, ran[stem])
+        return {s.id: decide(PAPER.statement(s)) for script in ran.values() for s in script.shown(Stated)}
 
     return verdicts

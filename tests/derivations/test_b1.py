@@ -6,17 +6,17 @@ import pytest
 from lagrotor.benchmark.runner import benchmark
 from lagrotor.benchmark.scenes_and_methods import METHODS
 from lagrotor.drawing.style import paper_style
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 
 @pytest.fixture(scope="module")
 def made():
-    return scripts.run("derivations", "b1_chart")
+    return PAPER.scripts.run("derivations", "b1_chart")
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    return scripts.run("figures", "b1_chart")
+    return PAPER.scripts.run("figures", "b1_chart")
 
 
 def best(made, method):

@@ -7,12 +7,12 @@ import pytest
 from lagrotor.benchmark import recorded_speed as recorded
 from lagrotor.benchmark.scenes_and_methods import OURS
 from lagrotor.errors import LagrotorError
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 
 @pytest.fixture(scope="module")
 def made():
-    return scripts.run("derivations", "b2_seconds")
+    return PAPER.scripts.run("derivations", "b2_seconds")
 
 
 def test_the_record_says_what_it_was_made_with(made):

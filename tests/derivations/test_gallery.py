@@ -6,10 +6,10 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import ProofError
-from lagrotor.paper import scripts
 from lagrotor.paper.proof import Step, prove
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-GALLERY = scripts.names("derivations", "g")
+GALLERY = PAPER.scripts.names("derivations", "g")
 SYSTEMS = (
     "pendulum",
     "double",
@@ -33,14 +33,14 @@ def test_every_system_of_the_list_is_there() -> None:
 
 @pytest.mark.parametrize("stem", GALLERY)
 def test_it_agrees_with_an_independent_formulation_and_not_with_a_neighbour(stem: str) -> None:
-    names = scripts.executed("derivations", stem).names
+    names = PAPER.scripts.executed("derivations", stem).names
     assert 0 < names["off"] < 1e-9
     assert names["difference"]({**names["values"], **names["twin"]}) > 1e-6
 
 
 @pytest.mark.parametrize("stem", GALLERY)
 def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
-    script = scripts.executed("derivations", stem)
+    script = PAPER.scripts.executed("derivations", stem)
     steps = script.shown(Step)
     assert steps and all(step.says for step in steps)
     picture = script.names["picture"]
@@ -55,9 +55,9 @@ def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
 @pytest.mark.parametrize("stem", GALLERY)
 def test_it_is_set_up_in_fewer_than_twenty_lines(stem: str) -> None:
     """From the first symbols to the system: the lines of code of the first cell, imports and blank lines left out."""
-    source = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
-    first = next(cell for cell in scripts.executed("derivations", stem).cells if cell.kind == "code").text
+    source = (PAPER.scripts.path("derivations", stem)).read_text(encoding="utf-8")
+    first = next(cell for cell in PAPER.scripts.executed("derivations", stem).cells if cell.kind == "code").text
     assert first in source
     body = [node for node in ast.parse(first).body if not isinstance(node, ast.Import | ast.ImportFrom)]
     assert 0 < sum((node.end_lineno or 0) - node.lineno + 1 for node in body) < 20
-    assert any(name in scripts.run("derivations", stem) for name in SYSTEMS)
+    assert any(name in PAPER.scripts.run("derivations", stem) for name in SYSTEMS)

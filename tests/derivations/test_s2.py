@@ -8,14 +8,12 @@ import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.pair.symbols import G_1, G_2, Omega, R, a, b, t
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equations
-from lagrotor.paper.ledger import judge
-from lagrotor.paper.scripts import run as run_script
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-NAMES = run_script("derivations", "s2b_linear_pair")
+NAMES = PAPER.scripts.run("derivations", "s2b_linear_pair")
 ROTORS, LINEAR, SHARED = "s2a_angular_momentum", "s2b_linear_pair", "s2c_shared_force"
-STATED = {s.id: s for stem in (ROTORS, SHARED) for s in statements(stem)}
+STATED = {s.id: s for stem in (ROTORS, SHARED) for s in PAPER.statements(stem)}
 PAPERS = "parallel", "slowly", "massless"
 
 
@@ -24,7 +22,7 @@ def with_print(identifier, change):
     statement = STATED[identifier]
     for i, relation in enumerate(statement.relations):
         twin = replace(relation, printed=change(relation.printed))
-        yield judge(replace(statement, relations=(*statement.relations[:i], twin, *statement.relations[i + 1 :])))
+        yield decide(replace(statement, relations=(*statement.relations[:i], twin, *statement.relations[i + 1 :])))
 
 
 def words(verdict):
@@ -32,7 +30,7 @@ def words(verdict):
 
 
 def test_every_equation_of_the_section_has_one_statement():
-    assert list(STATED) == [identifier for identifier in equations() if identifier.startswith("2.")]
+    assert list(STATED) == [identifier for identifier in PAPER.equations if identifier.startswith("2.")]
 
 
 @pytest.mark.parametrize("identifier", ["2.01", "2.02", "2.05", "2.06", "2.07", "2.12", "2.13"])
@@ -53,19 +51,19 @@ def test_a_changed_print_is_refuted(identifier):
 )
 def test_each_needs_these_premises_and_none_can_be_dropped(identifier, assumed):
     statement = STATED[identifier]
-    verdict = judge(statement)
+    verdict = decide(statement)
     assert len(verdict.premises) == len(assumed)
     assert all(part in said for part, said in zip(assumed, words(verdict), strict=True))
     for premise in verdict.premises:
         left = tuple(other for other in verdict.premises if other != premise)
-        without = judge(replace(statement, premises=left))
+        without = decide(replace(statement, premises=left))
         assert without.verdict == "refuted"
         assert without.correction_verdict in (None, "refuted") or verdict.verdict != "refuted"
 
 
 def test_the_premises_that_the_papers_scene_breaks_say_by_how_much():
     broken = {
-        premise.says: premise.broken for i in ("2.02", "2.04", "2.12", "2.13") for premise in judge(STATED[i]).premises
+        premise.says: premise.broken for i in ("2.02", "2.04", "2.12", "2.13") for premise in decide(STATED[i]).premises
     }
     assert [said for said, by in broken.items() if not by] == [
         *(said for said in broken if "axis turns slowly" in said),
@@ -77,7 +75,7 @@ def test_the_premises_that_the_papers_scene_breaks_say_by_how_much():
 
 
 def test_2_02_holds_to_the_leading_order_and_2_04_to_the_first():
-    assert [judge(STATED[identifier]).order for identifier in ("2.02", "2.03", "2.04", "2.05", "2.13")] == [
+    assert [decide(STATED[identifier]).order for identifier in ("2.02", "2.03", "2.04", "2.05", "2.13")] == [
         0,
         0,
         1,

@@ -9,11 +9,10 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equations
-from lagrotor.paper.ledger import judge
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.letters import symmetric
 from lagrotor.paper.premises import Premise
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (
     "s3a_particles",
@@ -22,7 +21,7 @@ PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (
     "s3d_rotation",
     "s3e_link",
 )
-STATED = {s.id: s for stem in (PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK) for s in statements(stem)}
+STATED = {s.id: s for stem in (PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK) for s in PAPER.statements(stem)}
 RANDOM = np.random.default_rng(3)
 
 
@@ -41,18 +40,18 @@ def turned(side):
 
 
 def test_every_equation_of_the_section_has_one_statement():
-    assert sorted(STATED) == [identifier for identifier in equations() if identifier.startswith("3.")]
+    assert sorted(STATED) == [identifier for identifier in PAPER.equations if identifier.startswith("3.")]
 
 
 @pytest.mark.parametrize("identifier", STATED)
 def test_a_changed_sign_in_one_entry_is_refuted(identifier):
     statement = STATED[identifier]
-    refuted = judge(statement).verdict == "refuted"
+    refuted = decide(statement).verdict == "refuted"
     held = statement.correction if refuted else statement.relations
     for i, relation in enumerate(held):
         twin = replace(relation, printed=turned(relation.printed))
         changed = replace(statement, relations=(*held[:i], twin, *held[i + 1 :]), correction=())
-        assert judge(changed).verdict == "refuted"
+        assert decide(changed).verdict == "refuted"
 
 
 @pytest.mark.parametrize(
@@ -69,21 +68,21 @@ def test_a_changed_sign_in_one_entry_is_refuted(identifier):
     ],
 )
 def test_each_needs_these_premises_and_none_can_be_dropped(identifier, assumed):
-    verdict = judge(STATED[identifier])
+    verdict = decide(STATED[identifier])
     assert len(verdict.premises) == len(assumed)
     assert all(part in said for part, said in zip(assumed, words(verdict), strict=True))
     for premise in verdict.premises:
         left = tuple(other for other in verdict.premises if other != premise)
-        without = judge(replace(STATED[identifier], premises=left))
+        without = decide(replace(STATED[identifier], premises=left))
         assert without.verdict == "refuted"
         assert without.correction_verdict in (None, "refuted")
 
 
 def test_unequal_inertias_let_omega_lag_by_one_order():
-    verdict = judge(STATED["3.13"])
+    verdict = decide(STATED["3.13"])
     assert (verdict.verdict, verdict.order) == ("holds-to-order", 1)
     step = tuple(premise for premise in verdict.premises if premise.small is not None)
-    lagging = judge(replace(STATED["3.13"], premises=step))
+    lagging = decide(replace(STATED["3.13"], premises=step))
     assert (lagging.verdict, lagging.order) == ("refuted", 0)
 
 
@@ -91,14 +90,14 @@ def test_equal_inertias_hide_what_is_wrong_in_3_12_and_3_17():
     principal = sp.symbols("I_x I_y I_z", positive=True)
     for identifier in ("3.17", "3.18"):
         equal = Premise("equal principal inertias", dict.fromkeys(principal[1:], principal[0]))
-        assert judge(replace(STATED[identifier], premises=(equal,))).verdict == "holds-if"
+        assert decide(replace(STATED[identifier], premises=(equal,))).verdict == "holds-if"
     I_0 = symmetric("I_0")
     equal = Premise("equal principal inertias", dict(zip(I_0, principal[0] * sp.eye(3), strict=True)))
-    assert judge(replace(STATED["3.12"], premises=(equal,))).verdict == "holds-if"
+    assert decide(replace(STATED["3.12"], premises=(equal,))).verdict == "holds-if"
 
 
 def test_the_number_in_3_19_is_seen_to_stand_for_a_vector():
-    assert "the left side is a vector, the printed right side a number" in judge(STATED["3.19"]).evidence
+    assert "the left side is a vector, the printed right side a number" in decide(STATED["3.19"]).evidence
 
 
 def test_a_cross_product_turned_round_in_the_angular_momentum(changed_physics):

@@ -7,21 +7,19 @@ import pytest
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equations
-from lagrotor.paper.ledger import judge
-from lagrotor.paper.scripts import run as run_script
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 LINKS, ENERGY, SHOCK = "s4a_link_constants", "s4b_energy", "s4c_shock"
-NAMES = {stem: run_script("derivations", stem) for stem in (LINKS, ENERGY, SHOCK)}
-STATED = {s.id: s for stem in NAMES for s in statements(stem)}
+NAMES = {stem: PAPER.scripts.run("derivations", stem) for stem in (LINKS, ENERGY, SHOCK)}
+STATED = {s.id: s for stem in NAMES for s in PAPER.statements(stem)}
 M_1, M_2, M_3 = NAMES[ENERGY]["masses"]
 PRINTED = STATED["4.02"].relations[-1].printed
 LISTED = STATED["4.05"].relations[0].printed
 
 
 def test_every_equation_of_the_section_has_one_statement():
-    assert sorted(STATED) == [identifier for identifier in equations() if identifier.startswith("4.")]
+    assert sorted(STATED) == [identifier for identifier in PAPER.equations if identifier.startswith("4.")]
 
 
 @pytest.mark.parametrize("identifier", ["4.01", "4.02", "4.03", "4.05"])
@@ -33,17 +31,17 @@ def test_a_changed_coefficient_is_refuted(identifier):
             replace(relation, printed=2 * relation.printed),
             *statement.relations[i + 1 :],
         )
-        assert judge(replace(statement, relations=twin)).verdict == "refuted"
+        assert decide(replace(statement, relations=twin)).verdict == "refuted"
 
 
 def test_one_wrong_sign_in_the_energy_is_refuted():
     statement = STATED["4.02"]
     twin = replace(statement.relations[-1], printed=PRINTED.subs(M_3, -M_3))
-    assert judge(replace(statement, relations=(twin,), correction=())).verdict == "refuted"
+    assert decide(replace(statement, relations=(twin,), correction=())).verdict == "refuted"
 
 
 def test_only_the_chosen_function_is_a_definition():
-    assert {i: judge(s).verdict for i, s in STATED.items() if not judge(s).premises} == {
+    assert {i: decide(s).verdict for i, s in STATED.items() if not decide(s).premises} == {
         "4.01": "holds",
         "4.03": "holds",
         "4.04": "definition",
@@ -51,7 +49,7 @@ def test_only_the_chosen_function_is_a_definition():
 
 
 def test_the_printed_energy_needs_unstretched_links_and_the_listing_equal_masses_too():
-    kinetic, listing = judge(STATED["4.02"]), judge(STATED["4.05"])
+    kinetic, listing = decide(STATED["4.02"]), decide(STATED["4.05"])
     assert ["no link is stretched" in premise.says for premise in kinetic.premises] == [True]
     assert "S/4" in kinetic.premises[0].broken
     assert [premise.says for premise in listing.premises] == [
@@ -60,15 +58,15 @@ def test_the_printed_energy_needs_unstretched_links_and_the_listing_equal_masses
     ]
     for premise in listing.premises:
         left = tuple(other for other in listing.premises if other != premise)
-        assert judge(replace(STATED["4.05"], premises=left)).verdict == "refuted"
-    assert judge(replace(STATED["4.02"], premises=())).verdict == "refuted"
+        assert decide(replace(STATED["4.05"], premises=left)).verdict == "refuted"
+    assert decide(replace(STATED["4.02"], premises=())).verdict == "refuted"
 
 
 def test_the_total_energy_is_the_correction_of_4_02():
-    assert judge(STATED["4.02"]).correction_verdict == "holds"
+    assert decide(STATED["4.02"]).correction_verdict == "holds"
     whole = STATED["4.02"].correction[0]
     without = replace(whole, printed=whole.printed.subs(NAMES[ENERGY]["S"], 0))
-    assert judge(replace(STATED["4.02"], relations=(without,), premises=(), correction=())).verdict == "refuted"
+    assert decide(replace(STATED["4.02"], relations=(without,), premises=(), correction=())).verdict == "refuted"
 
 
 def test_changed_physics_of_the_energy_and_of_the_damper(changed_physics):

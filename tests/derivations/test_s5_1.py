@@ -10,10 +10,10 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.errors import ProofError
 from lagrotor.pair.symbols import G_1, G_2, G, Omega, R, t
-from lagrotor.paper import scripts
-from lagrotor.paper.ledger import Statement
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import prove
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.stating import Stated
 
 BAR = Link(mass=1, inertia=1)
 NUMBERS = {"p": 1.75, "q": 3.25, "G": 10.0}
@@ -21,12 +21,12 @@ NUMBERS = {"p": 1.75, "q": 3.25, "G": 10.0}
 
 @pytest.fixture(scope="module")
 def script() -> dict[str, Any]:
-    return scripts.run("derivations", "s5_1_toppling")
+    return PAPER.scripts.run("derivations", "s5_1_toppling")
 
 
 def test_it_states_no_equation_and_its_remarks_are_sentences() -> None:
-    shown = scripts.executed("derivations", "s5_1_toppling")
-    assert shown.shown(Statement) == []
+    shown = PAPER.scripts.executed("derivations", "s5_1_toppling")
+    assert shown.shown(Stated) == []
     remarks = shown.shown(Remark)
     assert len({remark.title for remark in remarks}) == len(remarks) >= 5
     assert all(remark.title and remark.text.endswith(".") for remark in remarks)

@@ -15,20 +15,26 @@ from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair import lagrangians
 from lagrotor.pair.symbols import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper import premises, proof, scripts, stating
-from lagrotor.paper.ansatz_premises import (
+from lagrotor.paper import proof, scripts, stating
+from lagrotor.paper.ledger import Statement, Verdict, decide
+from lagrotor.paper.rotor_pair import shared_premises
+from lagrotor.paper.rotor_pair.ansatz_premises import (
     breach,
     no_bar_force,
     one_inclination,
     opposite_azimuths,
     opposite_spin_angles,
 )
-from lagrotor.paper.audit import statements
-from lagrotor.paper.ledger import Statement, Verdict, judge
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.stating import Stated
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
-ABOUT, MASSLESS, EQUAL = premises.ABOUT_JOINT.says, premises.MASSLESS_BAR.says, premises.EQUAL_INERTIAS.says
-UNITS = {premises.BAR_AS_LONG_AS_ROTORS.says, premises.UNIT_LENGTH.says}
+ABOUT, MASSLESS, EQUAL = (
+    shared_premises.ABOUT_JOINT.says,
+    shared_premises.MASSLESS_BAR.says,
+    shared_premises.EQUAL_INERTIAS.says,
+)
+UNITS = {shared_premises.BAR_AS_LONG_AS_ROTORS.says, shared_premises.UNIT_LENGTH.says}
 AZIMUTHS, SPIN_ANGLES = opposite_azimuths().says, opposite_spin_angles().says
 # What each equation of the pair assumes, no more and no less.
 ASSUMED = {
@@ -47,12 +53,12 @@ ASSUMED = {
 
 @pytest.fixture(scope="module")
 def stated() -> dict[str, Statement]:
-    return {s.id: s for stem in scripts.names("derivations", "s5_2") for s in statements(stem)}
+    return {s.id: s for stem in PAPER.scripts.names("derivations", "s5_2") for s in PAPER.statements(stem)}
 
 
 @pytest.fixture(scope="module")
 def verdicts(stated: dict[str, Statement]) -> dict[str, Verdict]:
-    return {i: judge(statement) for i, statement in stated.items()}
+    return {i: decide(statement) for i, statement in stated.items()}
 
 
 @pytest.mark.parametrize("identifier", ASSUMED)
@@ -64,7 +70,7 @@ def test_what_each_equation_assumes(verdicts: dict[str, Verdict], identifier: st
 def test_without_one_premise_it_does_not_hold(stated: dict[str, Statement], identifier: str) -> None:
     for dropped in ASSUMED[identifier]:
         kept = tuple(p for p in stated[identifier].premises if p.says != dropped)
-        assert judge(replace(stated[identifier], premises=kept)).verdict in ("refuted", "undecided"), dropped
+        assert decide(replace(stated[identifier], premises=kept)).verdict in ("refuted", "undecided"), dropped
 
 
 def test_orders_and_domains(verdicts: dict[str, Verdict]) -> None:
@@ -77,18 +83,18 @@ def test_orders_and_domains(verdicts: dict[str, Verdict]) -> None:
 
 def test_what_is_refuted_is_refuted_with_every_premise_granted(stated: dict[str, Statement]) -> None:
     """The first difference is that of a massless bar as long as the rotors, the paper's own case."""
-    assert any("order 2 in r_0, by 1/4" in line for line in judge(stated["5.21"]).evidence)
+    assert any("order 2 in r_0, by 1/4" in line for line in decide(stated["5.21"]).evidence)
     _, value_of_A = stated["5.16"].relations
-    alone = judge(replace(stated["5.16"], relations=(value_of_A,), correction=()))
+    alone = decide(replace(stated["5.16"], relations=(value_of_A,), correction=()))
     assert value_of_A.quantity == "A"
     assert (alone.verdict, alone.order) == ("holds-to-order", 1), "only B is wrong"
-    assert premises.OPPOSITE_SPINS in alone.premises
+    assert shared_premises.OPPOSITE_SPINS in alone.premises
 
 
 @pytest.mark.parametrize("identifier", ["5.20", "5.21", "5.22"])
 def test_a_changed_correction_is_refuted(stated: dict[str, Statement], identifier: str) -> None:
     statement = stated[identifier]
-    assert judge(statement).correction_verdict in ("holds", "holds-to-order")
+    assert decide(statement).correction_verdict in ("holds", "holds-to-order")
     for i, right in enumerate(statement.correction):
         small = {r0: 2 * r0, sp.sin(theta_0): 2 * sp.sin(theta_0)} if right.small else {J: 2 * J}
         wrong = (
@@ -96,7 +102,7 @@ def test_a_changed_correction_is_refuted(stated: dict[str, Statement], identifie
             replace(right, printed=right.printed.subs(small)),
             *statement.correction[i + 1 :],
         )
-        assert judge(replace(statement, correction=wrong)).correction_verdict == "refuted"
+        assert decide(replace(statement, correction=wrong)).correction_verdict == "refuted"
 
 
 def changed(monkeypatch: pytest.MonkeyPatch, stem: str, name: str, change: Callable[[Any], Any]) -> dict[str, str]:
@@ -104,8 +110,8 @@ def changed(monkeypatch: pytest.MonkeyPatch, stem: str, name: str, change: Calla
     monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
     monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
     monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
-    script = scripts.run_file(scripts.folder("derivations") / f"{stem}.py")
-    return {s.id: judge(s).verdict for s in script.shown(Statement)}
+    script = scripts.run_file(PAPER.scripts.path("derivations", stem))
+    return {s.id: decide(PAPER.statement(s)).verdict for s in script.shown(Stated)}
 
 
 def test_spin_against_the_precession_flips_the_lagrangians(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,7 +196,13 @@ def test_the_corrected_inclinations_are_those_of_the_exact_orbit(stated: dict[st
     orbit = exact_orbit(scene, 0.02)
     phases = np.linspace(0, 2 * np.pi, 25)
     run = simulate(orbit.scene, phases / orbit.frequency, "minimal", 1e-12)
-    values = {sigma: (big + coupled) / (big - coupled), ell: 1.3, premises.R: 1, k: 1.3, theta_0: np.arcsin(0.02)}
+    values = {
+        sigma: (big + coupled) / (big - coupled),
+        ell: 1.3,
+        shared_premises.R: 1,
+        k: 1.3,
+        theta_0: np.arcsin(0.02),
+    }
     errors = []
     for side in (stated["5.20"].correction, stated["5.20"].relations):
         for axis, relation in zip(run.axes, side, strict=True):

@@ -12,27 +12,29 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.symbols import J, K, R, ell, k, m, omega, sigma
 from lagrotor.paper import proof, scripts, stating
-from lagrotor.paper.ledger import Statement, judge
-from lagrotor.paper.premises import (
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.premises import Premise
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.shared_premises import (
     EQUAL_SPINS,
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,
     ONE_KILOGRAM_BAR,
     PAPERS_ROTOR,
-    Premise,
     in_parameters,
 )
+from lagrotor.paper.stating import Stated
 
 STEMS = ("s5_3a_equal_spins", "s5_3b_opposite_spins")
-SCRIPTS = [scripts.executed("derivations", stem) for stem in STEMS]
+SCRIPTS = [PAPER.scripts.executed("derivations", stem) for stem in STEMS]
 NAMES: dict[str, Any] = SCRIPTS[0].names | SCRIPTS[1].names
-STATED = {s.id: s for script in SCRIPTS for s in script.shown(Statement)}
+STATED = {s.id: PAPER.statement(s) for script in SCRIPTS for s in script.shown(Stated)}
 
 
 def alone(identifier: str, quantity: str, premises: tuple[Premise, ...] = ()) -> str:
     """The verdict of one line of an equation, under these premises only."""
     lines = tuple(r for r in STATED[identifier].relations if quantity in r.quantity)
-    return judge(replace(STATED[identifier], relations=lines, correction=(), premises=premises)).verdict
+    return decide(replace(STATED[identifier], relations=lines, correction=(), premises=premises)).verdict
 
 
 def twins(expression: sp.Expr) -> list[sp.Expr]:
@@ -51,23 +53,23 @@ def test_every_equation_of_the_section_has_one_statement() -> None:
 @pytest.mark.parametrize("identifier", STATED)
 def test_changed_lines_and_changed_corrections_are_refuted(identifier: str) -> None:
     statement = STATED[identifier]
-    refuted = judge(statement).verdict == "refuted"
+    refuted = decide(statement).verdict == "refuted"
     held = statement.correction if refuted else statement.relations
     for i, relation in enumerate(held):
         for twin in twins(relation.printed):
             others = (*held[:i], replace(relation, printed=twin), *held[i + 1 :])
             premises = () if refuted else statement.premises
-            assert judge(replace(statement, relations=others, correction=(), premises=premises)).verdict == "refuted"
+            assert decide(replace(statement, relations=others, correction=(), premises=premises)).verdict == "refuted"
 
 
 def test_the_constant_is_measured_with_equal_spins_and_a_bar_of_one_kilogram() -> None:
-    used = judge(STATED["5.25"]).premises
+    used = decide(STATED["5.25"]).premises
     assert used[:2] == (EQUAL_SPINS, ONE_KILOGRAM_BAR)
     for dropped in used:
         left = tuple(p for p in used if p != dropped)
-        assert judge(replace(STATED["5.25"], premises=left)).verdict == "refuted", dropped.says
+        assert decide(replace(STATED["5.25"], premises=left)).verdict == "refuted", dropped.says
     two = Premise("a bar of 2 kg", {m: 2})
-    assert judge(replace(STATED["5.25"], premises=(EQUAL_SPINS, two, used[2]))).verdict == "refuted"
+    assert decide(replace(STATED["5.25"], premises=(EQUAL_SPINS, two, used[2]))).verdict == "refuted"
 
 
 def test_5_28_agrees_with_5_25_on_equal_spins_and_is_refuted_by_opposite_ones() -> None:
@@ -84,15 +86,15 @@ def test_5_28_agrees_with_5_25_on_equal_spins_and_is_refuted_by_opposite_ones() 
 def test_neither_number_of_5_26_is_the_rate_of_a_listed_bar(number: str) -> None:
     (printed,) = (r for r in STATED["5.26"].relations if r.printed == sp.Rational(number))
     lone = replace(STATED["5.26"], relations=(printed,), correction=())
-    assert judge(lone).verdict == "refuted"
+    assert decide(lone).verdict == "refuted"
     its_bar = Premise("the bar that has 5.7", {m: 1, K: NAMES["inertia_of_product"].subs(m, 1), NAMES["eta"]: 0})
-    assert judge(replace(lone, premises=(its_bar,))).verdict == ("measured" if number == "5.7" else "refuted")
+    assert decide(replace(lone, premises=(its_bar,))).verdict == ("measured" if number == "5.7" else "refuted")
 
 
 def test_the_exact_rate_of_one_rotor_is_not_the_small_one() -> None:
     """Without the premise that the inclination is small 4/5 omega is refuted; it differs at the second order."""
-    assert judge(replace(STATED["5.23"], premises=())).verdict == "refuted"
-    assert judge(STATED["5.23"]).order == 1
+    assert decide(replace(STATED["5.23"], premises=())).verdict == "refuted"
+    assert decide(STATED["5.23"]).order == 1
 
 
 def test_other_inertia_flips_the_rate_of_one_rotor(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -100,8 +102,8 @@ def test_other_inertia_flips_the_rate_of_one_rotor(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(lagrangians, "_rotor_energy", lambda inertia, *rest: energy(2 * inertia, *rest))
     monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
     monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
-    script = scripts.run_file(scripts.folder("derivations") / "s5_3a_equal_spins.py")
-    assert {s.id: judge(s).verdict for s in script.shown(Statement)} == {
+    script = scripts.run_file(PAPER.scripts.path("derivations", "s5_3a_equal_spins"))
+    assert {s.id: decide(PAPER.statement(s)).verdict for s in script.shown(Stated)} == {
         "5.23": "refuted",
         "5.24": "measured",
         "5.25": "measured",
@@ -111,11 +113,11 @@ def test_other_inertia_flips_the_rate_of_one_rotor(monkeypatch: pytest.MonkeyPat
 def test_other_masses_of_the_bar_flip_the_constant(monkeypatch: pytest.MonkeyPatch) -> None:
     """The bar's mass whole on each axis, a = J + m R²/2 + K R²/ell²: the premises of 5.24 and 5.25 suffice no longer."""
     monkeypatch.setitem(lagrangians.INERTIAS, lagrangians.a, J + m * R**2 / 2 + K * R**2 / ell**2)
-    assert judge(replace(STATED["5.25"])).verdict == "measured", "what was derived before stays"
+    assert decide(replace(STATED["5.25"])).verdict == "measured", "what was derived before stays"
     monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
     monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
-    script = scripts.run_file(scripts.folder("derivations") / "s5_3a_equal_spins.py")
-    found = {s.id: judge(s).verdict for s in script.shown(Statement)}
+    script = scripts.run_file(PAPER.scripts.path("derivations", "s5_3a_equal_spins"))
+    found = {s.id: decide(PAPER.statement(s)).verdict for s in script.shown(Stated)}
     assert (found["5.24"], found["5.25"]) == ("refuted", "refuted")
 
 

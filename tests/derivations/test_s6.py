@@ -10,14 +10,14 @@ from lagrotor import Link, Scene, natural_rate, simulate
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.symbols import G_1, G_2, G, a, b
-from lagrotor.paper import scripts
-from lagrotor.paper.catalogue import equation
-from lagrotor.paper.ledger import Relation, Statement, judge
-from lagrotor.paper.premises import TWO_MODES
+from lagrotor.paper.ledger import Relation, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
+from lagrotor.paper.stating import Stated
 
-SCRIPT = scripts.executed("derivations", "s6_conclusion")
+SCRIPT = PAPER.scripts.executed("derivations", "s6_conclusion")
 NAMES = SCRIPT.names
-STATED = {s.id: s for s in SCRIPT.shown(Statement)}
+STATED = {s.id: PAPER.statement(s) for s in SCRIPT.shown(Stated)}
 BAR = Link(mass=1, inertia=1)
 
 
@@ -27,9 +27,9 @@ def test_both_equations_are_stated() -> None:
 
 def test_the_modes_are_two_under_one_premise_and_the_freedoms_under_none() -> None:
     lines = {r.quantity: r for r in STATED["6.01"].relations}
-    assert judge(STATED["6.01"]).premises == (TWO_MODES,)
+    assert decide(STATED["6.01"]).premises == (TWO_MODES,)
     for quantity, relation in lines.items():
-        bare = judge(replace(STATED["6.01"], relations=(relation,), premises=())).verdict
+        bare = decide(replace(STATED["6.01"], relations=(relation,), premises=())).verdict
         assert bare == ("refuted" if quantity == r"\text{modes}" else "holds"), quantity
 
 
@@ -38,7 +38,7 @@ def test_a_changed_print_of_the_modes_is_refuted() -> None:
     for i, relation in enumerate(held):
         other = -relation.printed if isinstance(relation.printed, sp.MatrixBase) else relation.printed + 1
         lines = (*held[:i], replace(relation, printed=other), *held[i + 1 :])
-        assert judge(replace(STATED["6.01"], relations=lines)).verdict == "refuted", relation.quantity
+        assert decide(replace(STATED["6.01"], relations=lines)).verdict == "refuted", relation.quantity
 
 
 def test_equal_spins_have_other_modes() -> None:
@@ -46,26 +46,26 @@ def test_equal_spins_have_other_modes() -> None:
     for relation in STATED["6.01"].relations[-2:]:
         assert relation.scene == {G_2: -G_1}
         equal = replace(relation, scene={G_2: G_1})
-        assert judge(replace(STATED["6.01"], relations=(equal,))).verdict == "refuted"
+        assert decide(replace(STATED["6.01"], relations=(equal,))).verdict == "refuted"
         turned = replace(equal, printed=sp.Matrix([relation.printed[0], -relation.printed[1]]))
-        assert judge(replace(STATED["6.01"], relations=(turned,))).verdict == "holds"
+        assert decide(replace(STATED["6.01"], relations=(turned,))).verdict == "holds"
 
 
 def test_6_02_is_5_27_said_again() -> None:
-    members = [[line.members for line in equation(i).lines] for i in ("5.27", "6.02")]
+    members = [[line.members for line in PAPER.lines(i)] for i in ("5.27", "6.02")]
     assert members[0] == members[1]
 
 
 def test_changed_corrections_of_the_rate_are_refuted() -> None:
     statement = STATED["6.02"]
-    assert judge(statement).correction_verdict == "holds"
+    assert decide(statement).correction_verdict == "holds"
     for i, relation in enumerate(statement.correction):
         twins = [-relation.printed, 2 * relation.printed]
         for total in relation.printed.atoms(sp.Add):
             twins.append(relation.printed.xreplace({total: total - 2 * total.args[0]}))
         for twin in twins:
             others = (*statement.correction[:i], replace(relation, printed=twin), *statement.correction[i + 1 :])
-            assert judge(replace(statement, relations=others, correction=(), premises=())).verdict == "refuted"
+            assert decide(replace(statement, relations=others, correction=(), premises=())).verdict == "refuted"
 
 
 def test_without_the_bar_there_are_more_degrees_of_freedom() -> None:
@@ -73,7 +73,7 @@ def test_without_the_bar_there_are_more_degrees_of_freedom() -> None:
     assert free == NAMES["without_spins"] + 1
     line = next(r for r in STATED["6.01"].relations if "without" in r.quantity)
     changed = Relation(line.printed, sp.Integer(free), quantity=line.quantity)
-    assert judge(replace(STATED["6.01"], relations=(changed,))).verdict == "refuted"
+    assert decide(replace(STATED["6.01"], relations=(changed,))).verdict == "refuted"
 
 
 def test_roots_in_numbers() -> None:

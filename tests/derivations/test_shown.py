@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 ENOUGH = 2
 
@@ -23,9 +23,9 @@ def _silent(value: ast.expr) -> bool:
     return getattr(called, "id", None) == "print" or getattr(called, "attr", None) in ("append", "extend", "update")
 
 
-@pytest.mark.parametrize("stem", scripts.names("derivations"))
+@pytest.mark.parametrize("stem", PAPER.scripts.names("derivations"))
 def test_every_script_shows_what_it_reaches(stem: str) -> None:
-    script = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
+    script = (PAPER.scripts.path("derivations", stem)).read_text(encoding="utf-8")
     assert len(shown(script)) >= ENOUGH
 
 

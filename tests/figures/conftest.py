@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from lagrotor.drawing.style import paper_style
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
 
 
@@ -14,7 +14,7 @@ class Drawn:
     """The names of one script; data, measured numbers and picture are computed once, when first used."""
 
     def __init__(self, key: str) -> None:
-        self.names = scripts.run("figures", figures.stems()[key])
+        self.names = PAPER.scripts.run("figures", figures.stems(PAPER.scripts)[key])
 
     @cached_property
     def data(self) -> dict[str, Any]:

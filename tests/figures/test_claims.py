@@ -11,7 +11,7 @@ import pytest
 
 from lagrotor import Rotor, natural_rate
 from lagrotor.models.spring_link.system import RigidBodySystem
-from lagrotor.paper import scripts
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
 
 
@@ -295,7 +295,7 @@ UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²"}
 
 
 def test_every_figure_makes_a_claim():
-    keys = [key for key in figures.stems() if key[0] != "m" or key == "m1"]
+    keys = [key for key in figures.stems(PAPER.scripts) if key[0] != "m" or key == "m1"]
     assert set(keys) == {key for key, *_ in CLAIMS} == set(DIAGRAMS) | set(PLOTS) | {"m1"}
 
 
@@ -366,14 +366,16 @@ def test_structure_of_a_diagram(drawn, key):
 
 
 def test_every_derivation_past_the_paper_has_its_figure():
-    assert scripts.names("derivations", "t") == [stem for key, stem in figures.stems().items() if key.startswith("t")]
+    assert PAPER.scripts.names("derivations", "t") == [
+        stem for key, stem in figures.stems(PAPER.scripts).items() if key.startswith("t")
+    ]
 
 
 def test_drawn_twice_is_the_same_bytes(tmp_path):
     folders = [tmp_path / name for name in ("one", "two")]
     for folder in folders:
         folder.mkdir()
-    first, second = (figures.draw("17", folder) for folder in folders)
+    first, second = (figures.draw("17", folder, PAPER.scripts) for folder in folders)
     assert first.svg.read_bytes() == second.svg.read_bytes()
     assert first.png.read_bytes() == second.png.read_bytes()
     assert first.measured == second.measured

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.paper.catalogue import claims
-from lagrotor.paper.claim_tests import claim_tests, record
-from lagrotor.paper.claims.simulator import inverted_each_time
-from lagrotor.paper.record import recorded
+from lagrotor.paper.claim_tests import as_data
+from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-TESTS = claim_tests()
+TESTS = PAPER.claim_tests
 
 # Parts of a sentence without a case that contradicts them: numbers that do, put among those of the claim's own case.
 CONTRADICTIONS = [
@@ -116,7 +115,7 @@ def part_of(finding, says):
 
 
 def test_every_claim_has_a_test_that_its_script_shows():
-    assert list(claims()) == list(TESTS)
+    assert list(PAPER.claims) == list(TESTS)
 
 
 def test_importing_the_scripts_runs_nothing():
@@ -125,20 +124,20 @@ def test_importing_the_scripts_runs_nothing():
 import lagrotor.models.simulate, lagrotor.models.spring_link.run as springs
 def refuse(*_, **__): raise AssertionError("a run")
 lagrotor.models.simulate._run = springs.run_steps = springs.run_solver = refuse
-from lagrotor.paper.claim_tests import claim_tests
-found = claim_tests()
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+found = PAPER.claim_tests
 assert not any("result" in vars(test) for test in found.values())
 try: found["C09"].result
 except AssertionError: print(len(found))
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == [str(len(claims()))]
+    assert done.stdout.split() == [str(len(PAPER.claims))]
 
 
 @pytest.mark.parametrize("identifier", TESTS)
 def test_outcome_is_as_recorded(results, identifier):
     finding = results[identifier].finding
-    assert finding.outcome == recorded()[identifier].verdict, finding.explanation
+    assert finding.outcome == PAPER.recorded[identifier].verdict, finding.explanation
     assert (finding.condition is not None) == (finding.outcome == "confirmed-if")
 
 
@@ -277,7 +276,7 @@ def test_no_bar_keeps_the_printed_opposite_rate_for_three_cycles(results):
 
 @pytest.mark.parametrize("identifier", TESTS)
 def test_record(results, identifier):
-    row = record(results[identifier])
+    row = as_data(results[identifier], PAPER.claims[identifier])
     keys = "id section text verdict condition parts model measured explanation seconds"
     assert list(row) == keys.split()
     assert row["explanation"].endswith(".")

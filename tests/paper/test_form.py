@@ -4,13 +4,12 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import InputError, ProofError
-from lagrotor.paper import audit, scripts
-from lagrotor.paper.catalogue import equations
 from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross, vector
+from lagrotor.paper.letters import Letters, cross, vector
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import verdict
 
-DECLARED = equations()["3.05"].declared
+DECLARED = PAPER.letters("3")
 
 
 def test_a_text_in_vectors_gives_its_components() -> None:
@@ -41,16 +40,16 @@ def test_a_text_is_written_as_it_stands(text: str, tex: str) -> None:
 
 
 def test_what_is_left_out_of_a_series_is_said() -> None:
-    assert form("1 + M", rest="M^2").tex({}) == "1 + M + O(M^2)"
+    assert form("1 + M", rest="M^2").tex(Letters()) == "1 + M + O(M^2)"
 
 
 def test_a_form_that_is_not_the_result_is_refused() -> None:
     derived = sum(sp.symbols("m_1:4", positive=True))
-    assert verdict("3.01", derived, written=form("sum_i(m_i)")).relations[0].written == r"\sum_i m_{i}"
+    assert PAPER.statement(verdict("3.01", derived, written=form("sum_i(m_i)"))).relations[0].written == r"\sum_i m_{i}"
     with pytest.raises(ProofError, match="is not what was derived"):
-        verdict("3.01", derived, written=form("sum_i(2*m_i)"))
+        PAPER.statement(verdict("3.01", derived, written=form("sum_i(2*m_i)")))
     with pytest.raises(InputError, match="which was not derived"):
-        verdict("3.01", derived, written={"N": form("sum_i(m_i)")})
+        PAPER.statement(verdict("3.01", derived, written={"N": form("sum_i(m_i)")}))
 
 
 @pytest.mark.parametrize("text", ["sum_i(m_i", "nobody*2"])
@@ -61,8 +60,8 @@ def test_a_text_that_cannot_be_read_is_refused(text: str) -> None:
 
 def test_no_derived_line_is_a_list_of_components_or_a_wall() -> None:
     """Every derived line and every correction is short, and has a left side."""
-    stems = sorted({stem for stem in scripts.stating().values() if stem.startswith("s")})
-    for statement in (s for stem in stems for s in audit.statements(stem)):
+    stems = sorted({stem for stem, _ in PAPER.scripts.stating.values() if stem.startswith("s")})
+    for statement in (s for stem in stems for s in PAPER.statements(stem)):
         for relation in (*statement.relations, *statement.correction):
             line = relation.written or sp.latex(relation.derived)
             assert relation.quantity, statement.id

@@ -8,12 +8,13 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.pair.symbols import I1, I3, ROTOR, J, r0
 from lagrotor.paper import letters
-from lagrotor.paper.audit import record
-from lagrotor.paper.catalogue import claims, equations, figures
-from lagrotor.paper.ledger import Relation, Statement, chain, judge
-from lagrotor.paper.premises import Premise, parameter_premise
+from lagrotor.paper.ledger import Relation, Statement, chain, decide
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.record import as_text, changes, reaches_result, recorded
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.shared_premises import about_parameters
 from lagrotor.paper.stating import verdict
+from lagrotor.paper.verdict_text import as_data
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)
@@ -21,11 +22,16 @@ ONE = Premise("one of them", {n: sp.Integer(1)})
 
 
 def verdict_of(printed: sp.Expr, derived: sp.Expr, **more: object):
-    return judge(Statement("5.01", (Relation(printed, derived),), **more))
+    return decide(Statement("5.01", (Relation(printed, derived),), **more))
+
+
+def on_paper(*given: object, **more: object) -> Statement:
+    """What a derivation states, beside the print."""
+    return PAPER.statement(verdict(*given, **more))
 
 
 def test_the_catalogue_is_whole() -> None:
-    assert (len(equations()), len(claims()), len(figures())) == (68, 24, 28)
+    assert (len(PAPER.equations), len(PAPER.claims), len(PAPER.figures)) == (68, 24, 28)
 
 
 def test_an_identity_holds_with_its_domain() -> None:
@@ -55,7 +61,7 @@ def test_the_fewest_premises_are_reported() -> None:
     third = Premise("a third", {x: sp.Integer(2)})
     both = verdict_of(x * n + y, x, premises=(third, ONE, other))
     assert both.premises == (ONE, other)
-    assert judge(Statement("5.01", (Relation(x * n + y, x),), (ONE, third))).verdict == "refuted"
+    assert decide(Statement("5.01", (Relation(x * n + y, x),), (ONE, third))).verdict == "refuted"
 
 
 def test_premises_that_contradict_each_other_are_each_tried() -> None:
@@ -69,29 +75,29 @@ def test_premises_that_contradict_each_other_are_each_tried() -> None:
 def test_what_is_wrong_is_told_of_the_most_special_case() -> None:
     """x n + y² against x + y³: with n = 1 the first difference is of second order in y, without it of order zero."""
     near = Relation(x * n + y**2, x + y**3, y, 3)
-    assert any("order 2 in y" in line for line in judge(Statement("5.01", (near,), (ONE,))).evidence)
-    assert any("order 0 in y" in line for line in judge(Statement("5.01", (near,))).evidence)
+    assert any("order 2 in y" in line for line in decide(Statement("5.01", (near,), (ONE,))).evidence)
+    assert any("order 0 in y" in line for line in decide(Statement("5.01", (near,))).evidence)
 
 
 def test_the_values_of_the_scene_come_after_the_premises() -> None:
     """Of x n with n = 1 and, in the text, x = 3."""
     there = Relation(sp.Integer(3), x * n, scene={x: sp.Integer(3)})
-    assert judge(Statement("5.01", (there,), (ONE,))).premises == (ONE,)
-    assert judge(Statement("5.01", (replace(there, scene={x: sp.Integer(4)}),), (ONE,))).verdict == "refuted"
+    assert decide(Statement("5.01", (there,), (ONE,))).premises == (ONE,)
+    assert decide(Statement("5.01", (replace(there, scene={x: sp.Integer(4)}),), (ONE,))).verdict == "refuted"
 
 
 def test_a_number_read_off_is_held_to_a_rate_with_roots_and_to_its_sign() -> None:
     rate = n * sp.sqrt((n**2 + 2 * n + 1) / (4 * n**2 * (n + 1) ** 2))  # 1/2 for every positive n
     read = Relation(sp.Rational(1, 2), rate, within=sp.Rational(1, 100))
-    assert judge(Statement("5.24", (read,), measured=True)).verdict == "measured"
+    assert decide(Statement("5.24", (read,), measured=True)).verdict == "measured"
     for wrong in (sp.Rational(-1, 2), sp.Rational(52, 100), n):
-        assert judge(Statement("5.24", (replace(read, printed=wrong),), measured=True)).verdict == "refuted"
+        assert decide(Statement("5.24", (replace(read, printed=wrong),), measured=True)).verdict == "refuted"
 
 
 def test_a_premise_that_the_paper_breaks_says_by_how_much() -> None:
-    equal = parameter_premise("J = I₃", {J: I3})
+    equal = about_parameters("J = I₃", {J: I3})
     assert equal.sentence == "J = I₃ (broken by the paper's own scene: J = 1.25, I₃ = 1)"
-    kept = parameter_premise("I₁ = I₃", {I1: I3})
+    kept = about_parameters("I₁ = I₃", {I1: I3})
     assert kept.sentence == "I₁ = I₃"
 
 
@@ -103,22 +109,22 @@ def test_an_approximation_brings_in_its_small_quantity() -> None:
         "only the value at zero is claimed"
     )
     claimed = Statement("5.01", (Relation(2 * x, sp.sin(x), None, 1),), (slow,))
-    assert judge(claimed).verdict == "refuted"
+    assert decide(claimed).verdict == "refuted"
 
 
 def test_an_order_is_found_and_held_to_what_is_claimed() -> None:
-    cosine = judge(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))
+    cosine = decide(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))
     assert (cosine.verdict, cosine.order) == ("holds-to-order", 3)
     assert [premise.small for premise in cosine.premises] == [x]
-    refused = judge(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 4),)))
+    refused = decide(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 4),)))
     assert (refused.verdict, refused.order, refused.premises) == ("refuted", 3, ())
     assert any("order 4" in line for line in refused.evidence)
 
 
 def test_the_weakest_relation_decides() -> None:
     good, close, bad = Relation(x, x), Relation(x, sp.sin(x), x, 2), Relation(x, -x)
-    assert judge(Statement("5.01", (good, close))).verdict == "holds-to-order"
-    assert judge(Statement("5.01", (good, close, bad))).verdict == "refuted"
+    assert decide(Statement("5.01", (good, close))).verdict == "holds-to-order"
+    assert decide(Statement("5.01", (good, close, bad))).verdict == "refuted"
 
 
 def test_what_lies_outside_the_class_is_undecided_not_true() -> None:
@@ -138,33 +144,33 @@ def test_the_printed_side_comes_from_the_catalogue() -> None:
     theta_v, phi_v, psi_v = ROTOR.v
     c, s = sp.cos(ROTOR.q[0]), sp.sin(ROTOR.q[0])
     energy = J / 2 * (theta_v**2 + phi_v**2 * s**2) + I3 / 2 * (psi_v + phi_v * c) ** 2
-    stated = verdict("5.01", energy)
+    stated = on_paper("5.01", energy)
     assert stated.relations[0].printed == energy.subs(J, I1)
-    assert judge(stated).verdict == "refuted"
-    assert judge(verdict("5.01", energy, [parameter_premise("I₁ = J", {I1: J})])).verdict == "holds-if"
+    assert decide(stated).verdict == "refuted"
+    assert decide(on_paper("5.01", energy, [about_parameters("I₁ = J", {I1: J})])).verdict == "holds-if"
 
 
 def test_a_printed_quantity_must_be_derived_and_a_corrected_one_too() -> None:
     with pytest.raises(InputError, match=r"5\.03 prints M_3: derive it"):
-        verdict("5.03", {"M_z": x})
+        on_paper("5.03", {"M_z": x})
     with pytest.raises(InputError, match="derive it"):
-        verdict("5.01")
+        on_paper("5.01")
     with pytest.raises(InputError, match="which was not derived"):
-        verdict("5.01", x, correction={"E": x})
+        on_paper("5.01", x, correction={"E": x})
 
 
 def test_a_line_that_another_equation_defines_needs_its_statement() -> None:
     centre = letters.vector("X")
     with pytest.raises(InputError, match=r"3\.03: M is defined in 3\.01: give its statement"):
-        verdict("3.03", centre)
+        on_paper("3.03", centre)
     with pytest.raises(InputError, match=r"X_cm is defined in 3\.03"):
-        verdict("3.05", centre, uses=["3.03"])
+        on_paper("3.05", centre, uses=["3.03"])
 
 
 def test_what_another_equation_defines_may_be_a_vector() -> None:
     mass = verdict("3.01", n)
     centre = verdict("3.03", letters.column(x, y, 1), uses=[mass])
-    (relation,) = verdict("3.06", letters.column(0, 0, 0), uses=[centre]).relations
+    (relation,) = on_paper("3.06", letters.column(0, 0, 0), uses=[centre]).relations
     assert not {s.name for s in relation.printed.free_symbols} & {"X_cm_x", "X_cm_y", "X_cm_z"}
     assert {x, y} <= relation.printed.free_symbols
 
@@ -190,26 +196,25 @@ def test_a_correction_may_rest_on_premises_and_they_are_reported() -> None:
 
 def test_errors_are_followed_to_the_results() -> None:
     uses = {"5.15": ("5.14",), "5.14": ()}
-    assert reaches_result("5.14", {"5.14": "refuted", "5.15": "refuted"}, uses)
-    assert not reaches_result("5.14", {"5.14": "refuted", "5.15": "holds"}, uses)
-    assert reaches_result("5.15", {"5.15": "refuted"}, {})
+    assert reaches_result("5.14", ["5.15"], {"5.14": "refuted", "5.15": "refuted"}, uses)
+    assert not reaches_result("5.14", ["5.15"], {"5.14": "refuted", "5.15": "holds"}, uses)
+    assert reaches_result("5.15", ["5.15"], {"5.15": "refuted"}, {})
 
 
-def test_the_record_is_written_and_read_alike(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = recorded()
-    monkeypatch.setattr("lagrotor.paper.record.RECORDED", tmp_path / "record.json")
-    assert recorded() == {}
-    (tmp_path / "record.json").write_text(as_text(before), encoding="utf-8")
-    assert {i: (row.verdict, list(row.uses)) for i, row in recorded().items()} == {
+def test_the_record_is_written_and_read_alike(tmp_path) -> None:
+    before, file = PAPER.recorded, tmp_path / "record.json"
+    assert recorded(file) == {}
+    file.write_text(as_text(before), encoding="utf-8")
+    assert {i: (row.verdict, list(row.uses)) for i, row in recorded(file).items()} == {
         i: (row.verdict, list(row.uses)) for i, row in before.items()
     }
     assert changes({"5.01": "refuted"}, before, ["5.01"]) == [f"5.01: recorded {before['5.01'].verdict}, found refuted"]
 
 
 def test_a_record_has_the_promised_keys() -> None:
-    row = record(verdict_of(x * n, x, premises=(ONE,)))
+    row = as_data(verdict_of(x * n, x, premises=(ONE,)), PAPER)
     assert row["premises"] == ["one of them"]
-    assert record(verdict_of(x, x))["premises"] == []
+    assert as_data(verdict_of(x, x), PAPER)["premises"] == []
     assert {"id", "printed", "derived", "verdict", "premises", "domain", "correction", "reaches_result"} <= row.keys()
 
 
@@ -219,5 +224,5 @@ def test_a_verdict_is_shown_with_what_it_rests_on() -> None:
     assert "holds-if<br>a &lt; b" in held
     assert "c &amp; &lt;d&gt;" in held
     assert "the correction" not in held
-    near = judge(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))._repr_html_()
+    near = decide(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))._repr_html_()
     assert "through order 3 in x" in near

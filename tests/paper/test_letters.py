@@ -5,8 +5,8 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
-from lagrotor.paper.catalogue import equation
 from lagrotor.paper.letters import components, cross, cross_matrix, declared, inverse, rate, read, symmetric, vector
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 r, v, a = vector("r"), vector("v"), vector("a")
 
@@ -49,5 +49,5 @@ def test_a_section_reads_its_own_letters_before_those_of_the_glossary() -> None:
 
 
 def test_a_scene_may_give_vectors_and_matrices() -> None:
-    scene = {symbol.name: value for symbol, value in equation("4.03").lines[0].scene.items()}
+    scene = {symbol.name: value for symbol, value in PAPER.lines("4.03")[0].scene.items()}
     assert (scene["Omega_1_z"], scene["Omega_1_x"], scene["I_2_xx"], scene["I_2_xy"], scene["s_1"]) == (10, 0, 1, 0, 0)

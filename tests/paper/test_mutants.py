@@ -11,9 +11,8 @@ from itertools import islice
 import pytest
 import sympy as sp
 
-from lagrotor.paper import scripts
-from lagrotor.paper.audit import statements
-from lagrotor.paper.ledger import Relation, Statement, judge
+from lagrotor.paper.ledger import Relation, Statement, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 MOST = 6  # twins of one relation that are judged
 
@@ -77,14 +76,16 @@ def is_another(relation: Relation, twin: Relation, seed: int) -> bool:
 
 def judged() -> list:
     cases = []
-    for stem in scripts.names("derivations", "s"):
-        cases += [pytest.param(statement, id=statement.id) for statement in statements(stem) if not statement.names]
+    for stem in PAPER.scripts.names("derivations", "s"):
+        cases += [
+            pytest.param(statement, id=statement.id) for statement in PAPER.statements(stem) if not statement.names
+        ]
     return cases
 
 
 def twin_statements(statement: Statement) -> Iterator[Statement]:
     """The statement with one printed member changed; of a refuted one it is the correction that is changed and judged."""
-    verdict = judge(statement)
+    verdict = decide(statement)
     refuted = verdict.verdict == "refuted"
     relations = statement.correction if refuted else statement.relations
     for i, relation in enumerate(relations):
@@ -101,25 +102,25 @@ def test_a_changed_print_is_refuted(statement: Statement) -> None:
     made = list(twin_statements(statement))
     assert made, f"{statement.id}: nothing in it can be changed: it says nothing"
     for twin in made:
-        verdict = judge(twin)
+        verdict = decide(twin)
         assert verdict.verdict == "refuted", (statement.id, [r.printed for r in twin.relations], verdict.verdict)
 
 
 @pytest.mark.parametrize("statement", judged())
 def test_a_verdict_falls_with_each_of_its_premises(statement: Statement) -> None:
-    verdict = judge(statement)
+    verdict = decide(statement)
     for premise in verdict.premises:
         if premise not in statement.premises:  # the order that the print itself claims
             assert premise.small is not None
             continue
         left = tuple(other for other in verdict.premises if other != premise)
-        without = judge(replace(statement, premises=left))
+        without = decide(replace(statement, premises=left))
         assert without.verdict in ("refuted", "undecided"), (statement.id, premise.says, without.verdict)
 
 
 @pytest.mark.parametrize("statement", judged())
 def test_a_refuted_equation_has_a_correction_that_holds(statement: Statement) -> None:
-    verdict = judge(statement)
+    verdict = decide(statement)
     assert verdict.verdict != "undecided", verdict.evidence
     if verdict.verdict == "refuted":
         assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), statement.id
@@ -131,7 +132,7 @@ def test_a_refuted_equation_has_a_correction_that_holds(statement: Statement) ->
 
 @pytest.mark.parametrize("statement", judged())
 def test_what_holds_assumes_nothing(statement: Statement) -> None:
-    verdict = judge(statement)
+    verdict = decide(statement)
     assert (verdict.verdict == "holds") <= (verdict.premises == ())
     assert (verdict.verdict == "holds-if") <= (verdict.premises != ())
 
@@ -147,12 +148,12 @@ proof.prove = lambda *sides, **more: None
 import lagrotor.paper.stating as stating
 stating.needs_premises = lambda *compared: False
 {change}
-from lagrotor.paper.audit import statements
-from lagrotor.paper.ledger import judge
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 found = {{}}
 for stem in sys.argv[1:]:
     try:
-        judged = [judge(s) for s in statements(stem)]
+        judged = [decide(s) for s in PAPER.statements(stem)]
         found |= {{v.id: f"{{v.verdict}}, correction {{v.correction_verdict}}" for v in judged}}
     except Exception as error:
         found[stem] = type(error).__name__

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
-from lagrotor.paper import ledger
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.ledger import Statement, chain, decide
 from lagrotor.paper.notebook import Remark
+from lagrotor.paper.stating import verdict
 
 x = sp.Symbol("x", real=True)
 HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))
@@ -20,33 +20,32 @@ def claim_test(explanation: str) -> ClaimTest:
     return ClaimTest("C01", (1, 1), {}, "a model", lambda spins: {"spin": spins[0]}, lambda measured: finding)
 
 
-def test_a_statement_is_shown_with_its_verdict() -> None:
-    assert ">holds<" in HOLDS._repr_html_()
-    html = WRONG._repr_html_()
+def test_a_verdict_is_shown_with_what_is_wrong_and_its_correction() -> None:
+    assert ">holds<" in decide(HOLDS)._repr_html_()
+    html = decide(WRONG)._repr_html_()
     assert html.index("5.02: ") < html.index(">refuted<br>")
     assert "the correction: holds" in html
     assert "The sign is &lt;b&gt;lost&lt;/b&gt;." in html
-    assert judge(WRONG)._repr_html_() == html
+
+
+def test_what_is_stated_is_shown_as_derived() -> None:
+    tex = verdict("5.02", {r"\dot{x}": x**2})._repr_latex_()
+    assert "5.02, as derived" in tex and r"\dot{x} = x^{2}" in tex
 
 
 def test_a_claim_is_shown_with_its_parts_and_the_reason() -> None:
     html = claim_test("<i>so</i>")._repr_html_()
-    assert (
-        html.index("C01: Rotors of equal spin precess")
-        < html.index("confirmed-if")
-        < html.index("holds only if: 1 &lt; 2")
-    )
+    assert html.index("C01") < html.index("confirmed-if") < html.index("holds only if: 1 &lt; 2")
     assert "both &lt;i&gt;precess&lt;/i&gt;" in html and "&lt;i&gt;so&lt;/i&gt;" in html
 
 
-def test_nothing_is_decided_before_it_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_measured_before_it_is_shown() -> None:
     def decided(_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr(ledger, "judge", decided)
-    for waiting in (Statement("5.01", HOLDS.relations), replace(claim_test("so"), decide=decided)):
-        with pytest.raises(AssertionError):
-            waiting._repr_html_()
+    waiting = replace(claim_test("so"), decide=decided)
+    with pytest.raises(AssertionError):
+        waiting._repr_html_()
 
 
 def test_a_claim_is_evaluated_once() -> None:

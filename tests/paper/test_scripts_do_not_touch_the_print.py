@@ -12,8 +12,10 @@ from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.symbols import G_1, G_2, GLOSSARY, I3, G, J, omega, omega_1, omega_2, r0, theta_0
 from lagrotor.paper import scripts
 from lagrotor.paper.ledger import Statement
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.stating import Stated
 
-STEMS = scripts.names("derivations", "s")
+STEMS = PAPER.scripts.names("derivations", "s")
 # What a letter means is no premise: it may be written out.
 MEANINGS = {**INERTIAS, J: J_OF, G: I3 * omega, G_1: I3 * omega_1, G_2: I3 * omega_2, r0: sp.sin(theta_0)}
 PARAMETERS = {
@@ -23,7 +25,7 @@ PUT_IN = ("subs", "xreplace", "replace", "limit", "evalf", "series")
 
 
 def source(stem: str) -> str:
-    return (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
+    return (PAPER.scripts.path("derivations", stem)).read_text(encoding="utf-8")
 
 
 def calls(text: str, name: str) -> Iterator[ast.Call]:
@@ -100,12 +102,12 @@ def watched_run(path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     with monkeypatch.context() as patch:
         patch.setattr(sp.Basic, "subs", watch.wrapped(sp.Basic.subs))
         script = scripts.run_file(path)
-    return [statement.id for statement in script.shown(Statement) if watch.seen_in(statement)]
+    return [stated.id for stated in script.shown(Stated) if watch.seen_in(PAPER.statement(stated))]
 
 
 @pytest.mark.parametrize("stem", STEMS)
 def test_no_premise_is_put_in_before_the_ledger_looks(stem: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert watched_run(scripts.folder("derivations") / f"{stem}.py", monkeypatch) == []
+    assert watched_run(PAPER.scripts.path("derivations", stem), monkeypatch) == []
 
 
 BY_HAND = """

@@ -7,8 +7,9 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.pair.symbols import ANSATZ, I1, I3, M_3, PAIR, ROTOR, A, B, I, M, M_z, Phi, R, a_const, omega, r0, theta_0
-from lagrotor.paper.catalogue import Equation, equation
+from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.letters import read
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 latex = pytest.importorskip("sympy.parsing.latex", reason="sympy's LaTeX parser is missing")
 pytest.importorskip("antlr4", reason="sympy's LaTeX parser needs antlr4-python3-runtime: install the extra `test`")
@@ -70,14 +71,14 @@ def meanings(entry: Equation) -> dict[sp.Expr, sp.Expr]:
     """What the text around an equation says of its letters, as the catalogue has it."""
     found: dict[str, sp.Expr] = {}
     for letter, meaning in entry.letters.items():
-        found[letter] = read(meaning, found, entry.id)
+        found[letter] = read(meaning, PAPER.names(entry.section) | found, entry.id)
     return {NAMES[letter]: meaning for letter, meaning in found.items() if letter in NAMES}
 
 
 @pytest.mark.parametrize("identifier", READ)
 def test_every_printed_member_is_in_the_catalogue(identifier: str) -> None:
-    entry = equation(identifier)
-    listed = [member for line in entry.lines for member in line.members]
+    entry = PAPER.equation(identifier)
+    listed = [member for line in PAPER.lines(identifier) for member in line.members]
     for member in reading(entry.latex):
         member = member.subs(MEANT.get(identifier, {})).subs(meanings(entry))
         assert "zero" in [decide_equal(member, other).answer for other in listed], (identifier, member, listed)

@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.paper.audit import audit
 from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.markdown import errata_blocks
 
 
 @pytest.fixture(scope="module")
 def verdicts() -> list[Verdict]:
-    return audit()
+    return list(PAPER.audit())
 
 
 def test_every_refuted_equation_has_its_row_and_no_other(verdicts: list[Verdict]) -> None:
     refuted = [v.id for v in verdicts if v.verdict == "refuted"]
-    rows = list(errata(verdicts))
+    rows = list(errata(verdicts, PAPER))
     assert [e.id for e in rows] == refuted
     assert len(refuted) > 10
     for e in rows:
@@ -30,23 +30,23 @@ def test_every_refuted_equation_has_its_row_and_no_other(verdicts: list[Verdict]
 
 
 def test_an_error_that_stops_short_is_told_from_one_that_does_not(verdicts: list[Verdict]) -> None:
-    reach = {e.id: e.survives for e in errata(verdicts)}
+    reach = {e.id: e.survives for e in errata(verdicts, PAPER)}
     assert reach["2.08"], "the sign is made good before (7)"
     assert not reach["5.20"], "the trajectories 5.22 fall with it"
 
 
 def test_the_document_is_ascii_and_whole(verdicts: list[Verdict]) -> None:
-    text = latex_document(verdicts)
+    text = latex_document(verdicts, PAPER)
     assert text.isascii()
     assert text.rstrip().endswith(r"\end{document}")
-    assert text.count(r"\subsection*") == len(list(errata(verdicts)))
+    assert text.count(r"\subsection*") == len(list(errata(verdicts, PAPER)))
 
 
 def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
     compiler = shutil.which("pdflatex")
     if compiler is None:
         pytest.skip("no pdflatex on this machine: install a LaTeX distribution to check that the sheet compiles")
-    (tmp_path / "errata.tex").write_text(latex_document(verdicts), encoding="ascii")
+    (tmp_path / "errata.tex").write_text(latex_document(verdicts, PAPER), encoding="ascii")
     command = [compiler, "-interaction=nonstopmode", "-halt-on-error", "errata.tex"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-1500:]
@@ -54,6 +54,6 @@ def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
 
 
 def test_markdown_has_the_same_rows(verdicts: list[Verdict]) -> None:
-    text = "\n\n".join(errata_blocks(verdicts))
-    assert all(f"### Erratum {e.id} " in text for e in errata(verdicts))
-    assert errata_blocks([v for v in verdicts if v.verdict == "holds"]) == []
+    text = "\n\n".join(errata_blocks(verdicts, PAPER))
+    assert all(f"### Erratum {e.id} " in text for e in errata(verdicts, PAPER))
+    assert errata_blocks([v for v in verdicts if v.verdict == "holds"], PAPER) == []

@@ -4,12 +4,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-import sympy as sp
 
-from lagrotor.pair.symbols import J, M, R, m
-from lagrotor.paper.audit import statements
+from lagrotor.pair.symbols import M, R
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Result
-from lagrotor.paper.ledger import Statement, chain, judge
+from lagrotor.paper.ledger import Statement, chain, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
@@ -39,15 +38,15 @@ READ_OFF = {
     },
 }
 SAID = (
-    ("5/7 = 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
-    ("8.1 to 8.2% too long", "up to 47 mm", "7.7 mm at second", "1.3 mm at third"),
+    ("spins 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
+    ("108.1% to 108.2% of its length", "up to 0.047 m", "0.0077 m at second", "0.0013 m at third"),
     ("-0.363 rad/s", "-10.61 N", "-10.97 N", "0.07 rad in 8 s", "by 3.33"),
 )
 
 
 @pytest.fixture(scope="module")
 def report() -> Report:
-    rates = {s.id: s for s in statements("s5_3a_equal_spins")}
+    rates = {s.id: s for s in PAPER.statements("s5_3a_equal_spins")}
     wrong = Statement("5.22", chain(M, R), correction=chain(M, M))
     claims = tuple(
         Result(
@@ -59,7 +58,7 @@ def report() -> Report:
         for i, v in MEASURED.items()
     )
     pictures = tuple(Picture(key, key, "", "", "", Path(), Path(), read) for key, read in READ_OFF.items())
-    return Report((judge(wrong), judge(rates["5.25"])), pictures, (), claims=claims)
+    return Report(PAPER, (decide(wrong), decide(rates["5.25"])), pictures, (), claims=claims)
 
 
 def test_numbers_are_those_of_the_run(report: Report) -> None:
@@ -68,7 +67,7 @@ def test_numbers_are_those_of_the_run(report: Report) -> None:
     for headline, parts in zip(found, SAID, strict=True):
         for part in parts:
             assert part in headline.text
-    assert found[0].formula == sp.Eq(sp.Symbol("c"), J / (J + m * R**2 / 2), evaluate=False)
+    assert found[0].formula == r"c\text{ (equal spins)} = \frac{J}{J + \frac{m R^{2}}{2}}"
     assert [headline.ids for headline in found] == [("5.25", "C21"), ("5.22", "C16", "figure 19"), ("C18", "figure t6")]
 
 
@@ -91,8 +90,8 @@ def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
     assert text.startswith("Of 2 equations 0 hold")
     assert "1 fall, each with a correction that itself holds, and 0 take a result" in text
-    assert text.endswith("The other 1 give a name or a measured number.")
-    alone = judge(Statement("5.20", chain(M, R)))
+    assert text.endswith("The other 1 give a name or a measured number. 66 more are not yet judged.")
+    alone = decide(Statement("5.20", chain(M, R)))
     text = balance(replace(report, verdicts=(*report.verdicts, alone)))
     assert "2 fall; for 1 of these a correction is given that itself holds, and 0 take a result" in text
     assert "0 fall; for 0 of these" in balance(replace(report, verdicts=()))

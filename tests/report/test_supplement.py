@@ -13,12 +13,11 @@ import sympy as sp
 
 from lagrotor.pair.symbols import M, r0
 from lagrotor.paper import claim_tests
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import claims, equations
-from lagrotor.paper.ledger import Relation, Statement, chain, judge
+from lagrotor.paper.ledger import Relation, Statement, chain, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.content import TITLE, Report, contents
+from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.latex import END, derived, head, printed, prose, table
 from lagrotor.report.supplement import supplement
 
@@ -32,7 +31,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     (folder / "figures").mkdir()
     png = folder / "figures" / "fig17_stub.png"
     matplotlib.image.imsave(png, np.zeros((40, 60)))
-    judged = [judge(statement) for statement in statements("s5_2a_single_rotor")]
+    judged = [decide(statement) for statement in PAPER.statements("s5_2a_single_rotor")]
     corrected = Statement(
         "5.20",
         chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
@@ -41,7 +40,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
         depends_on=("5.06",),
         evidence=(HOSTILE,),
     )
-    judged.append(replace(judge(corrected), reaches_result=True))
+    judged.append(replace(decide(corrected), reaches_result=True))
     paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})
     past = replace(paper, key="t6", measured={}, png=png.with_name("missing_one.png"))
     finding = claim_tests.Finding((claim_tests.Part(HOSTILE, False, HOSTILE),), HOSTILE)
@@ -49,14 +48,16 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Eq(r0, LONG / M)), FigureLink("t6"), FigureLink("t7"))
     side = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
     return Report(
+        PAPER,
         tuple(judged),
         (paper, past),
         (HOSTILE,),
         claims=(claim_tests.Result(test, {"a_name": 1 / 3}, finding, 1.0),),
-        findings=((HOSTILE, HOSTILE),),
-        tables=(side,),
-        past=(side,),
-        theory=((HOSTILE, HOSTILE),),
+        parts=(
+            ShownPart("findings", "Findings", remarks=((HOSTILE, HOSTILE),)),
+            ShownPart("figures", "Figures", pictures=(paper,)),
+            ShownPart("past", "Past the paper", (side,), ((HOSTILE, HOSTILE),), (past,)),
+        ),
         versions=(("sympy", "1.14"),),
         inputs=(("equations.toml", "0123456789abcdef" * 4),),
     )
@@ -86,7 +87,7 @@ def test_it_is_ascii_with_balanced_braces(report: Report) -> None:
     assert text.isascii()
     bare = re.sub(r"\\[{}\\]", "", text)
     assert bare.count("{") == bare.count("}")
-    assert text.startswith(head(TITLE)) and text.endswith(END)
+    assert text.startswith(head(PAPER.title)) and text.endswith(END)
     assert text.count(r"\end{document}") == 1, "no text ends the document"
 
 
@@ -99,7 +100,7 @@ def test_nothing_is_left_out(report: Report) -> None:
     for entry in report.waiting:
         assert entry.id in text
     for part in (
-        claims()["C08"].text.split()[0],
+        PAPER.claims["C08"].text.split()[0],
         "holds if",
         "judged by the same rules: holds",
         "Reaches the result",
@@ -126,7 +127,7 @@ def test_it_compiles(report: Report) -> None:
 
 
 def test_every_printed_equation_compiles(tmp_path: Path) -> None:
-    pages = "\n\n".join(printed(entry.latex) for entry in equations().values())
+    pages = "\n\n".join(printed(entry.latex) for entry in PAPER.equations.values())
     assert complaints(compiled(head("A test") + pages + END, tmp_path)) == []
 
 

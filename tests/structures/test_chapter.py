@@ -6,8 +6,9 @@ from lagrotor.errors import ProofError
 from lagrotor.paper import scripts
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Step
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-STEMS = scripts.names("derivations", "n")
+STEMS = PAPER.scripts.names("derivations", "n")
 # A sign, a factor or a term; each must stop the script.
 MUTANTS = [
     ("n1_standing", "(G_1**2 + G_2**2) * s**2)", "(G_1**2 - G_2**2) * s**2)"),
@@ -21,7 +22,7 @@ MUTANTS = [
 
 @pytest.mark.parametrize("stem", STEMS)
 def test_a_script_proves_and_says_what_it_found(stem: str) -> None:
-    script = scripts.executed("derivations", stem)
+    script = PAPER.scripts.executed("derivations", stem)
     found, steps = script.shown(Remark), script.shown(Step)
     assert found and all(remark.title and remark.text.endswith(".") for remark in found)
     assert len(steps) >= 5 and all(step.says for step in steps)
@@ -29,7 +30,7 @@ def test_a_script_proves_and_says_what_it_found(stem: str) -> None:
 
 @pytest.mark.parametrize(("stem", "old", "new"), MUTANTS)
 def test_a_wrong_step_is_refused(stem: str, old: str, new: str, tmp_path) -> None:
-    text = (scripts.folder("derivations") / f"{stem}.py").read_text(encoding="utf-8")
+    text = PAPER.scripts.path("derivations", stem).read_text(encoding="utf-8")
     assert text.count(old) == 1
     path = tmp_path / f"{stem}.py"
     path.write_text(text.replace(old, new), encoding="utf-8")

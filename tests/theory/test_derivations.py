@@ -8,15 +8,16 @@ from lagrotor.errors import ProofError
 from lagrotor.paper import scripts
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Step
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-STEMS = [stem for stem in scripts.names("derivations") if stem.startswith("t")]
+STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]
 # Stem → the least number of steps.
 STEPWISE = dict.fromkeys(STEMS, 8) | {"t4_orbit_family": 3, "t10_conserved": 5}
 
 
 @pytest.mark.parametrize("stem", STEMS)
 def test_a_script_says_what_it_found(stem):
-    script = scripts.executed("derivations", stem)
+    script = PAPER.scripts.executed("derivations", stem)
     found = [(r.title, r.text) for r in script.shown(Remark)]
     assert found
     assert all(title and text.endswith(".") for title, text in found)
@@ -24,7 +25,7 @@ def test_a_script_says_what_it_found(stem):
 
 @pytest.mark.parametrize("stem", STEPWISE)
 def test_a_script_shows_each_step_and_says_what_it_is(stem):
-    script = scripts.executed("derivations", stem)
+    script = PAPER.scripts.executed("derivations", stem)
     steps = script.shown(Step)
     assert len(steps) >= STEPWISE[stem]
     assert all(step.says for step in steps)
@@ -61,7 +62,7 @@ MUTANTS = [
 
 @pytest.mark.parametrize(("stem", "right", "wrong"), MUTANTS)
 def test_a_changed_step_is_refused(tmp_path: Path, stem: str, right: str, wrong: str) -> None:
-    source = (scripts.folder("derivations") / f"{stem}.py").read_text()
+    source = (PAPER.scripts.path("derivations", stem)).read_text()
     assert source.count(right) == 1
     changed = tmp_path / f"{stem}.py"
     changed.write_text(source.replace(right, wrong))

@@ -12,12 +12,12 @@ from importlib.metadata import version
 from pathlib import Path
 
 from lagrotor.about import __version__
-from lagrotor.paper import scripts
+from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
-_NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff"}
+_NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
 _NO_DATA = {"recorded.json"}
 
 
@@ -52,8 +52,8 @@ def _later() -> dict[str, str]:
 
 
 @cache
-def imports(path: Path) -> frozenset[Path]:
-    """The files of the package that one file imports, wherever in it."""
+def imports(path: Path, folder: Path) -> frozenset[Path]:
+    """The files of the package, and of a paper's folder, that one file imports, wherever in it."""
     names: set[str] = set()
     for node in ast.walk(_tree(path)):
         if isinstance(node, ast.Import):
@@ -62,37 +62,37 @@ def imports(path: Path) -> frozenset[Path]:
             names |= {_later().get(alias.name, f"lagrotor.{alias.name}") for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    return frozenset(file for name in names if (file := _file_of(name)))
+    return frozenset(file for name in names if (file := _file_of(name, folder)))
 
 
-def _file_of(module: str) -> Path | None:
+def _file_of(module: str, folder: Path) -> Path | None:
     first, *rest = module.split(".")
-    if first != "lagrotor" or not rest:
-        return None
-    base = _PACKAGE.joinpath(*rest)
+    base = _PACKAGE.joinpath(*rest) if first == "lagrotor" and rest else folder.joinpath(first, *rest)
     return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
 
 
 @cache
-def _named_scripts(path: Path) -> frozenset[Path]:
+def _named_scripts(path: Path, paper: Paper) -> frozenset[Path]:
     """Derivations that a script names: it may run them."""
-    known = {stem: scripts.folder("derivations") / f"{stem}.py" for stem in scripts.names("derivations")}
+    known = {stem: paper.scripts.path("derivations", stem) for stem in paper.scripts.names("derivations")}
     texts = (n.value for n in ast.walk(_tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str))
     return frozenset(known[text] for text in texts if text in known) - {path}
 
 
 @cache
-def reached(path: Path) -> tuple[Path, ...]:
-    """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each module."""
+def reached(path: Path, paper: Paper) -> tuple[Path, ...]:
+    """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each of them and
+    in the paper's folder."""
     found, left = {path}, [path]
     while left:
         current = left.pop()
-        new = (imports(current) | _named_scripts(current)) - found
+        new = (imports(current, paper.folder) | _named_scripts(current, paper)) - found
         found |= new
         left += new
-    folders = {file.parent for file in found if _PACKAGE in file.parents and file.parent != _PACKAGE}
+    folders = {file.parent for file in found if file.parent != _PACKAGE} | {paper.folder}
     beside = {f for folder in folders for f in folder.iterdir() if f.is_file() and f.suffix not in _NO_SOURCE}
-    return tuple(sorted(found | {file for file in beside if file.name not in _NO_DATA}))
+    letters = {file for file in [paper.folder / "symbols.py"] if file.is_file()}
+    return tuple(sorted(found | letters | {file for file in beside if file.name not in _NO_DATA}))
 
 
 @cache
@@ -100,32 +100,40 @@ def _file_digest(path: Path) -> str:
     return digest(path.read_bytes())
 
 
-def made_from(path: Path) -> str:
+def made_from(path: Path, paper: Paper) -> str:
     """Digest of all that a script's product is made from."""
-    files = sorted((_place(file), _file_digest(file)) for file in reached(path))
+    files = sorted((_place(file, paper), _file_digest(file)) for file in reached(path, paper))
     return digest(
         *(part for file in files for part in file), *map(str, versions().items()), platform.machine(), platform.system()
     )
 
 
-def digest_of(files: Iterable[Path]) -> str:
+def digest_of(files: Iterable[Path], paper: Paper) -> str:
     """Digest of some files, by their places and their bytes."""
-    return digest(*(part for file in sorted((_place(f), _file_digest(f)) for f in files) for part in file))
+    return digest(*(part for file in sorted((_place(f, paper), _file_digest(f)) for f in files) for part in file))
 
 
-def _place(file: Path) -> str:
+def _place(file: Path, paper: Paper) -> str:
     """A file's place, the same in a checkout and in an installed package."""
     for kind in ("derivations", "figures"):
-        if file.parent == scripts.folder(kind):
+        if file.parent == paper.scripts.base / kind:
             return f"{kind}/{file.name}"
-    return file.relative_to(_PACKAGE).as_posix() if _PACKAGE in file.parents else file.name
+    for folder in (_PACKAGE, paper.folder):
+        if folder in file.parents:
+            return file.relative_to(folder).as_posix()
+    return file.name
 
 
-def inputs() -> dict[str, str]:
+def inputs(paper: Paper) -> dict[str, str]:
     """What a whole run is made from: name → SHA-256."""
     package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
-    package -= {f for f in package if f.suffix in _NO_SOURCE - {".py"} or f.name in _NO_DATA}
-    package -= {f for kind in ("derivations", "figures") for f in (_PACKAGE / kind).rglob("*")}
-    toml = {f for f in package if f.suffix == ".toml"}
-    found = {"catalogue of equations, claims, figures": digest_of(toml), "package": digest_of(package - toml)}
-    return found | {kind: digest_of(scripts.folder(kind).glob("*.py")) for kind in ("derivations", "figures")}
+    package -= {f for kind in ("derivations", "figures", "papers") for f in (_PACKAGE / kind).rglob("*")}
+    own = {f for f in paper.folder.iterdir() if f.is_file()}
+    package, own = (
+        {f for f in files if f.suffix not in _NO_SOURCE - {".py"} and f.name not in _NO_DATA}
+        for files in (package - own, own)
+    )
+    found = {"catalogue of equations, claims, figures": digest_of(own, paper), "package": digest_of(package, paper)}
+    scripts = {kind: (paper.scripts.base / kind).glob("*.*") for kind in ("derivations", "figures")}
+    kept = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
+    return found | {kind: digest_of(files, paper) for kind, files in kept.items()}

@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.files import write_text
-from lagrotor.paper import audit, claim_tests
-from lagrotor.paper.audit import with_reach
+from lagrotor.paper import claim_tests, verdict_text
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.record import OnRecord, changes, recorded
+from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
+from lagrotor.paper.title_page import Part
+from lagrotor.pictures.figures import Picture
 from lagrotor.report.api import api_page
-from lagrotor.report.content import Report
+from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import reach
@@ -52,23 +53,23 @@ class Outcome:
     seconds: float
 
 
-def reproduce(target: Path, progress: Progress, jobs: int | None = None) -> Outcome:
+def reproduce(paper: Paper, target: Path, progress: Progress, jobs: int | None = None) -> Outcome:
     """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
 
     jobs: how many processes; None: as many as there are cores, one in a debugger. `progress(total)` gives the function that
     is called with the name of each step as it begins. Raises InputError when `target` cannot be written, is no report, or is
     being written by another run. Until all is done the old report stays.
     """
-    began, on_record, old = time.perf_counter(), recorded(), check_target(target)
-    made_from = json.dumps([reach.inputs(), {i: row.verdict for i, row in on_record.items()}, converter()])
+    began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
+    made_from = json.dumps([reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter()])
     whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
         return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
     with replaced(target) as new:
         kept = Kept(old, new)
         (new / "figures").mkdir()
-        products, seconds = _make(kept, list(steps()), progress, jobs or cores())
-        report = _report(products, new / "figures", on_record)
+        products, seconds = _make(kept, list(steps(paper)), progress, jobs or cores())
+        report = _report(paper, products, new / "figures")
         start = time.perf_counter()
         _write(new, report)
         found = {
@@ -106,7 +107,7 @@ def _named(begins: Callable[[str], None]) -> Callable[[Step], None]:
 
 def _timed(step: Step, folder: Path) -> tuple[Any, float]:
     began = time.perf_counter()
-    product = step.run(*step.args, folder=folder)
+    product = step.run(step.paper, step.part, folder)
     return product, time.perf_counter() - began
 
 
@@ -119,39 +120,43 @@ def _longest_first(old: Path) -> Callable[[Step], float]:
     return lambda step: -float(took.get(step.name, 1.0))
 
 
-def _report(products: dict[str, Any], folder: Path, on_record: dict[str, OnRecord]) -> Report:
+def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
     """Everything that the report says; its pictures lie in `folder`."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
-    verdicts = with_reach(verdict for each in derived for verdict in each.verdicts)
-    tested = _tested(products)
+    verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
+    tested = _tested(paper, products)
     answers = {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in tested}
-
-    pictures = [product for name, product in products.items() if name.startswith("figure ")]
-
-    def of(letters: str, what: str) -> tuple[Any, ...]:
-        return tuple(part for each in derived if each.stem.startswith(letters) for part in getattr(each, what))
-
+    drawn = [product for name, product in products.items() if name.startswith("figure ")]
+    pictures = [replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in drawn]
+    parts = [_part(each, derived, pictures) for each in paper.about.part]
     return Report(
+        paper=paper,
         verdicts=tuple(verdicts),
-        pictures=tuple(replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in pictures),
-        changes=tuple(changes(answers, on_record)),
+        pictures=tuple(pictures),
+        changes=tuple(paper.changes(answers)),
         claims=tuple(tested),
-        findings=of("s", "remarks"),
-        tables=of("m1", "tables"),
-        past=of("p", "tables"),
-        theory=of("t", "remarks"),
-        speed=of("b", "tables"),
-        stability=of("m3", "tables"),
+        parts=tuple(part for part in parts if part.tables or part.remarks or part.pictures),
         derivations=tuple((each.stem, each.title, each.html) for each in derived),
-        model=products["model"],
+        model=products.get("model", ""),
         versions=tuple(reach.versions().items()),
-        inputs=tuple(reach.inputs().items()),
+        inputs=tuple(reach.inputs(paper).items()),
     )
 
 
-def _tested(products: dict[str, Any]) -> list[Result]:
+def _part(part: Part, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
+    """What a part of the report shows."""
+    return ShownPart(
+        part.name,
+        part.heading,
+        tuple(table for each in derived if each.stem.startswith(part.tables) for table in each.tables),
+        tuple(remark for each in derived if each.stem.startswith(part.remarks) for remark in each.remarks),
+        tuple(picture for picture in pictures if picture.key.rstrip("0123456789") in part.figures),
+    )
+
+
+def _tested(paper: Paper, products: dict[str, Any]) -> list[Result]:
     """Every claim with its measured numbers, decided anew."""
-    tests = claim_tests.claim_tests()
+    tests = paper.claim_tests
     return [Result(test, products[f"claim {i}"], test.decide(products[f"claim {i}"]), 0.0) for i, test in tests.items()]
 
 
@@ -160,10 +165,12 @@ def _write(folder: Path, report: Report) -> None:
     write_text(folder / "api.html", api_page())
     write_text(folder / "report.md", markdown(report))
     write_text(folder / "report.tex", supplement(report))
-    write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts)]) + "\n")
-    write_text(folder / "errata.tex", latex_document(report.verdicts))
-    _write_json(folder / "verdicts.json", [_timeless(audit.record(verdict)) for verdict in report.verdicts])
-    _write_json(folder / "claims.json", [_timeless(claim_tests.record(result)) for result in report.claims])
+    write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts, report.paper)]) + "\n")
+    write_text(folder / "errata.tex", latex_document(report.verdicts, report.paper))
+    rows = [_timeless(verdict_text.as_data(verdict, report.paper)) for verdict in report.verdicts]
+    _write_json(folder / "verdicts.json", rows + list(map(verdict_text.waiting, report.waiting)))
+    claims = [claim_tests.as_data(result, report.paper.claims[result.test.id]) for result in report.claims]
+    _write_json(folder / "claims.json", list(map(_timeless, claims)))
     _write_json(folder / "measured.json", {picture.stem: picture.measured for picture in report.pictures})
 
 

@@ -2,16 +2,15 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from lagrotor.paper import audit, scripts
-from lagrotor.paper.claim_tests import claim_tests
 from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.notebook import Remark
+from lagrotor.paper.papers import Paper
 from lagrotor.paper.tables import Table
 from lagrotor.pictures import figures
-from lagrotor.report.interactive import interactive as interactive_module
 from lagrotor.report.job.reach import made_from
 from lagrotor.report.page.derivation_pages import derivation_html, title
 
@@ -30,50 +29,56 @@ class Derived:
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `run(*args, folder)` makes its product, writing its files into the folder of the figures."""
+    """One step: `run(paper, part, folder)` makes its product, writing its files into the folder of the figures."""
 
     name: str
-    run: Callable[..., Any]
-    args: tuple[str, ...]
+    run: Callable[[Paper, str, Path], Any]
+    paper: Paper
+    part: str
     source: Path
 
     @property
     def made_from(self) -> str:
         """Digest of all that the product is made from."""
-        return made_from(self.source)
+        return made_from(self.source, self.paper)
 
 
-def derive(stem: str, folder: Path) -> Derived:
+def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     """Run a derivation and judge what it states."""
-    verdicts = audit.judged(stem)
-    script = scripts.executed("derivations", stem)
+    verdicts = paper.judged(stem)
+    script = paper.scripts.executed("derivations", stem)
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
-    tables = script.names.get("tables", ()) if stem[0] in "mpb" else ()
-    html = derivation_html(stem, {v.id: v.verdict for v in verdicts})
-    return Derived(stem, title(stem), tuple(verdicts), remarks, tuple(tables), html)
+    tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
+    html = derivation_html(script, {v.id: v.verdict for v in verdicts})
+    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html)
 
 
-def measure(identifier: str, folder: Path) -> dict[str, float]:
+def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
     """The numbers of one claim's test."""
-    return dict(claim_tests()[identifier].result.measured)
+    return dict(paper.measured(identifier).measured)
 
 
-def draw(key: str, folder: Path) -> figures.Picture:
+def draw(paper: Paper, key: str, folder: Path) -> figures.Picture:
     """Draw one figure."""
-    return figures.draw(key, folder)
+    return figures.draw(key, folder, paper.scripts)
 
 
-def model(folder: Path) -> str:
+def model(paper: Paper, module: str, folder: Path) -> str:
     """The interactive model, as a part of the page."""
-    return interactive_module.interactive()
+    with paper.importable():
+        return str(import_module(module).interactive())
 
 
-def steps() -> Iterator[Step]:
+def steps(paper: Paper) -> Iterator[Step]:
     """Every step of the main job."""
+    scripts = paper.scripts
     for stem in scripts.names("derivations"):
-        yield Step(f"derivation {stem}", derive, (stem,), scripts.folder("derivations") / f"{stem}.py")
-    for identifier, test in claim_tests().items():
-        yield Step(f"claim {identifier}", measure, (identifier,), Path(test.measure.__code__.co_filename))
-    for key, stem in figures.stems().items():
-        yield Step(f"figure {key}", draw, (key,), scripts.folder("figures") / f"{stem}.py")
-    yield Step("model", model, (), Path(interactive_module.__file__))
+        yield Step(f"derivation {stem}", derive, paper, stem, scripts.path("derivations", stem))
+    for identifier, test in paper.claim_tests.items():
+        yield Step(f"claim {identifier}", measure, paper, identifier, Path(test.measure.__code__.co_filename))
+    for key, stem in figures.stems(scripts).items():
+        yield Step(f"figure {key}", draw, paper, key, scripts.path("figures", stem))
+    if paper.about.model:
+        with paper.importable():
+            source = Path(str(import_module(paper.about.model).__file__))
+        yield Step("model", model, paper, paper.about.model, source)

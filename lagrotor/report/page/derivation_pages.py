@@ -9,25 +9,25 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.paper import scripts
-from lagrotor.paper.ledger import Statement
 from lagrotor.paper.notebook import Remark
 from lagrotor.paper.proof import Formula, Step
+from lagrotor.paper.scripts import Script
+from lagrotor.paper.stating import Stated
 from lagrotor.paper.tables import Table
 from lagrotor.report.content import Report, anchor
 from lagrotor.report.page.page_pieces import badge, link, prose, rows, typeset
 
 
-def derivation_html(stem: str, answers: Mapping[str, str]) -> str:
+def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     """One derivation, cell by cell; `answers` holds the verdicts by equation."""
-    cells = scripts.executed("derivations", stem).cells
+    cells = script.cells
     parts = [written(c.text) if c.kind == "prose" else "".join(_shown(v, answers) for v in c.shown) for c in cells]
     return "".join(parts)
 
 
-def title(stem: str) -> str:
-    """The first heading of a derivation."""
-    text = next((cell.text for cell in scripts.executed("derivations", stem).cells if cell.kind == "prose"), stem)
+def title(script: Script, stem: str) -> str:
+    """The first heading of a derivation; its name where it has none."""
+    text = next((cell.text for cell in script.cells if cell.kind == "prose"), stem)
     return text.splitlines()[0].lstrip("# ")
 
 
@@ -61,7 +61,7 @@ def _shown(value: Any, answers: Mapping[str, str]) -> str:
         return f'<div class="step">{typeset(value.tex)}{says}</div>'
     if isinstance(value, Formula):
         return typeset(value.tex)
-    if isinstance(value, Statement):
+    if isinstance(value, Stated):
         answer = badge(answers[value.id]) if value.id in answers else ""
         return f'<p class="judged"><a href="#{anchor(value.id)}">{escape(value.id)}</a> {answer}</p>'
     if isinstance(value, Remark):
@@ -91,6 +91,6 @@ def _cell(cell: Any) -> str:
 
 def reached_in(identifier: str, report: Report) -> str:
     """A link to where an equation is derived on the page; nothing where its derivation is not in the report."""
-    stem = scripts.stating().get(identifier)
+    stem, _ = report.paper.scripts.stating.get(identifier, ("", 0))
     there = any(stem == shown for shown, _, _ in report.derivations)
     return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if there else ""

@@ -2,7 +2,6 @@
 
 from html import escape
 
-from lagrotor.paper.catalogue import claims, equation
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.ledger import Verdict
 from lagrotor.pictures.figures import Picture
@@ -24,7 +23,6 @@ from lagrotor.report.page.page_pieces import (
     code,
     fact_list,
     fold,
-    formulas,
     heading,
     link,
     links,
@@ -40,7 +38,7 @@ _WIDEST = 2_000
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
     """As printed beside as derived; what is said of it; folds with the source and the steps."""
-    entry, statement = equation(verdict.id), verdict.statement
+    entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
     derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
     read = code("\n".join(as_read(entry)))
@@ -74,7 +72,7 @@ def _beside(left: str, printed: str, right: str, derived: str) -> str:
 
 def claim_entry(result: Result, report: Report) -> str:
     """The claim in the paper's words, its outcome, what was measured."""
-    entry, finding = claims()[result.test.id], result.finding
+    entry, finding = report.paper.claims[result.test.id], result.finding
     condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
     return (
@@ -99,7 +97,7 @@ def picture_entry(picture: Picture, report: Report) -> str:
 
 def headline_entry(headline: Headline) -> str:
     """One of the results that matter."""
-    formula = formulas([headline.formula]) if headline.formula is not None else ""
+    formula = typeset(headline.formula) if headline.formula else ""
     shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
     return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
 

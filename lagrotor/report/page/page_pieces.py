@@ -5,7 +5,7 @@ from html import escape
 
 import sympy as sp
 
-from lagrotor.pair.symbols import latex
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.report.content import Fact, Report, anchor, word

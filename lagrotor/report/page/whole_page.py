@@ -4,17 +4,13 @@ from collections.abc import Callable
 from html import escape
 from pathlib import Path
 
-from lagrotor.paper.catalogue import equation
-from lagrotor.paper.tables import Table
-from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
     CLAIM_MEANINGS,
-    HOW_TO_READ,
     MEANINGS,
     SUBTITLE,
-    TITLE,
     Report,
+    ShownPart,
     contents,
     made_beside,
     notation,
@@ -56,10 +52,10 @@ def page(report: Report) -> str:
             '<html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             '<meta name="color-scheme" content="light dark">',
-            f"<title>{escape(TITLE)}: {escape(SUBTITLE.lower())}</title>",
+            f"<title>{escape(report.title)}: {escape(SUBTITLE.lower())}</title>",
             f"<style>\n{font_face()}\n{style}</style></head>",
             '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
-            f"<header><h1>{escape(TITLE)}</h1><p>{escape(SUBTITLE)}.</p><p>{escape(HOW_TO_READ)}</p></header>",
+            f"<header><h1>{escape(report.title)}</h1><p>{escape(SUBTITLE)}.</p><p>{escape(report.how_to_read)}</p></header>",
             '<nav aria-label="Contents"><details id="contents"><summary>Contents</summary>'
             f"<ul>{entries}</ul></details></nav>",
             '<main id="content">',
@@ -73,8 +69,10 @@ def page(report: Report) -> str:
 def _section(anchor: str, heading: str, report: Report) -> str:
     if anchor == "model":
         return report.model
-    paper = anchor.startswith("section-")
-    inside = _paper(report, anchor.removeprefix("section-")) if paper else _PARTS[anchor](report)
+    if anchor.startswith("section-"):
+        inside = _paper(report, anchor.removeprefix("section-"))
+    else:
+        inside = _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
     return f'<section aria-labelledby="{anchor}"><h2 id="{anchor}">{escape(heading)}</h2>\n{inside}</section>'
 
 
@@ -93,14 +91,14 @@ def _summary(report: Report) -> str:
 
 def _verdicts(report: Report) -> str:
     lines = [
-        (link(v.id), prose(equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
+        (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
     return _SEARCH + rows(("Equation", "Title", "Verdict", "Order or condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
-    lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation()]
+    lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
     return rows(("Symbol", "Meaning", "Unit"), lines)
 
 
@@ -111,19 +109,18 @@ def _derivations(report: Report) -> str:
 
 
 def _errata(report: Report) -> str:
-    return "\n".join(map(erratum_entry, errata(report.verdicts)))
+    return "\n".join(map(erratum_entry, errata(report.verdicts, report.paper)))
 
 
 def _paper(report: Report, name: str) -> str:
     return "\n".join(equation_entry(verdict, report) for verdict in report.sections[name])
 
 
-def _shown(
-    report: Report, tables: tuple[Table, ...], found: tuple[tuple[str, str], ...], pictures: list[Picture]
-) -> str:
-    parts = [side_by_side(table, report) for table in tables]
-    parts += [finding_entry(title, text) for title, text in found]
-    parts += [picture_entry(picture, report) for picture in pictures]
+def _shown(part: ShownPart, report: Report) -> str:
+    """Tables, what was found, figures."""
+    parts = [side_by_side(table, report) for table in part.tables]
+    parts += [finding_entry(title, text) for title, text in part.remarks]
+    parts += [picture_entry(picture, report) for picture in part.pictures]
     return "\n".join(parts)
 
 
@@ -153,14 +150,6 @@ _PARTS: dict[str, Callable[[Report], str]] = {
     "errata": _errata,
     "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
     "derivations": _derivations,
-    "findings": lambda report: _shown(report, (), report.findings, []),
-    "figures": lambda report: _shown(report, (), (), report.pictures_of("")),
-    "tables": lambda report: _shown(report, report.tables, (), []),
-    "past": lambda report: _shown(report, report.past, report.theory, report.pictures_of("t")),
-    "speed": lambda report: _shown(report, (), (), report.pictures_of("b")) + _shown(report, report.speed, (), []),
-    "stability": lambda report: (
-        _shown(report, (), (), report.pictures_of("m")) + _shown(report, report.stability, (), [])
-    ),
     "waiting": _waiting,
     "cite": _cite,
     "made": _made,

@@ -9,10 +9,9 @@ from importlib.resources import files
 
 import pytest
 
-from lagrotor.pair.symbols import GLOSSARY, latex
-from lagrotor.paper import scripts
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equations
+from lagrotor.mechanics.glossary import latex
+from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
 from lagrotor.report.formulas.mathml_latex import from_latex
 
@@ -56,10 +55,10 @@ def drawn(formula: str) -> set[str]:
 
 def formulas() -> Iterator[str]:
     """Everything that the page sets as mathematics."""
-    for entry in equations().values():
+    for entry in PAPER.equations.values():
         yield from filter(None, [from_latex(entry.latex)])
-    for stem in scripts.names("derivations", "s"):
-        for statement in statements(stem):
+    for stem in PAPER.scripts.names("derivations", "s"):
+        for statement in PAPER.statements(stem):
             for relation in (*statement.relations, *statement.correction):
                 line = f"{relation.quantity} = {relation.written or latex(relation.derived)}"
                 yield from filter(None, [from_latex(line)])

@@ -7,9 +7,9 @@ from xml.etree.ElementTree import Element
 import pytest
 import sympy as sp
 
+from lagrotor.mechanics.glossary import latex as tex
 from lagrotor.pair.symbols import PAIR, ROTOR, M, Omega, ell, r0
-from lagrotor.pair.symbols import latex as tex
-from lagrotor.paper.catalogue import equations
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas import mathml_latex
 
 THIN = '<mspace width="0.167em" />'
@@ -42,7 +42,7 @@ theta, phi = ROTOR.q[0], ROTOR.q[1]
 @pytest.fixture(scope="module")
 def printed() -> dict[str, str]:
     pytest.importorskip("latex2mathml", reason="latex2mathml reads the printed formulas")
-    return {entry.id: mathml_latex.from_latex(entry.latex) or "" for entry in equations().values()}
+    return {entry.id: mathml_latex.from_latex(entry.latex) or "" for entry in PAPER.equations.values()}
 
 
 def tree(formula: str) -> Element:
@@ -67,7 +67,7 @@ def lines(source: str) -> list[Element]:
 
 
 def test_every_printed_equation_is_whole_and_in_the_words_of_browsers(printed: dict[str, str]) -> None:
-    assert len(printed) == len(equations()) > 60
+    assert len(printed) == len(PAPER.equations) > 60
     for identifier, formula in printed.items():
         elements = list(tree(f"<div>{formula}</div>").iter())[1:]
         assert {element.tag for element in elements} <= CORE, identifier
@@ -86,7 +86,7 @@ def test_without_the_converter_there_is_no_formula(monkeypatch: pytest.MonkeyPat
     ("source", "expression"),
     [
         (r"\sin^{2} \theta \cos \phi", sp.sin(theta) ** 2 * sp.cos(phi)),
-        (r"\dot{\theta}_{1}", PAIR.v[0]),
+        (r"\dot{\theta}_1", PAIR.v[0]),
         (r"\ddot{\phi}", ROTOR.a[1]),
         (r"\frac{\dot{\phi}^{2}}{r_0^{2}}", ROTOR.v[1] ** 2 / r0**2),
         (r"\Omega \ell", sp.Mul(Omega, ell, evaluate=False)),

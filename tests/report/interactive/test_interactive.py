@@ -25,8 +25,7 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.symbols import Phi, omega, r0, theta_0
-from lagrotor.paper import scripts
-from lagrotor.paper.audit import statements
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
@@ -157,7 +156,7 @@ def test_the_papers_formula_is_the_one_printed() -> None:
 
 
 def printed(identifier: str) -> Any:
-    return next(s for s in statements("s5_2f_corrected") if s.id == identifier)
+    return next(s for s in PAPER.statements("s5_2f_corrected") if s.id == identifier)
 
 
 def test_the_papers_formula_is_the_derivations_expression() -> None:
@@ -166,7 +165,7 @@ def test_the_papers_formula_is_the_derivations_expression() -> None:
     for expression, relation in zip((first - half, second + half), printed("5.22").relations, strict=False):
         assert decide_zero(expression - relation.printed).answer == "zero"
         assert decide_zero(expression + r0**2 - relation.printed).answer != "zero"
-    (stated,) = (s for s in statements("s5_3b_opposite_spins") if s.id == "5.28")
+    (stated,) = (s for s in PAPER.statements("s5_3b_opposite_spins") if s.id == "5.28")
     rate = stated.relations[0].printed
     assert sp.diff(rate, omega).subs(dict.fromkeys(rate.free_symbols, 1)) == pytest.approx(0.57)
 
@@ -252,7 +251,7 @@ def test_the_distance_of_the_paper_is_that_of_figure_19() -> None:
     away = run_node(
         f"(m => ['paper', 'series'].map(l => Math.max(...{phases}.map(t => apart(m[l](t), m.exact.at(t).axes, 0)))))({made})"
     )
-    figure = scripts.run("figures", "fig19_corrected_trajectories")["measure"]()
+    figure = PAPER.scripts.run("figures", "fig19_corrected_trajectories")["measure"]()
     assert away[0] == pytest.approx(figure["paper, largest distance (m)"], rel=1e-6)
     assert away[1] < 1e-5
 

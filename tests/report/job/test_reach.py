@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.paper import scripts
+from lagrotor.paper import Paper
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.job import reach
 from lagrotor.report.job.reach import digest, imports, made_from, reached
 
@@ -26,11 +27,11 @@ def clear() -> None:
 
 
 def derivation(stem: str) -> Path:
-    return scripts.folder("derivations") / f"{stem}.py"
+    return PAPER.scripts.path("derivations", stem)
 
 
 def places(path: Path) -> set[str]:
-    return {reach._place(file) for file in reached(path)}
+    return {reach._place(file, PAPER) for file in reached(path, PAPER)}
 
 
 def test_a_derivation_reaches_its_modules_and_their_data() -> None:
@@ -41,32 +42,32 @@ def test_a_derivation_reaches_its_modules_and_their_data() -> None:
         "mechanics/lagrangian.py",
         "algebra/identity.py",
     } <= found
-    assert "paper/equations.toml" in found
-    assert "paper/recorded.json" not in found, "the record is compared with, nothing is made from it"
+    assert "paper/rotor_pair/equations.toml" in found
+    assert "paper/rotor_pair/recorded.json" not in found, "the record is compared with, nothing is made from it"
     assert not any(place.startswith(("models/", "report/", "commands/")) for place in found)
 
 
 def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
-    assert PACKAGE / "models" / "simulate.py" in reached(script)
-    assert imports(script) == {PACKAGE / "models" / "simulate.py"}
+    assert PACKAGE / "models" / "simulate.py" in reached(script, PAPER)
+    assert imports(script, PAPER.folder) == {PACKAGE / "models" / "simulate.py"}
 
 
 def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text('run("derivations", "s5_2a_single_rotor")', encoding="utf-8")
-    assert derivation("s5_2a_single_rotor") in reached(script)
+    assert derivation("s5_2a_single_rotor") in reached(script, PAPER)
     script.write_text('run("derivations", "no_such_script")', encoding="utf-8")
     clear()
-    assert reached(script) == (script,)
+    assert not any(file.parent.name == "derivations" for file in reached(script, PAPER))
 
 
 @pytest.mark.parametrize(
     ("file", "matters"),
     [
         ("pair/lagrangians.py", True),
-        ("paper/equations.toml", True),
+        ("paper/rotor_pair/equations.toml", True),
         ("models/simulate.py", False),
         ("report/page/page.css", False),
     ],
@@ -77,17 +78,17 @@ def test_a_product_is_made_from_what_is_reached_only(
     copy = tmp_path / "lagrotor"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "derivations", "figures"))
     for kind in ("derivations", "figures"):
-        shutil.copytree(scripts.folder(kind), copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
-    here = made_from(derivation("s5_2a_single_rotor"))
-    for module in (reach, scripts):
-        monkeypatch.setattr(module, "_PACKAGE", copy)
+        shutil.copytree(PAPER.scripts.base / kind, copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
+    here = made_from(derivation("s5_2a_single_rotor"), PAPER)
+    monkeypatch.setattr(reach, "_PACKAGE", copy)
+    installed = Paper(copy / "paper" / "rotor_pair", scripts_in=copy)
     clear()
     there = copy / "derivations" / "s5_2a_single_rotor.py"
-    assert made_from(there) == here, "an installed package has the digests of the checkout"
+    assert made_from(there, installed) == here, "an installed package has the digests of the checkout"
     with (copy / file).open("a", encoding="utf-8") as appended:
         appended.write("\n# changed\n")
     clear()
-    assert (made_from(there) != here) == matters
+    assert (made_from(there, installed) != here) == matters
 
 
 def test_no_two_lists_have_one_digest() -> None:

@@ -18,19 +18,20 @@ LARGEST = 5_000_000  # bytes of the page
 SUBSET = """
 import sys
 from pathlib import Path
-from lagrotor.paper import scripts
 from lagrotor.commands import terminal
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures import figures
 from lagrotor.report import content, results
 from lagrotor.report.job import reach, reproduce
 from lagrotor.report.page import whole_page as page
 from lagrotor.report.interactive import interactive
 kept = {"s5_2e_bar_length", "s5_3a_equal_spins", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
-names = scripts.names
-scripts.names = lambda kind, prefix="": [name for name in names(kind, prefix) if name in kept]
+names = Scripts.names
+Scripts.names = lambda scripts, kind, prefix="": [name for name in names(scripts, kind, prefix) if name in kept]
 interactive.interactive = lambda: '<section id="model"><h2>The model</h2></section>'
 LINES
-made = reproduce.reproduce(Path(sys.argv[1]), terminal.progress, 1)
+made = reproduce.reproduce(PAPER, Path(sys.argv[1]), terminal.progress, 1)
 print(len(made.taken), *made.taken)
 """
 

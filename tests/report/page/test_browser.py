@@ -14,10 +14,8 @@ from typing import Any
 
 import pytest
 
-from lagrotor.paper import scripts
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import equations
-from lagrotor.paper.ledger import judge
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import corrected
 from lagrotor.report.formulas.font import FAMILY, font_face
@@ -98,16 +96,16 @@ def sheet(formulas: Iterator[str]) -> str:
 
 def every_formula() -> Iterator[str]:
     """The printed equations, and every expression that the derivations state as derived or as a correction."""
-    for entry in equations().values():
+    for entry in PAPER.equations.values():
         yield from filter(None, [from_latex(entry.latex)])
-    for stem in scripts.names("derivations", "s"):
-        for statement in statements(stem):
+    for stem in PAPER.scripts.names("derivations", "s"):
+        for statement in PAPER.statements(stem):
             lines = (*derived_lines(statement.relations), *corrected(statement))
             yield from filter(None, map(from_latex, lines))
 
 
 def test_the_page_fits_a_desk_and_a_phone(tmp_path: Path) -> None:
-    report = Report(tuple(map(judge, statements("s5_2a_single_rotor"))), (), ())
+    report = Report(PAPER, tuple(map(decide, PAPER.statements("s5_2a_single_rotor"))), (), ())
     desk, phone = looked_at(page(report), tmp_path)
     for found in (desk, phone):
         assert found["formulas"] > 20

@@ -5,6 +5,7 @@ from base64 import b64decode
 
 import pytest
 
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.page.derivation_pages import derivation_html, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
@@ -12,8 +13,9 @@ PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 
 def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
     pytest.importorskip("markdown_it")
-    html = derivation_html("g07_wilberforce", {})
-    assert title("g07_wilberforce") == "Wilberforce's pendulum"
+    script = PAPER.scripts.executed("derivations", "g07_wilberforce")
+    html = derivation_html(script, {})
+    assert title(script, "g07") == "Wilberforce's pendulum"
     assert "<p><small>Proved: the split.</small></p>" in html
     ((data, labels),) = re.findall(PICTURE, html)
     assert b64decode(data).startswith(b"\x89PNG") and len(data) < 80_000
@@ -21,4 +23,4 @@ def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
 
 
 def test_a_script_without_a_run_has_no_picture() -> None:
-    assert not re.findall(PICTURE, derivation_html("s6_conclusion", {}))
+    assert not re.findall(PICTURE, derivation_html(PAPER.scripts.executed("derivations", "s6_conclusion"), {}))

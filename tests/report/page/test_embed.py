@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures.figures import Picture, draw
 from lagrotor.report.page import embed
 from lagrotor.report.page.embed import embedded, lean_svg, size
@@ -20,7 +21,7 @@ STEP = re.compile(r"([MLQCzmlqc])([^MLQCzmlqc]*)")
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory: pytest.TempPathFactory) -> list[Picture]:
-    return [draw(key, tmp_path_factory.mktemp("drawn")) for key in DRAWN]
+    return [draw(key, tmp_path_factory.mktemp("drawn"), PAPER.scripts) for key in DRAWN]
 
 
 def points(path: str) -> np.ndarray:

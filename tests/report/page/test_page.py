@@ -1,10 +1,11 @@
 """The report as HTML and Markdown: complete, escaped, alone in the world, and readable without seeing."""
 
+import ast
 import json
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -13,14 +14,13 @@ import pytest
 import sympy as sp
 
 from lagrotor.pair.symbols import M, r0
-from lagrotor.paper import catalogue, claim_tests, scripts
-from lagrotor.paper.audit import statements
-from lagrotor.paper.catalogue import claims, equation, equations
+from lagrotor.paper import claim_tests
 from lagrotor.paper.claim_tests import Finding, Part, Result
-from lagrotor.paper.ledger import Relation, Statement, chain, judge
+from lagrotor.paper.ledger import Relation, Statement, chain, decide
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.content import Report, contents
+from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page_pieces
@@ -74,7 +74,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
     svg, png = folder / "fig17_stub.svg", folder / "fig17_stub.png"
     svg.write_text(SVG)
     png.write_bytes(b"not looked at")
-    judged = [judge(statement) for statement in statements("s5_2a_single_rotor")]
+    judged = [decide(statement) for statement in PAPER.statements("s5_2a_single_rotor")]
     corrected = Statement(
         "5.20",
         chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
@@ -82,11 +82,12 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
         depends_on=("5.06",),
         evidence=(HOSTILE,),
     )
-    judged.append(replace(judge(corrected), reaches_result=True))
+    judged.append(replace(decide(corrected), reaches_result=True))
     picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25})
     derivation = ("s5_2a_single_rotor", HOSTILE, "<p>inside</p>")
     made = {"versions": (("Python", "3"), ("sympy", "1")), "inputs": (("package", "0a"),)}
-    return Report(tuple(judged), (picture,), (HOSTILE,), derivations=(derivation,), model=MODEL, **made)
+    figures = (ShownPart("figures", "Figures", pictures=(picture,)),)
+    return Report(PAPER, tuple(judged), (picture,), (HOSTILE,), (), figures, (derivation,), MODEL, **made)
 
 
 @pytest.fixture(scope="module")
@@ -100,17 +101,16 @@ def longer(report: Report) -> Report:
     finding = Finding((Part(HOSTILE, False, HOSTILE),), HOSTILE)
     test = claim_tests.ClaimTest("C16", (10, -10), {}, HOSTILE, lambda spins: {}, lambda measured: finding)
     result = Result(test, {"what_is_read": 1.5}, finding, 0.25)
-    return replace(
-        report,
-        pictures=(*report.pictures, *pictures),
-        claims=(result,),
-        findings=((HOSTILE, HOSTILE),),
-        tables=(table,),
-        past=(table,),
-        theory=((HOSTILE, HOSTILE),),
-        speed=(table,),
-        stability=(table,),
-    )
+    drawn = (*report.pictures, *pictures)
+    return replace(report, pictures=drawn, claims=(result,), parts=tuple(filled(table, drawn)))
+
+
+def filled(table: Table, drawn: Iterable[Picture]) -> Iterator[ShownPart]:
+    """The parts of the paper's report, each with a table and a remark where it has any, and its figures."""
+    for part in PAPER.about.part:
+        pictures = tuple(picture for picture in drawn if picture.key.rstrip("0123456789") in part.figures)
+        remarks = ((HOSTILE, HOSTILE),) if part.remarks else ()
+        yield ShownPart(part.name, part.heading, (table,) if part.tables else (), remarks, pictures)
 
 
 def read(text: str) -> Reader:
@@ -207,7 +207,7 @@ def test_pictures_have_alternatives(report: Report) -> None:
 @pytest.mark.parametrize("write", [page, markdown])
 def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> None:
     text = write(report)
-    for identifier in equations():
+    for identifier in PAPER.equations:
         assert identifier in text
     for verdict in report.verdicts:
         assert f'id="eq-{verdict.id}"' in text
@@ -251,8 +251,8 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
 @pytest.mark.parametrize("write", [page, markdown])
 def test_what_belongs_together_is_linked(write: Callable[[Report], str], longer: Report) -> None:
     text = write(longer)
-    assert {"5.19", "5.20"} == set(claims()["C16"].equations)
-    assert "5.20" in catalogue.figures()[19].equations
+    assert {"5.19", "5.20"} == set(PAPER.claims["C16"].equations)
+    assert "5.20" in PAPER.figures[19].equations
     entry = text[text.index('id="eq-5.20"') : text.index('id="claim-C16"')]
     claim = text[text.index('id="claim-C16"') : text.index('id="findings"')]
     figure = text[text.index('id="figure-19"') :]
@@ -262,18 +262,18 @@ def test_what_belongs_together_is_linked(write: Callable[[Report], str], longer:
 
 
 def test_catalogue_names_equations_that_exist() -> None:
-    for entry in (*claims().values(), *catalogue.figures().values()):
+    for entry in (*PAPER.claims.values(), *PAPER.figures.values()):
         for identifier in entry.equations:
-            assert identifier in equations()
-    for claim in claims().values():
-        assert {int(number) for number in claim.figures} <= set(catalogue.figures())
-    assert claims()["C18"].figures == ("21", "22")
+            assert identifier in PAPER.equations
+    for claim in PAPER.claims.values():
+        assert {int(number) for number in claim.figures} <= set(PAPER.figures)
+    assert PAPER.claims["C18"].figures == ("21", "22")
 
 
 def test_page_shows_the_source_as_printed(report: Report) -> None:
     text = read(page(report)).text
     for verdict in report.verdicts:
-        assert equation(verdict.id).latex in text
+        assert PAPER.equation(verdict.id).latex in text
 
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -333,14 +333,19 @@ def test_past_the_paper_is_a_section_of_its_own(report: Report, longer: Report) 
 
 
 def test_not_yet_judged_are_listed(report: Report) -> None:
-    assert {entry.id for entry in report.waiting} == set(equations()) - {verdict.id for verdict in report.verdicts}
+    assert {entry.id for entry in report.waiting} == set(PAPER.equations) - {verdict.id for verdict in report.verdicts}
 
 
 def test_every_table_of_the_derivations_is_shown() -> None:
-    """`reproduce` asks for tables by the beginnings of their scripts' names: none may be forgotten."""
-    asked = {stem for prefix in ("m1", "m3", "b", "p") for stem in scripts.names("derivations", prefix)}
-    there = {path.stem for path in scripts.folder("derivations").glob("*.py") if path.stem[0] in "mbp"}
-    assert asked == there
+    """A part of the report takes tables by the beginnings of their scripts' names: none may be forgotten."""
+    prefixes = tuple(prefix for part in PAPER.about.part for prefix in part.tables)
+    for stem in PAPER.scripts.names("derivations"):
+        names = {
+            node.id
+            for node in ast.walk(ast.parse(PAPER.scripts.path("derivations", stem).read_text()))
+            if isinstance(node, ast.Name)
+        }
+        assert ("tables" in names) <= stem.startswith(prefixes), stem
 
 
 SEARCHED = """

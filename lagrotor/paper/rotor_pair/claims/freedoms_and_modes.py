@@ -11,8 +11,8 @@ from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.symbols import G_1, G_2, a, b, k
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.premises import TWO_MODES
 from lagrotor.paper.readable import scientific
+from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 

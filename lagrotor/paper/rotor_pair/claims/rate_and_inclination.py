@@ -10,9 +10,17 @@ from lagrotor.numerics.harmonics import best_harmonics
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.claims.natural_rates import BARS
-from lagrotor.paper.claims.precession_runs import AMPLITUDES, EQUAL, MASSLESS, OPPOSITE, Spins, once_round, precession
-from lagrotor.paper.shocked_runs import shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.claims.natural_rates import BARS
+from lagrotor.paper.rotor_pair.claims.precession_runs import (
+    AMPLITUDES,
+    EQUAL,
+    MASSLESS,
+    OPPOSITE,
+    Spins,
+    once_round,
+    precession,
+)
+from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
 OVER_COSINE, HALF_UNIT = 0.5, 0.05  # c of 1/cos θ = 1 + θ²/2, to half a unit of its decimal

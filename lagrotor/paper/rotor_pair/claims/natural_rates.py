@@ -11,7 +11,7 @@ from lagrotor.numerics.harmonics import best_harmonics
 from lagrotor.pair.examples import HEAVY, LIGHT, STEP
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.shocked_runs import shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
 Spins = tuple[float, float]

@@ -11,7 +11,8 @@ from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.claims.precession_runs import (
+from lagrotor.paper.readable import scientific
+from lagrotor.paper.rotor_pair.claims.precession_runs import (
     AMPLITUDES,
     EQUAL,
     MASSLESS,
@@ -22,7 +23,6 @@ from lagrotor.paper.claims.precession_runs import (
     once_round,
     precession,
 )
-from lagrotor.paper.readable import scientific
 
 WITHIN = 0.05  # "agrees", "constant": to one part in twenty, what two curves drawn over each other still hide
 VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order

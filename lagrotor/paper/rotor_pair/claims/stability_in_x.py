@@ -13,7 +13,7 @@ from lagrotor.pair.examples import DAMPING, HEAVY, STIFFNESS
 from lagrotor.pair.scene import Scene, Vector
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
-from lagrotor.paper.shocked_runs import (
+from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,
     paper_run,

@@ -11,7 +11,7 @@ from lagrotor.numerics.spectrum import mean_between
 from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.scene import Link, Vector
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.shocked_runs import after_shock, angle_between, shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import after_shock, angle_between, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.claims.precession_runs import (
+from lagrotor.paper.rotor_pair.claims.precession_runs import (
     AMPLITUDES,
     EQUAL,
     MASSLESS,

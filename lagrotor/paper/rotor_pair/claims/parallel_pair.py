@@ -12,7 +12,13 @@ from lagrotor.pair.scene import Link, Vector
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
-from lagrotor.paper.shocked_runs import after_shock, angle_between, shock_of, shocked_scene, turned_about_joint_line
+from lagrotor.paper.rotor_pair.shocked_runs import (
+    after_shock,
+    angle_between,
+    shock_of,
+    shocked_scene,
+    turned_about_joint_line,
+)
 from lagrotor.theory.natural_rate import natural_rate
 
 Spins = tuple[float, float]

@@ -13,7 +13,7 @@ from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
-from lagrotor.paper.shocked_runs import after_shock, shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import after_shock, shock_of, shocked_scene
 
 Array = NDArray[np.float64]
 Spins = tuple[float, float]

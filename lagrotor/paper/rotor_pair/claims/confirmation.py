@@ -13,7 +13,7 @@ from lagrotor.pair.examples import LIGHT
 from lagrotor.pair.scene import Vector
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.shocked_runs import shock_of, shocked_scene, turned_about_joint_line
+from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene, turned_about_joint_line
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]

@@ -22,7 +22,7 @@ from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
-from lagrotor.paper.shocked_runs import shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
 
 Array = NDArray[np.float64]
 SPINS = (10.0, 10.0)

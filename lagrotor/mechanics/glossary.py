@@ -1,0 +1,63 @@
+"""A glossary of letters with meanings and units, and expressions as LaTeX with the dots of velocities."""
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.mechanics.lagrangian import Coordinates
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One row of a glossary."""
+
+    symbol: sp.Symbol
+    meaning: str
+    unit: str
+
+
+class Glossary(dict[sp.Symbol, Entry]):
+    """Symbol → what it means, in the order in which the letters are declared."""
+
+    def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
+        """A symbol with sympy's assumptions, such as positive=True, that enters the glossary as it is declared."""
+        symbol = sp.Symbol(name, **assumptions)
+        self[symbol] = Entry(symbol, meaning, unit)
+        return symbol
+
+    def moving(self, c: Coordinates, *rows: tuple[str, str]) -> Coordinates:
+        """The coordinates with their velocities and accelerations; `rows`: (meaning, unit) of each coordinate."""
+        for q, v, acc, (meaning, unit) in zip(c.q, c.v, c.a, rows, strict=True):
+            self[q] = Entry(q, meaning, unit)
+            self[v] = Entry(v, f"rate of {q.name}", f"{unit}/s")
+            self[acc] = Entry(acc, f"acceleration of {q.name}", f"{unit}/s²")
+        return c
+
+    def meaning(self, symbol: sp.Symbol) -> str:
+        """What a letter means, in a few words; "parameter" where the glossary does not hold it."""
+        return self[symbol].meaning.split(":")[0] if symbol in self else "parameter"
+
+
+def latex(expression: Any) -> str:
+    """LaTeX of an expression, with dots over what a symbol's name calls a velocity or an acceleration."""
+    free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
+    return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free}))
+
+
+# sin, cos or tan, perhaps to a power, of one letter in brackets.
+_OF_A_LETTER = re.compile(r"(\\(?:sin|cos|tan)(?:\^\{\d+\})?)\{\\left\((\\?[A-Za-z]+(?:_(?:\{\w+\}|\w))?) ?\\right\)\}")
+
+
+def light(source: str) -> str:
+    r"""LaTeX in which sine, cosine and tangent of one letter need no brackets: \cos\theta."""
+    return _OF_A_LETTER.sub(r"\1 \2", source)
+
+
+def letter_latex(symbol: sp.Symbol) -> str:
+    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1."""
+    dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", symbol.name)
+    stem = sp.latex(sp.Symbol(dotted[1]) if dotted else symbol)
+    index = f"_{{{dotted[2]}}}" if dotted and dotted[2] else ""
+    return re.sub(r"_\{(\w)\}$", r"_\1", (rf"\{dotted[3]}{{{stem}}}" if dotted else stem) + index)

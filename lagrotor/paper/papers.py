@@ -1,0 +1,191 @@
+"""A paper as a folder: its catalogue, its scripts, its record; and the audit that judges what the scripts state.
+
+`Paper("my-paper").audit()["3.2"]` is one verdict; `Paper("my-paper").evaluate()` tests the claims.
+"""
+
+import time
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any, overload
+
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
+from lagrotor.paper import record
+from lagrotor.paper.audit import Audit
+from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.claim_tests import ClaimTest, Result
+from lagrotor.paper.ledger import Statement, Verdict, decide
+from lagrotor.paper.scripts import Scripts
+from lagrotor.paper.stating import Stated, statement
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Paper(Catalogue):
+    """A folder with `paper.toml`, `equations.toml`, and, where there are any, `claims.toml`, `figures.toml`, `symbols.py`,
+    `derivations/`, `figures/`, and the record of verdicts, `recorded.json`.
+
+    scripts_in: the folder that holds `derivations/` and `figures/`, where it is another. Raises InputError for a folder
+    whose parts do not fit together; the message names the file.
+    """
+
+    scripts_in: Path | None = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return opened, (self.folder, self.scripts_in)
+
+    @cached_property
+    def scripts(self) -> Scripts:
+        """The derivations and the scripts of the figures."""
+        return Scripts(self.scripts_in or self.folder, self.importable)
+
+    @property
+    def record_file(self) -> Path:
+        """The file of the verdicts on record."""
+        return self.folder / "recorded.json"
+
+    @property
+    def recorded(self) -> dict[str, record.OnRecord]:
+        """The verdicts on record, by id; empty when there are none yet."""
+        return record.recorded(self.record_file)
+
+    @overload
+    def audit(self, identifier: str, progress: Progress | None = None) -> Verdict: ...
+    @overload
+    def audit(self, identifier: None = None, progress: Progress | None = None) -> Audit: ...
+    def audit(self, identifier: str | None = None, progress: Progress | None = None) -> Audit | Verdict:
+        """Judge every equation, or one.
+
+        One equation runs its own derivation only; whether its error reaches a result of the paper is then taken from the
+        record of the last whole audit. `progress` is called with the name of each script before it runs. Raises InputError
+        for an equation that the paper does not have, or that no derivation states, and ScriptError for a script that fails.
+        """
+        if identifier is not None:
+            return self._one(identifier, progress)
+        verdicts = [v for stem in self.stating_scripts for v in self.judged(stem, progress)]
+        found = tuple(self.with_reach(verdicts))
+        judged = {verdict.id for verdict in found}
+        return Audit(found, tuple(i for i in self.equations if i not in judged))
+
+    @property
+    def stating_scripts(self) -> list[str]:
+        """Stems of the derivations that state equations."""
+        return self.scripts.names("derivations", self.about.equations_in)
+
+    def derived_in(self, identifier: str) -> str | None:
+        """The script that derives an equation, derivations/….py; None where none does."""
+        found = self.scripts.stating.get(identifier)
+        return f"derivations/{found[0]}.py" if found else None
+
+    def stated(self, stem: str) -> list[Stated]:
+        """What one derivation states of the paper's equations."""
+        return self.scripts.executed("derivations", stem).shown(Stated)
+
+    def statements(self, stem: str) -> list[Statement]:
+        """What one derivation states, beside the print. Raises InputError with file and line where it does not fit."""
+        found = []
+        for each in self.stated(stem):
+            try:
+                found.append(self.statement(each))
+            except InputError as error:
+                _, line = self.scripts.stating.get(each.id, (stem, 1))
+                raise InputError(f"{self.scripts.path('derivations', stem)}:{line}: {error}") from None
+        return found
+
+    def statement(self, stated: Stated) -> Statement:
+        """What a derivation states, beside the print. Raises InputError where it does not fit the paper."""
+        return statement(stated, self)
+
+    def judged(self, stem: str, progress: Progress | None = None) -> list[Verdict]:
+        """The verdicts on what one script states. Seconds include an equal share of its script's."""
+        if progress:
+            progress(stem)
+        began = time.perf_counter()
+        found = self.statements(stem)
+        share = (time.perf_counter() - began) / max(len(found), 1)
+        verdicts = [decide(each, self.glossary) for each in found]
+        return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
+
+    def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
+        """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them."""
+        found: dict[str, Verdict] = {}
+        for verdict in verdicts:
+            if verdict.id in found:
+                raise InputError(f"{self.folder}: equation {verdict.id} is judged twice: keep one of its verdicts")
+            found[verdict.id] = verdict
+        answers = {i: v.verdict for i, v in found.items()}
+        uses = {i: v.statement.depends_on for i, v in found.items()}
+        return [self._followed(found[i], answers, uses) for i in self.equations if i in found]
+
+    def _one(self, identifier: str, progress: Progress | None) -> Verdict:
+        self.equation(identifier)
+        if identifier not in self.scripts.stating:
+            raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
+        stem, _ = self.scripts.stating[identifier]
+        if progress:
+            progress(stem)
+        verdict = decide(next(s for s in self.statements(stem) if s.id == identifier), self.glossary)
+        on_record = self.recorded
+        answers = {i: row.verdict for i, row in on_record.items()} | {identifier: verdict.verdict}
+        return self._followed(verdict, answers, {i: row.uses for i, row in on_record.items()})
+
+    def _followed(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
+        """The verdict on a refuted equation with whether a result of the paper falls with it."""
+        if verdict.verdict != "refuted":
+            return verdict
+        reaches = record.reaches_result(verdict.id, self.about.results, answers, uses)
+        return replace(verdict, reaches_result=reaches)
+
+    @cached_property
+    def claim_tests(self) -> dict[str, ClaimTest]:
+        """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them."""
+        if not self.claims:
+            return {}
+        found: dict[str, ClaimTest] = {}
+        for stem in self.scripts.names("derivations", self.about.claims_in):
+            for test in self.scripts.executed("derivations", stem).shown(ClaimTest):
+                if test.id not in self.claims or test.id in found:
+                    wrong = "is tested twice" if test.id in found else "is not in claims.toml"
+                    raise InputError(f"{self.scripts.path('derivations', stem)}: claim {test.id} {wrong}")
+                found[test.id] = test
+        return {identifier: found[identifier] for identifier in self.claims if identifier in found}
+
+    def measured(self, identifier: str) -> Result:
+        """One claim after its test."""
+        with self.importable():
+            return self.claim_tests[identifier].result
+
+    def evaluate(self, progress: Progress | None = None, wanted: Collection[str] | None = None) -> list[Result]:
+        """Every claim (or the wanted ones) in the paper's order; `progress` gets each claim's id before its run."""
+        results = []
+        for identifier in self.claim_tests:
+            if wanted is None or identifier in wanted:
+                if progress:
+                    progress(f"claim {identifier}")
+                results.append(self.measured(identifier))
+        return results
+
+    def changes(self, found: Mapping[str, str], only: Iterable[str] = ()) -> list[str]:
+        """A sentence for each verdict that differs from the one on record, of all ids or of those in `only`."""
+        ids = tuple(only) or (*self.equations, *self.claims)
+        return record.changes(found, self.recorded, ids)
+
+    def renew_record(self, found: Iterable[Verdict | Result]) -> Path:
+        """Write what was found into the record; what else is on record, of ids that the paper still has, stays."""
+        rows = self.recorded
+        for each in found:
+            if isinstance(each, Result):
+                rows[each.test.id] = record.OnRecord(each.finding.outcome)
+            else:
+                rows[each.id] = record.OnRecord(each.verdict, each.statement.depends_on)
+        kept = {i: rows[i] for i in (*self.equations, *self.claims) if i in rows}
+        return write_text(self.record_file, record.as_text(kept))
+
+
+@cache
+def opened(folder: Path, scripts_in: Path | None = None) -> Paper:
+    """The paper of a folder, the same one within a process, so that each of its scripts is run once."""
+    return Paper(folder, scripts_in=scripts_in)

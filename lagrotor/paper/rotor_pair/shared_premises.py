@@ -1,0 +1,51 @@
+"""Premises that several derivations share; how far the paper's own rotor and bar break them is computed."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.pair.symbols import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
+from lagrotor.paper.premises import Premise, parameter_premise, written_out
+from lagrotor.paper.rotor_pair.symbols import WRITTEN_OUT
+
+# The paper's own rotor and bar (section 4.1), SI units, and the lighter bar of section 5.2.1.
+PAPERS_OWN: Mapping[sp.Symbol, sp.Expr] = {I1: 1, I3: 1, M: 1, R: 1, ell: 1, m: 1, K: 1}
+LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational(1, 10)}
+
+
+def in_parameters(expression: Any) -> Any:
+    """The expression in the rotor's and the bar's own parameters: a, b, k, J by what they are."""
+    return written_out(expression, WRITTEN_OUT)
+
+
+def about_parameters(says: str, put: Mapping[sp.Symbol, Any]) -> Premise:
+    """A premise about parameters, such as J = I_3, with how far the paper's own values break it."""
+    return parameter_premise(says, put, PAPERS_OWN, WRITTEN_OUT)
+
+
+def massless_bar() -> Premise:
+    """The bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
+    own = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
+    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=own)
+
+
+# Premises that several derivations share. Where more than one is offered, they are put in in this order.
+ABOUT_JOINT = about_parameters("I₁ is read as the transverse inertia about the ground joint, I₁ = J", {I1: J})
+MASSLESS_BAR = massless_bar()
+EQUAL_INERTIAS = about_parameters("the inertias about the ground joint are equal, J = I₃", {J: I3})
+BAR_AS_LONG_AS_ROTORS = about_parameters("the bar is as long as the rotors, ℓ = R", {ell: R})
+UNIT_LENGTH = about_parameters("lengths are measured in units of the rotor's, R = 1", {R: 1})
+PAPERS_ROTOR = about_parameters("the rotor is the paper's, I₁ = I₃ = M = R = ℓ = 1", {I1: 1, I3: 1, M: 1, R: 1, ell: 1})
+ONE_KILOGRAM_BAR = about_parameters("the bar has a mass of 1 kg", {m: 1})
+HEAVY_BAR = about_parameters("the bar is that of section 4.1, m = K = 1", {m: 1, K: 1})
+LIGHT_BAR_PREMISE = Premise("the bar is that of section 5.2.1, m = 0.01, K = 0.1", LIGHT_BAR)
+EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
+OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
+# What sections 5.2 and 6 call a mode (6.01 and claim C24): 1 where a motion of this kind counts as one, 0 where not.
+TURNING_COUNTS, RESTING_COUNTS = sp.symbols("turning_counts resting_counts", real=True)
+TWO_MODES = Premise(
+    "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
+    "displacement of the precession centre, which rests, does not",
+    {TURNING_COUNTS: 1, RESTING_COUNTS: 0},
+)

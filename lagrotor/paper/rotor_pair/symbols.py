@@ -1,0 +1,12 @@
+"""The letters of the paper of the rotor pair: the glossary of the pair, what its lines may call, what stands for what."""
+
+from collections import ChainMap
+
+from lagrotor.pair.lagrangians import INERTIAS, J_OF, axis
+from lagrotor.pair.symbols import GLOSSARY as GLOSSARY
+from lagrotor.pair.symbols import J
+
+FUNCTIONS = {"axis": axis}
+LATEX = {"axis": r"\hat{r}"}
+# a, b and k first, then the J that stands in them.
+WRITTEN_OUT = ChainMap({J: J_OF}, INERTIAS)
