@@ -16,6 +16,11 @@ MUTANTS = [
     ("n1_standing", "beta**2 - 4 * a * kappa)", "beta**2 - 2 * a * kappa)"),
     ("n1_standing", "(2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam", "(2 * G_1**2 - G_2**2 + 2 * G_3**2) * lam"),
     ("n1_standing", "(G_1 * G_3 - G_2 * G_4) ** 2", "(G_1 * G_3 + G_2 * G_4) ** 2"),
+    ("n2_shaken", "tuning = 1 - gamma**2 / 2", "tuning = 1 - gamma**2"),
+    ("n2_shaken", "(3 + sign * gamma / sp.sqrt(2))", "(3 - sign * gamma / sp.sqrt(2))"),
+    ("n2_shaken", '4 / gamma**2 - 1, "the least', '4 / gamma**2 + 1, "the least'),
+    ("n3_waves", "2 * G_1 * G_2 * sp.cos(q))", "G_1 * G_2 * sp.cos(q))"),
+    ("n3_waves", "mixed, spun = 2 / sp.sin(phi) ** 2, -sp.cos", "mixed, spun = 2 / sp.sin(phi) ** 2, 2 * sp.cos"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
 ]
 
