@@ -52,7 +52,8 @@ def dispersion(p: Pattern, q: ArrayLike) -> Bands:
             "more move, as at q = 0 the structure as a whole, or take out bars where there are none"
         )
     found = [_roots(part, basis) for part, basis in zip(parts, bases, strict=True)]
-    rates, growth = (np.array([part(s) for s, _ in found]) for part in (lambda s: -s.imag, lambda s: s.real))
+    roots = np.array([s for s, _ in found])
+    rates, growth = -roots.imag, roots.real
     order = np.argsort(rates, axis=1, kind="stable")
     rates, growth = (np.take_along_axis(part, order, axis=1) for part in (rates, growth))
     velocity = np.array(
@@ -91,7 +92,7 @@ def _velocity(p: Pattern, q: Array, part: Bloch, s: Complex, u: Complex) -> Arra
         for k in turning:
             x, rate = u[:, k], w[k]
             held = (part.stiffness - rate**2 * part.mass - 1j * rate * part.gyroscopic) @ x
-            lam = -np.linalg.lstsq(part.rows.conj().T, held, rcond=None)[0] if len(part.rows) else np.zeros(0)
+            lam = -np.linalg.lstsq(part.rows.conj().T, held, rcond=None)[0] if len(part.rows) else held[:0]
             slope = _form(after, rate, x, lam) - _form(before, rate, x, lam)
             by_rate = -2 * rate * (x.conj() @ part.mass @ x) - 1j * (x.conj() @ part.gyroscopic @ x)
             found[axis, k] = -(slope / (2 * _STEP) / by_rate).real

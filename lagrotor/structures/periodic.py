@@ -48,7 +48,7 @@ class Pattern:
             raise InputError(f"Pattern: vectors = {self.vectors!r} must be one or two, one where cells are turned")
         if len({rotor.length for rotor in self.rotors.rotor}) > 1:
             raise InputError("Pattern: the axes must be of one length")
-        for i, j, cells, *_ in (*self.bars, *self.springs):
+        for i, j, cells in (*self.bars, *(spring[:3] for spring in self.springs)):
             if not (0 <= i < len(self.rotors.joints) > j >= 0 and len(cells) == len(self.vectors)) or (
                 i == j and not any(cells)
             ):
