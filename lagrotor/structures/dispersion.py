@@ -1,9 +1,10 @@
 """Dispersion relations of patterns: bands, gaps, zero bands, group velocity."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.structures.coefficients import Array, Complex
@@ -99,6 +100,6 @@ def _velocity(p: Pattern, q: Array, part: Bloch, s: Complex, u: Complex) -> Arra
     return found
 
 
-def _form(part: Bloch, rate: float, x: Complex, lam: Complex) -> complex:
+def _form(part: Bloch, rate: float, x: Complex, lam: NDArray[Any]) -> complex:
     own = x.conj() @ (part.stiffness - rate**2 * part.mass - 1j * rate * part.gyroscopic) @ x
     return complex(own + 2 * (lam.conj() @ (part.rows @ x)).real)
