@@ -15,13 +15,13 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 # Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.
 LOOKS = {
     "minimal": ("blue", "o"),
-    "spheres": ("blue", "s"),
-    "euler": ("blue", "D"),
+    "spheres": ("black", "s"),
+    "euler": ("orange", "D"),
     "minimal, Adams": ("vermillion", "^"),
-    "minimal, DOP853": ("vermillion", "v"),
+    "minimal, DOP853": ("reddish purple", "v"),
     "solve_ivp, RK45": ("sky blue", "p"),
-    "solve_ivp, LSODA": ("sky blue", "*"),
-    "ode, DOP853": ("bluish green", "X"),
+    "solve_ivp, LSODA": ("grey", "*"),
+    "ode, DOP853": ("olive", "X"),
     "ode, Adams (VODE)": ("bluish green", "P"),
 }
 CLOSED = "closed form"
@@ -85,17 +85,16 @@ CAPTION = (
 def figure() -> Figure:
     """One panel: a curve a method, the front behind them."""
     d = data()
-    picture = Figure(figsize=(8.0, 6.0))
+    picture = Figure(figsize=(7.4, 6.0))
     panel = picture.subplots()
     panel.step(d["front"][:, 0], d["front"][:, 1], where="post", color="#bbbbbb", linewidth=6, alpha=0.5, label="front")
     for (name, (colour, marker)), off, spent in zip(LOOKS.items(), d["errors"], d["evaluations"], strict=True):
-        panel.loglog(spent, off, color=OKABE_ITO[colour], marker=marker, markersize=5, linewidth=1.0, label=name)
-    panel.axhline(
-        np.nanmin(d["closed"]), color=OKABE_ITO["reddish purple"], linestyle="--", label="closed form, no evaluation"
-    )
+        panel.loglog(
+            spent, off, color=OKABE_ITO.get(colour, colour), marker=marker, markersize=5, linewidth=1.0, label=name
+        )
+    panel.axhline(np.nanmin(d["closed"]), color="#222222", linestyle="--", label="closed form, no evaluation")
     panel.axhline(d["floor"][0], color="#888888", linestyle=":", linewidth=0.9, label="error of the reference")
     panel.set(xlabel="evaluations [1]", ylabel="largest error of a tip [m]", title="10 s, 1001 output times")
     panel.margins(0.05)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=4)
     return picture

@@ -76,5 +76,4 @@ def figure() -> Figure:
     for j, letter in enumerate("xyz"):
         arrow(axes, origin, origin + e[j], INK, 1.2)
         label(axes, origin + 1.2 * e[j], f"${letter}$", INK)
-    drawn.suptitle(TITLE)
     return drawn

@@ -86,5 +86,4 @@ def figure() -> Figure:
     label(axes, middle + force / 2, r"$\vec F = \vec F_A + \vec F_B$", MARK, (12, 16))
     axes.plot(*np.array([middle, tips.mean(0)]).T, color=BAR, linewidth=0.9, linestyle=":")
     ground(axes, joints)
-    drawn.suptitle(TITLE)
     return drawn

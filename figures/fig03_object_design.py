@@ -74,7 +74,7 @@ LINE = 0.55
 
 def figure() -> Figure:
     """The boxes, and who uses whom."""
-    drawn = Figure(figsize=(10.0, 5.4))
+    drawn = Figure(figsize=(7.4, 4.9))
     axes = drawn.subplots()
     bare(axes, np.array([[0.0, 0.9], [14.5, 9.0]]), 0.25)
     side = {}
@@ -86,10 +86,10 @@ def figure() -> Figure:
             FancyBboxPatch((left, top - height), width, height, boxstyle="round,pad=0,rounding_size=0.15",
                            facecolor="white", edgecolor=colour, linewidth=1.8)
         )  # fmt: skip
-        axes.text(left + 0.2, top - 0.42, name, fontsize=10.5, fontweight="bold", color=colour, va="center")
+        axes.text(left + 0.2, top - 0.42, name, fontsize=10, fontweight="bold", color=colour, va="center")
         axes.text(left + 0.2, top - 0.92, says, fontsize=8.5, fontstyle="italic", va="center")
         for i, (line, bold) in enumerate(lines):
-            axes.text(left + 0.2, top - LINE * (i + 2.75), line, fontsize=8, family="DejaVu Sans Mono", va="center",
+            axes.text(left + 0.2, top - LINE * (i + 2.75), line, fontsize=7, family="DejaVu Sans Mono", va="center",
                       fontweight="bold" if bold else "normal")  # fmt: skip
         side[name] = (left, left + width, top - height / 2)
     for start, end in (("RigidBody", "RigidBodySystem"), ("spring_link", "RigidBodySystem")):
@@ -97,7 +97,6 @@ def figure() -> Figure:
         arrow(axes, (b if b < c else a, y), (c if b < c else d, y), width=1.4)
     (_, b, _), (a, _, y) = side["RigidBodySystem"], side["spring_run"]
     arrow(axes, (b, y), (a, y), width=1.4)
-    drawn.suptitle(TITLE)
     return drawn
 
 

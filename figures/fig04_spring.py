@@ -102,5 +102,4 @@ def figure() -> Figure:
         label(axes, point, rf"vertex {i + 1}, $\vec X_{i + 1}$", INK, (-52 if i == 0 else 52, 30 if i == 0 else -26))
         label(axes, point + SCALE * force[i] / 2, rf"$\vec F$ on {i + 1}", MARK, (0, -12), fontsize=10)
     axes.plot(*np.array([first, second]).T, color=BAR, linewidth=0.8, linestyle=":")
-    drawn.suptitle(TITLE)
     return drawn

@@ -77,5 +77,4 @@ def figure() -> Figure:
     label(axes, point + 0.07 * n, r"$\vec F$ on the body", MARK, (-44, 8), fontsize=10)
     label(axes, foot + 0.07 * n - 0.36 * force, r"$-\vec F$ on the ground", MARK, (-60, 2), fontsize=10)
     label(axes, (point + foot) / 2, "$S$, $D$", INK, (24, -4))
-    drawn.suptitle(TITLE)
     return drawn

@@ -81,5 +81,4 @@ def figure() -> Figure:
     label(axes, (vertices[0, 0] + joints[0]) / 2, "ground(1, 1)", MARK, (-44, 0), fontsize=9)
     label(axes, (vertices[1, 0] + joints[1]) / 2, "ground(2, 1)", MARK, (44, 0), fontsize=9)
     ground(axes, joints)
-    drawn.suptitle(TITLE)
     return drawn

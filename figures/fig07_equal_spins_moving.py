@@ -63,8 +63,8 @@ def figure() -> Figure:
     d, camera = data(), Camera()
     R, ell = SCENE.rotor.length, SCENE.link.length
     joints = camera(np.array([[-ell / 2, 0, 0], [ell / 2, 0, 0]]))
-    drawn = Figure(figsize=(9.6, 3.4))
-    for k, axes in enumerate(drawn.subplots(1, len(SHOWN))):
+    drawn = Figure(figsize=(7.0, 6.4))
+    for k, axes in enumerate(drawn.subplots(2, 2).flat):
         wide = camera(d["centres"][:2, k] + RADIUS * R * np.array([[-1, 0, 0], [1, 0, 0]]))
         tips = camera(d["tips"][:, k])
         bare(axes, np.vstack([joints, tips, wide]), 0.07)
@@ -74,5 +74,4 @@ def figure() -> Figure:
         axes.plot(*tips.T, "o", color=INK, markersize=4, zorder=5)
         ground(axes, joints, 6)
         axes.set_title(f"t = {d['shown'][k]:.3f} s")
-    drawn.suptitle(f"{TITLE}, spins {SCENE.spins[0]:g} and {SCENE.spins[1]:g} rad/s")
     return drawn

@@ -79,7 +79,7 @@ CAPTION = (
 def figure() -> Figure:
     """The whole run; the spike; the decay on a logarithmic scale."""
     d = data()
-    drawn = Figure(figsize=(8.0, 5.4))
+    drawn = Figure(figsize=(7.4, 5.4))
     panels = drawn.subplot_mosaic([["run", "run"], ["spike", "decay"]])
     early = (d["t"] > 0) & (d["t"] <= 0.15)
     panels["run"].plot(d["t"], d["kinetic"], color=MODEL, label="kinetic energy, as the paper records it")
@@ -95,6 +95,5 @@ def figure() -> Figure:
         panels[name].set_ylabel("energy [J]")
     for panel in panels.values():
         panel.set_xlabel("t [s]")
-    drawn.suptitle(TITLE)
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

@@ -17,8 +17,8 @@ from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"
 ALT = (
-    "Energy over 10 s: the spring-link run, a wide blue line, and the exact model, dashed black upon it, are both level "
-    "at 100 J."
+    "Two panels over 10 s. Above, the energy of the spring-link run, a wide blue line, and of the exact model, dashed black "
+    "upon it, level at 100 J. Below, both less 100 J in billionths of a millijoule: level at zero."
 )
 
 
@@ -51,11 +51,13 @@ CAPTION = (
 def figure() -> Figure:
     """The energy over time."""
     d = data()
-    drawn = Figure(figsize=(7.0, 3.6))
-    main = drawn.subplots()
+    drawn = Figure(figsize=(7.0, 4.8))
+    main, below = drawn.subplots(2, 1, sharex=True, height_ratios=(1.4, 1))
     main.plot(d["t"], d["kinetic"], color=MODEL, linewidth=3, label="paper's method, kinetic energy")
     main.plot(d["t"], d["exact"], color=EXACT, linestyle="--", label="exact model")
-    main.set(ylabel="energy [J]", xlabel="t [s]", ylim=(95, 105))
-    drawn.suptitle(TITLE)
+    main.set(ylabel="energy [J]", ylim=(0, 120), title="Energy")
+    for name, colour, line in (("kinetic", MODEL, "-"), ("exact", EXACT, "--")):
+        below.plot(d["t"], 1e12 * (d[name] - 100), color=colour, linestyle=line, linewidth=3 if line == "-" else 1.6)
+    below.set(ylabel="energy − 100 J [pJ]", xlabel="t [s]", ylim=(-5, 5), title="Departure from 100 J")
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

@@ -73,6 +73,5 @@ def figure() -> Figure:
     upper.set(ylabel="energy [J]", title="Energy", ylim=(99.95, 100.5))
     lower.plot(d["t"], d["force"], color=OKABE_ITO["reddish purple"])
     lower.set(ylabel="force in x [N]", xlabel="t [s]", title="Force on the tip of rotor 1", ylim=(-3, 55))
-    drawn.suptitle(TITLE)
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

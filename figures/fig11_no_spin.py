@@ -54,4 +54,4 @@ CAPTION = (
 # %%
 def figure() -> Figure:
     """Energy, force and centre of rotor 1 over time."""
-    return shock_figure(data(), TITLE, "x")
+    return shock_figure(data(), "x")

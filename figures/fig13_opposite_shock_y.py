@@ -50,4 +50,4 @@ CAPTION = (
 # %%
 def figure() -> Figure:
     """Energy, force and centre of rotor 1 over time."""
-    return shock_figure(data(), TITLE, "y")
+    return shock_figure(data(), "y")

@@ -81,5 +81,4 @@ def figure() -> Figure:
         curve = camera(d[name])
         path_arrow(axes, curve, MARK, 2.0)
         label(axes, 1.17 * curve[len(curve) // 2], f"${text}$", MARK, fontsize=13)
-    drawn.suptitle(TITLE)
     return drawn

@@ -91,5 +91,4 @@ def figure() -> Figure:
     label(axes, camera(d["joints"][1] + 0.6 * east), "$x$", BAR, fontsize=10)
     axes.plot(*joints.T, color=GROUND, linewidth=1.3, zorder=1)
     ground(axes, joints)
-    drawn.suptitle(TITLE)
     return drawn

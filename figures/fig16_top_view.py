@@ -82,5 +82,4 @@ def figure() -> Figure:
     ground(axes, d["joints"])
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     axes.margins(x=0.06, y=0.06)
-    drawn.suptitle(TITLE)
     return drawn

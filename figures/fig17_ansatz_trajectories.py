@@ -95,6 +95,5 @@ def figure() -> Figure:
     for panel in (length, distance):
         panel.set_xlabel("phase [rad]")
         over_one_turn(panel)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -88,9 +88,9 @@ def figure() -> Figure:
         if name != "exact":
             residual.semilogy(d["phi"], np.maximum(np.abs(d[name] - 1), 1e-9), color=colour, ls=line)
     main.set(ylabel="length of the bar [m]", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
-    residual.set(ylabel="|length − 1 m| [m]", xlabel="angle $\\phi$ [rad]", title="Residual", ylim=(1e-5, 0.3))
+    residual.set(ylabel="|length − ℓ| [m]", xlabel="angle $\\phi$ [rad]", title="Residual", ylim=(1e-5, 0.3))
     residual.set_yticks([1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
     over_one_turn(residual)
-    picture.suptitle(TITLE)
-    picture.legend(loc="outside lower center", ncols=2)
+    handles, labels = main.get_legend_handles_labels()
+    picture.legend(handles, labels, loc="outside lower center", ncols=2)
     return picture

@@ -64,16 +64,14 @@ def figure() -> Figure:
     for i in (0, 1):
         first = i == 0
         top.plot(*d["paper"][i, :, :2].T, color=PAPER, label="paper's correction (5.20)" if first else None)
-        top.plot(
-            *d["order_3"][i, :, :2].T, color=CORRECTED, lw=3, alpha=0.7,
-            label="corrected series, order 3" if first else None,
-        )  # fmt: skip
+        for name, line, width in (("order_2", ":", 1.6), ("order_3", "-", 2.4)):
+            label = f"corrected series, order {name[-1]}" if first else None
+            top.plot(*d[name][i, :, :2].T, color=CORRECTED, ls=line, lw=width, label=label)
         top.plot(*d["exact"][i, :, :2].T, color=EXACT, ls="--", lw=1.2, label="exact orbit" if first else None)
     orbits_from_above(top, 0.85, 0.28)
     residual.semilogy(d["phase"], d["paper_distance"], color=PAPER)
-    residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTED, ls=":", label="corrected series, order 2")
+    residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTED, ls=":")
     residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTED)
     distance_over_one_turn(residual, 5e-5, 0.2)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -88,6 +88,5 @@ def figure() -> Figure:
             residual.semilogy(d["phase"], d[f"{name}_distance"], color=colour, ls=line, lw=min(width, 1.6))
     orbits_from_above(top, 1.35, 0.68)
     distance_over_one_turn(residual, 1e-5, 1)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

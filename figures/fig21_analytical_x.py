@@ -81,6 +81,5 @@ def figure() -> Figure:
     residual.plot(d["t"], d["corrected"][1] - d["exact"][1], color=CORRECTED, ls=":")
     residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid $x_1$, dotted $x_2$)")
     handles, labels = right.get_legend_handles_labels()
-    picture.suptitle(TITLE)
     picture.legend(handles, labels, loc="outside lower center", ncols=3)
     return picture

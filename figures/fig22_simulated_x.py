@@ -67,15 +67,14 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 6.6))
     right, left, across = picture.subplots(3, 1, sharex=True)
     colours = (MODEL, OKABE_ITO["orange"])
-    right.plot(d["t"], d["x"][1], color=colours[1], label="tip 2 (right)")
-    left.plot(d["t"], d["x"][0], color=colours[0], label="tip 1 (left)")
+    right.plot(d["t"], d["x"][1], color=colours[1], label="right tip, of rotor 2")
+    left.plot(d["t"], d["x"][0], color=colours[0], label="left tip, of rotor 1")
     across.plot(d["t"], d["y"][1], color=colours[1])
     across.plot(d["t"], d["y"][0], color=colours[0])
     for panel in (right, left, across):
-        panel.axvline(2, color=EXACT, lw=1, ls=":", label="shock" if panel is right else None)
+        panel.axvline(2, color=EXACT, lw=1, ls=":", label="shock" if panel is across else None)
     right.set(ylabel="$x_2$ [m]", title="x of the right tip", ylim=(0.28, 0.78))
     left.set(ylabel="$x_1$ [m]", title="x of the left tip", ylim=(-0.65, -0.15))
     across.set(xlabel="time [s]", ylabel="$y$ [m]", title="y of both tips")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -82,7 +82,7 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 7.0))
     top, turns = picture.subplots(2, 1, height_ratios=(2.2, 1))
     for i, colour in ((0, MODEL), (1, OKABE_ITO["orange"])):
-        top.plot(*d["tips"][i, :, :2].T, color=colour, lw=0.9, label=f"tip {i + 1}")
+        top.plot(*d["tips"][i, :, :2].T, color=colour, lw=0.9, label=f"{('left', 'right')[i]} tip, of rotor {i + 1}")
     centres = d["centres"].mean(1)[:, :2]
     for points, colour, line, mark, label in (
         (centres, EXACT, "-", "o", "centres and skew axis"),
@@ -103,6 +103,5 @@ def figure() -> Figure:
         xlabel="turn after the shock [1]", ylabel="angle to x [deg]", title="Angle of the skew axis, turn by turn"
     )
     turns.set(ylim=(-21.5, -19), xlim=(0.5, len(d["turn_angles"]) + 0.5))
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

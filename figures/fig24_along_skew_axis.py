@@ -146,6 +146,5 @@ def figure() -> Figure:
         residual.plot(d["t"], d[name][1] - d["simulated"][1], color=colour, ls=":")
     residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid left tip, dotted right tip)")
     handles, labels = right.get_legend_handles_labels()
-    picture.suptitle(TITLE)
     picture.legend(handles, labels, loc="outside lower center", ncols=3)
     return picture

@@ -73,6 +73,5 @@ def figure() -> Figure:
     force.set(ylabel="force [N]", title="Force on tip 1 along x")
     x.set(ylabel="$x_1$ [m]", title="x of tip 1")
     residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual: paper's method − exact model")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=2)
     return picture

@@ -123,6 +123,5 @@ def figure() -> Figure:
     heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", xlim=(0, 12), ylim=(0, None))
     heights.set_title("Spectrum of $x_1$ after the shock (solid: heavy bar, dash-dotted: light)")
     handles, labels = heavy.get_legend_handles_labels()
-    picture.suptitle(TITLE)
     picture.legend(handles, labels, loc="outside lower center", ncols=2)
     return picture

@@ -68,13 +68,13 @@ CAPTION = (
 def figure() -> Figure:
     """Swings against amplitude, one panel a model."""
     d = data()
-    picture = Figure(figsize=(8.2, 4.8))
+    picture = Figure(figsize=(7.4, 5.0))
     looks = {
         "A": (PAPER, "o", "the paper's A [kg m²/s]"),
         "E": (EXACT, "s", "energy E [J]"),
         "P": (CORRECTED, "^", "momentum about the joint line P [kg m²/s]"),
         "B": (OKABE_ITO["orange"], "D", "the paper's B [kg m²/s]"),
-        "G_1": (MODEL, "x", "axial momentum G_1 [kg m²/s]"),
+        "G_1": (MODEL, "x", "axial momentum $G_1$ [kg m²/s]"),
     }
     for i, (model, panel) in enumerate(zip(MODELS, picture.subplots(1, 2, sharey=True), strict=True)):
         for name, (colour, mark, says) in looks.items():
@@ -82,10 +82,9 @@ def figure() -> Figure:
                 AMPLITUDES, d[name][i], f"-{mark}", color=colour, ms=6, mfc="none", clip_on=False,
                 label=says if i == 0 else None,
             )  # fmt: skip
-        panel.set(xlabel="amplitude r_0 [1]", ylabel="swing over a turn, in SI units [1]", title=f"Model {model}")
+        panel.set(xlabel="amplitude $r_0$ [1]", ylabel="swing over a turn [SI]", title=f"Model {model}")
         panel.set_ylim(FLOOR / 3, 10)
         panel.set_xticks(AMPLITUDES, [f"{r:g}" for r in AMPLITUDES])
         panel.set_xticks([], minor=True)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=2)
     return picture

@@ -75,7 +75,7 @@ CAPTION = (
 def figure() -> Figure:
     """Frequency against inertia and against mass."""
     d = data()
-    picture = Figure(figsize=(8.0, 4.4))
+    picture = Figure(figsize=(7.4, 4.6))
     panels = dict(zip(("inertia", "mass"), picture.subplots(1, 2, sharey=True), strict=True))
     colours = {"equal": CORRECTED, "opposite": OKABE_ITO["reddish purple"]}
     for by, panel in panels.items():
@@ -87,7 +87,7 @@ def figure() -> Figure:
             )  # fmt: skip
         panel.axhline(PRINTED, color=PAPER, ls="--", label="the paper's constant")
         edge = MASS / 4 if by == "inertia" else 4 * INERTIA
-        panel.axvline(edge, color="#777777", ls=":", label="dumbbell, K = m ell²/4")
+        panel.axvline(edge, color="#777777", ls=":", label=r"dumbbell, $K = m\ell^2/4$")
         place = 1.0 if by == "inertia" else 0.01
         panel.axvline(place, color=PAPER, lw=5, alpha=0.25, label="the paper's bar")
         panel.set_ylabel("natural frequency, in units of G/J [1]")
@@ -95,7 +95,6 @@ def figure() -> Figure:
     panels["mass"].set(xlabel="mass of the bar m [kg]", title=f"Inertia of the bar K = {INERTIA:g} kg m²")
     panels["mass"].set_xlim(-0.05, 2)
     panels["inertia"].set_ylim(0.4, 1.05)
-    picture.suptitle(TITLE)
     handles, labels = panels["inertia"].get_legend_handles_labels()
     one = dict(zip(labels, handles, strict=True))
     picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)

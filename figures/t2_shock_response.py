@@ -76,7 +76,7 @@ CAPTION = (
 def figure() -> Figure:
     """Motion; difference; order."""
     d = data()
-    picture = Figure(figsize=(7.6, 6.2))
+    picture = Figure(figsize=(7.4, 6.2))
     axes = picture.subplot_mosaic([["motion", "motion"], ["difference", "order"]], height_ratios=(1.4, 1))
     motion, difference, order = axes["motion"], axes["difference"], axes["order"]
     colours = dict(zip(("x", "y, tip 1", "y, tip 2"), (CORRECTED, MODEL, OKABE_ITO["orange"]), strict=True))
@@ -90,6 +90,5 @@ def figure() -> Figure:
     law = d["errors"][0] * (d["forces"] / d["forces"][0]) ** 2
     order.loglog(d["forces"], law, color=CORRECTED, ls="--", label="square of the force")
     order.set(xlabel="force along x [N]", ylabel="largest difference [1]", title="Order", xlim=(0.8, 20))
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

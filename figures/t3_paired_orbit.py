@@ -80,7 +80,7 @@ CAPTION = (
 def figure() -> Figure:
     """Errors and slopes."""
     d = data()
-    picture = Figure(figsize=(8.0, 4.6))
+    picture = Figure(figsize=(7.4, 5.0))
     errors, slope = picture.subplots(1, 2, width_ratios=(1.5, 1))
     shades = mpl.colormaps["viridis"](np.linspace(0, 0.9, len(ORDERS)))
     for i, order in enumerate(ORDERS):
@@ -90,13 +90,14 @@ def figure() -> Figure:
     for i, (order, bounds) in enumerate(zip(BOUNDED, d["bounds"], strict=True)):
         says = "the series' own bound" if i == 0 else None
         errors.loglog(AT, bounds, ls="--", lw=1.0, color=shades[order - 1], label=says)
-    errors.set(xlabel="amplitude r_0 [1]", ylabel="largest distance [1]", title="Error of the series", ylim=(1e-13, 1))
+    errors.set(
+        xlabel="amplitude $r_0$ [1]", ylabel="largest distance [1]", title="Error of the series", ylim=(1e-13, 1)
+    )
     errors.set_xticks([0.05, 0.1, 0.2, 0.4], ["0.05", "0.1", "0.2", "0.4"], minor=False)
     errors.set_xticks([], minor=True)
     slope.plot(d["orders"], d["orders"] + 1, color=CORRECTED, label="promised: order + 1")
     slope.plot(d["orders"], slopes(), "o", color=EXACT, mfc="none", label="measured slope")
     slope.set(xlabel="order of the series [1]", ylabel="slope [1]", title="Residual's slope", xlim=(0.5, 9.5))
     slope.set_xticks(range(1, 10))
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=4)
     return picture

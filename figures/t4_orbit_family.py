@@ -14,11 +14,12 @@ from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 BARS = {
-    "massless, ell = R": Link(1, 0, 0),
-    "massless, ell = 0.6 R": Link(0.6, 0, 0),
-    "massless, ell = 1.6 R": Link(1.6, 0, 0),
+    "massless, ℓ = R": Link(1, 0, 0),
+    "massless, ℓ = 0.6 R": Link(0.6, 0, 0),
+    "massless, ℓ = 1.6 R": Link(1.6, 0, 0),
 }
-EXACT_AT = np.array([0.2, 0.4, 0.6, 0.75, 0.87, 0.95])
+EXACT_AT = np.array([0.05, *np.arange(0.1, 0.95, 0.05), 0.95])
+READ_AT = 0.4
 
 TITLE = "Frequency of the paired precession against its amplitude"
 ALT = (
@@ -57,7 +58,8 @@ def measure() -> dict[str, float]:
         found[f"{name}: exact at {EXACT_AT[-1]:g}"] = exact[-1]
         for curve in ("paper", f"order 3, {i}", f"order 9, {i}"):
             said = curve.partition(",")[0]
-            found[f"{name}: {said}, error at {EXACT_AT[1]:g}"] = np.interp(EXACT_AT[1], d["r0"], d[curve]) - exact[1]
+            there = np.interp(READ_AT, EXACT_AT, exact)
+            found[f"{name}: {said}, error at {READ_AT:g}"] = np.interp(READ_AT, d["r0"], d[curve]) - there
     return found
 
 
@@ -65,7 +67,7 @@ CAPTION = (
     "Omega over Omega_0; r_0 is the sine of the inclination when the axes are parallel. Paper: 1/cos theta_0, for every "
     "bar. Exact: the family of periodic orbits continued from small amplitudes, without a turn; it ends at r_0 = 1, "
     "where the axes lie along the joint line. At r_0 = "
-    f"{EXACT_AT[1]:g} with the massless bar the errors are "
+    f"{READ_AT:g} with the massless bar the errors are "
     + ", ".join(f"{list(measure().values())[i]:+.4f} ({said})" for i, said in ((1, "paper"), (2, "3"), (3, "9")))
     + "."
 )
@@ -75,17 +77,18 @@ CAPTION = (
 def figure() -> Figure:
     """One panel a bar."""
     d = data()
-    picture = Figure(figsize=(9.0, 4.2))
+    picture = Figure(figsize=(7.4, 4.2))
     for i, (name, panel) in enumerate(zip(BARS, picture.subplots(1, 3), strict=True)):
         exact = d[f"exact, {i}"]
         panel.plot(d["r0"], d["paper"], color=PAPER, label="paper" if i == 0 else None)
         panel.plot(d["r0"], d[f"order 3, {i}"], color=CORRECTED, ls="--", label="series, order 3" if i == 0 else None)
         panel.plot(d["r0"], d[f"order 9, {i}"], color=MODEL, label="series, order 9" if i == 0 else None)
-        panel.plot(d["exact_at"], exact, "o", color=EXACT, ms=4.5, mfc="none", label="exact" if i == 0 else None)
+        panel.plot(
+            d["exact_at"], exact, "o-", color=EXACT, lw=0.8, ms=3.5, mfc="none", label="exact" if i == 0 else None
+        )
         low, high = min(exact.min(), 1.0), max(exact.max(), 1.0)
         panel.set_ylim(low - 0.25 * (high - low), high + 0.6 * (high - low))
-        panel.set(xlabel="amplitude r_0 [1]", ylabel="Omega / Omega_0 [1]", xlim=(0, 1))
-        panel.set_title(name.replace(", ell", ",\nell"), fontsize=9.5)
-    picture.suptitle(TITLE)
+        panel.set(xlabel="amplitude $r_0$ [1]", ylabel=r"$\Omega / \Omega_0$ [1]" if i == 0 else "", xlim=(0, 1))
+        panel.set_title(name.replace(", ", ",\n"), fontsize=9.5)
     picture.legend(loc="outside lower center", ncols=4)
     return picture

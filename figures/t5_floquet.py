@@ -95,13 +95,13 @@ CAPTION = (
 def figure() -> Figure:
     """Growth against amplitude; elliptic and hyperbolic regions."""
     d = data()
-    picture = Figure(figsize=(8.4, 4.8))
+    picture = Figure(figsize=(7.4, 5.0))
     growth, plane = picture.subplots(1, 2)
     for (name, (_, colour, mark)), values, law in zip(BARS.items(), d["strength"], d["law"], strict=True):
         fill = colour if values[0] > 0 else "white"
         growth.loglog(d["fine"], law, color=colour, lw=1.2)
         growth.loglog(d["amplitudes"], np.abs(values), mark, color=colour, mfc=fill, label=name)
-    growth.set(xlabel="amplitude r_0 [1]", ylabel="growth or angle, a turn [rad]", title="Growth a turn")
+    growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle, a turn [rad]", title="Growth a turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
     plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0, color=CORRECTED, alpha=0.18, lw=0, label="elliptic")
@@ -114,8 +114,11 @@ def figure() -> Figure:
         sigma, r0, _ = d["tried"][(d["tried"][:, 2] > 0) == growing].T
         plane.plot(r0, sigma, "D", color=EXACT, mfc=fill, ms=5, label=says)
     plane.set(
-        xlabel="amplitude r_0 [1]", ylabel="sigma [1]", title="Where it is stable", xlim=(0, 0.4), ylim=(0.96, LAST)
+        xlabel="amplitude $r_0$ [1]",
+        ylabel=r"$\sigma$ [1]",
+        title="Where it is stable",
+        xlim=(0, 0.4),
+        ylim=(0.96, LAST),
     )
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -71,7 +71,7 @@ CAPTION = (
 def figure() -> Figure:
     """Rate against force; closed form less exact."""
     d = data()
-    picture = Figure(figsize=(8.0, 4.6))
+    picture = Figure(figsize=(7.4, 4.8))
     rate, residual = picture.subplots(1, 2, width_ratios=(1.5, 1))
     rate.axhline(0, color="#777777", lw=0.8)
     rate.axvline(CHOSEN, color=PAPER, ls="--", label=f"the paper's force, −{-CHOSEN:g} N")
@@ -84,6 +84,5 @@ def figure() -> Figure:
     residual.axhline(0, color="#777777", lw=0.8)
     residual.set(xlabel="force along y [N]", ylabel="difference [rad/s]", title="Residual: closed form less exact")
     residual.set_xlim(-20.5, 5.5)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=2)
     return picture

@@ -88,7 +88,7 @@ CAPTION = (
 def figure() -> Figure:
     """Times against force; one run."""
     d = data()
-    picture = Figure(figsize=(8.6, 4.8))
+    picture = Figure(figsize=(7.4, 5.0))
     times, run = picture.subplots(1, 2)
     purple = OKABE_ITO["reddish purple"]
     times.loglog(FORCES, d["lean_law"], color=purple, label="closed form: leaning, square of the force")
@@ -105,7 +105,6 @@ def figure() -> Figure:
     run.plot(d["t"][after], wander_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=CORRECTED, ls="--")
     run.plot(d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple, ls="--")
     run.set(xlabel="time [s]", ylabel="mean x and turning angle [1]", title=f"One run, {SHOWN:g} N")
-    picture.suptitle(TITLE)
     one = {}
     for panel in (times, run):
         handles, labels = panel.get_legend_handles_labels()

@@ -90,17 +90,19 @@ CAPTION = (
 def figure() -> Figure:
     """Growth against rate; mean x after the two shocks."""
     d = data()
-    picture = Figure(figsize=(8.6, 4.8))
+    picture = Figure(figsize=(7.4, 4.9))
     growth, shocks = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, colour)), values in zip(BARS.items(), d["growth"], strict=True):
         growth.plot(d["rates"], values, color=colour, label=f"closed form, {name}")
     growth.plot(d["tried"][:, 1], d["measured"], "o", color=EXACT, mfc="none", label="exact motion")
     growth.set(
-        xlabel="rate of turning nu [rad/s]", ylabel="growth rate [1/s]", title="Growth of a small tilt", ylim=(-0.3, 14)
+        xlabel=r"rate of turning $\nu$ [rad/s]",
+        ylabel="growth rate [1/s]",
+        title="Growth of a small tilt",
+        ylim=(-0.3, 14),
     )
     for force, x, line in zip((FORCE, -FORCE), d["x"], (EXACT, OKABE_ITO["reddish purple"]), strict=True):
-        shocks.plot(d["t"], x, color=line, lw=1.2, label=f"exact, {force:+g} N along y")
+        shocks.plot(d["t"], x, color=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−"))
     shocks.set(xlabel="time [s]", ylabel="mean x of both axes [1]", title="After the paper's shocks along y")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

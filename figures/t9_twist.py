@@ -81,7 +81,7 @@ CAPTION = (
 def figure() -> Figure:
     """Growth against inertia; closed form less Hill."""
     d = data()
-    picture = Figure(figsize=(8.2, 4.8))
+    picture = Figure(figsize=(7.4, 4.8))
     growth, residual = picture.subplots(1, 2, width_ratios=(1.5, 1))
     for i, (angle, colour) in enumerate(zip(ANGLES, (MODEL, OKABE_ITO["reddish purple"]), strict=True)):
         growth.plot(d["inertia"], d["closed"][i], color=CORRECTED, ls="--", label="closed form" if i == 0 else None)
@@ -89,11 +89,10 @@ def figure() -> Figure:
         growth.plot(d["tried"], d["exact"][i], "o", color=EXACT, mfc="none", label="exact motion" if i == 0 else None)
         residual.plot(d["inertia"], d["closed"][i] - d["hill"][i], color=colour)
     for panel in (growth, residual):
-        panel.axvline(EDGE, color="#777777", ls=":", label="threshold, K = m ell²/4" if panel is growth else None)
+        panel.axvline(EDGE, color="#777777", ls=":", label=r"threshold, $K = m\ell^2/4$" if panel is growth else None)
         panel.set_xlabel("inertia of the bar K [kg m²]")
     growth.axvline(1.0, color=PAPER, lw=5, alpha=0.25, label="the paper's bar")
     growth.set(ylabel="growth rate [1/s]", title="Growth of a small twist")
     residual.set(ylabel="difference [1/s]", title="Residual: closed form less Hill")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

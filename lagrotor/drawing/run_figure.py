@@ -41,7 +41,7 @@ def run_figure(t: Array, tips: Array, energy: Array, title: str) -> RunFigure:
         panels["energy"].margins(y=0.2)
         _over_time(panels["energy"], True)
         handles, labels = panels["x"].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=2)
+        figure.legend(handles, labels, loc="outside lower center", ncols=2)
         figure.suptitle(title)
     return figure
 

@@ -46,6 +46,7 @@ class Equation:
     line: its printed lines as written in the catalogue. reading: how they were read, where sympy's parser of LaTeX does not
     read them. letters: what the text around the equation says of its letters. refers: letter → id of the equation that
     defines it, whose derived side stands for it. measured: the equation is a number read off a run.
+    place: the paper's own heading over it, where `section` names a wider one.
     """
 
     id: str
@@ -58,6 +59,13 @@ class Equation:
     letters: Mapping[str, str] = field(default_factory=dict)
     refers: Mapping[str, str] = field(default_factory=dict)
     measured: bool = False
+    place: str = ""
+
+    @property
+    def cited(self) -> str:
+        """How to point to it in the paper: its own number, or its section."""
+        where = f"section {self.place or self.section}"
+        return f"({self.number}), {where}" if self.number else where
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3."""
+"""Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
 
 import re
 
@@ -18,16 +18,40 @@ _SIGNS = {
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _END = "[\\w)\u0307\u0308]"  # of what stands before an operator
-_NAME = re.compile(r"(?<![\w\\])([A-Za-z]+)(?:_(\d+))?(_d?dot)?(?![A-Za-z0-9_])")
+_NAME = re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])")
+_NUMBER = re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.])")
+# A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.
+_PRIMED = re.compile(r"(?<![A-Za-z])((?:[A-Za-zͰ-Ͽϑϕ][₀-₉\u0307]*)|\))('{1,2})(?![A-Za-zͰ-Ͽ'])")
+_ARROWS = {"->": "→", ">=": "≥", "<=": "≤", "||": "‖"}
 
 
 def readable(text: str) -> str:
-    """The text with Greek letters, dots and indices on names, raised powers, and signs; nothing else is touched."""
+    """The text with Greek letters, dots, primes and indices on names, powers raised, signs, and numbers in powers of ten.
+
+    An index that is not a number stays as typed, F_y; so does a power that is not a whole number, r^1.96.
+    """
+    text = _NUMBER.sub(_in_powers_of_ten, text)
     text = _NAME.sub(_letter, text)
-    text = re.sub(rf"(?<={_END})\*\*(\d+)", lambda match: match[1].translate(_HIGH), text)
+    text = _PRIMED.sub(lambda match: match[1] + "′" * len(match[2]), text)
+    text = re.sub(rf"(?<={_END})(?:\*\*|\^)(\d+)(?![\d.])", lambda match: match[1].translate(_HIGH), text)
+    text = re.sub(r"(?<=[\w)|])\^(?:(\d+)|(T))(?![\w.])", lambda match: (match[1] or "ᵀ").translate(_HIGH), text)
     text = re.sub(rf"(?<={_END})\*\*(?=[\w(])", "^", text)
     text = re.sub(rf"(?<={_END})\*(?=[\w(])", "·", text)
-    return re.sub(r"(?<![^\s(=:;/])-(?=[\dͰ-Ͽ])|(?<= )-(?= )", "−", text)
+    text = re.sub(r"(?<=\b[A-Za-z]) x (?=[A-Za-z]\b)", " × ", text)
+    text = re.sub(r"\bsqrt\(", "√(", text)
+    for typed, sign in _ARROWS.items():
+        text = text.replace(f" {typed} ", f" {sign} ") if typed != "||" else text.replace(typed, sign)
+    return re.sub(r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()", "−", text)
+
+
+def _in_powers_of_ten(match: re.Match[str]) -> str:
+    sign, mantissa, power = match.groups()
+    if float(mantissa) == 0:
+        return "0"
+    if int(power) == 0:
+        return f"{sign}{mantissa}"
+    raised = f"10{'⁻' * (int(power) < 0)}{str(abs(int(power))).translate(_HIGH)}"
+    return sign.replace("-", "−") + (raised if float(mantissa) == 1 else f"{mantissa}×{raised}")
 
 
 def scientific(value: float, digits: int = 0) -> str:
@@ -57,7 +81,8 @@ def _dotted(match: re.Match[str]) -> str:
 
 
 def _letter(match: re.Match[str]) -> str:
-    name, index, dots = match[1], match[2] or "", match[3] or ""
-    if name not in _LETTERS and len(name) > 1:
+    name, index, dots = match[1], match[2], match[3] or ""
+    if name not in _LETTERS and (len(name) > 1 or (not index and not dots)):
         return match[0]
-    return _LETTERS.get(name, name) + _ABOVE[dots] + index.translate(_LOW)
+    low = index[1:].translate(_LOW) if index[1:].isdigit() else index
+    return _LETTERS.get(name, name) + _ABOVE[dots] + low

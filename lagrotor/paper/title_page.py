@@ -15,7 +15,7 @@ class Headline:
 
     {C02[rate]:.3f} is a number of a claim's test, {figure 3[period (s)]:.2f} one read off a figure, {2.1} the verdict on an
     equation, {2.1[correction]} that on its correction. ids: what it is shown in. formula: the equation whose derived or
-    corrected form is shown; quantity: of which of its lines, in LaTeX.
+    corrected form is shown; quantity: of which of its lines, in LaTeX. figure: the one that is shown beside it, "figure 19".
     """
 
     title: str
@@ -23,6 +23,18 @@ class Headline:
     ids: tuple[str, ...] = ()
     formula: str = ""
     quantity: str = ""
+    figure: str = ""
+
+
+@dataclass(frozen=True)
+class Opening:
+    """One of the lines that the report opens with: what the paper did, what is right, what is wrong.
+
+    text: with numbers in braces as a headline's; {equations}, {claims}, {holding} and {refuted} are counts.
+    """
+
+    label: str
+    text: str
 
 
 @dataclass(frozen=True)
@@ -52,7 +64,7 @@ class TitlePage:
 
     sections: number → heading. results: ids of the equations in which the paper's work ends. equations_in, claims_in:
     beginnings of the names of the derivations that state equations, and that show tests of claims. model: a module with a
-    function `interactive() -> str`, a section of the page in HTML.
+    function `interactive() -> str`, a section of the page in HTML. letters: names of those that the notation begins with.
     """
 
     title: str
@@ -62,6 +74,8 @@ class TitlePage:
     equations_in: str = ""
     claims_in: str = ""
     model: str = ""
+    letters: tuple[str, ...] = ()
+    opening: tuple[Opening, ...] = ()
     headline: tuple[Headline, ...] = ()
     part: tuple[Part, ...] = USUAL_PARTS
 
@@ -102,7 +116,7 @@ def title_page(folder: Path) -> TitlePage:
             f"{folder} is no paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
         )
     given = toml(file)
-    for key, kind in (("headline", Headline), ("part", Part)):
+    for key, kind in (("opening", Opening), ("headline", Headline), ("part", Part)):
         if key in given:
             given[key] = [row(kind, each, f"{file}: {key}") for each in given[key]]
     return row(TitlePage, given, str(file))

@@ -6,11 +6,12 @@ from matplotlib.figure import Figure
 
 from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 from lagrotor.numerics.rotations import Array
+from lagrotor.paper.rotor_pair.shocked_runs import SPECTRUM_FROM
 
 COMPONENTS = {"x": OKABE_ITO["blue"], "y": OKABE_ITO["vermillion"], "z": OKABE_ITO["orange"]}
 
 
-def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
+def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     """Energy, force and centre of rotor 1 over time, as in the paper's figures 11 to 13; dashed, the exact model.
 
     data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre;
@@ -35,44 +36,55 @@ def shock_figure(data: dict[str, Array], title: str, letter: str) -> Figure:
             linewidth=1.0,
             label=exact,
         )
+    if "exact_t" in data:
+        end = data["exact_t"][-1]
+        for panel in (upper, lower):
+            panel.axvline(end, color=EXACT, linewidth=0.8, linestyle=":")
+        lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
     lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
     lower.margins(y=0.06)
-    figure.suptitle(title)
     figure.legend(loc="outside lower center", ncols=4)
     return figure
 
 
-def rate_figure(data: dict[str, Array], title: str, printed: float) -> Figure:
-    """Force, x of tip 1, its residual and its spectrum, as in figures 25 and 27; `printed`: the paper's rate, rad/s.
+# Where the curves of a rate are told apart (s): the first swings after the shock, and the last ones of the run.
+_FIRST, _LAST = (1.9, 4.0), (8.5, 10.0)
+
+
+def rate_figure(data: dict[str, Array], printed: float) -> Figure:
+    """x of tip 1 at first and at last, its residual and its spectrum, as in figures 25 and 27; `printed`: the rate, rad/s.
 
     data: t (n,) in s, force (n,) in N; exact, springs, printed, corrected (n,): x of tip 1 from its start in m; rate,
-    exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s.
+    exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s. The sines start with the shock; their
+    residual is shown from its end on.
     """
     figure = Figure(figsize=(7.0, 8.4))
-    force, x, residual, heights = figure.subplots(4, 1, height_ratios=(0.8, 1.7, 1.2, 1.4))
+    panels = figure.subplot_mosaic(
+        [["force", "force"], ["first", "last"], ["residual", "residual"], ["heights", "heights"]],
+        height_ratios=(0.7, 1.7, 1.2, 1.4),
+    )
+    force, residual, heights = (panels[name] for name in ("force", "residual", "heights"))
     force.plot(data["t"], data["force"], color=EXACT)
-    force.set(ylabel="force [N]", title="Force on tip 1 along x")
-    x.plot(data["t"], data["exact"], color=EXACT, label="exact model")
-    x.plot(data["t"], data["springs"], color=MODEL, lw=1.2, label="paper's method, stiff springs")
-    x.plot(data["t"], data["printed"], color=PAPER, ls="--", lw=1.2, label=f"sin {printed:g}(t − 2), scaled")
-    x.plot(data["t"], data["corrected"], color=CORRECTED, ls=":", lw=2, label="sine at the closed form's rate")
-    x.set(ylabel="$x - x(0)$ [m]", title="x of tip 1")
-    residual.plot(data["t"], data["printed"] - data["exact"], color=PAPER)
-    residual.plot(data["t"], data["springs"] - data["exact"], color=MODEL, lw=1.2)
-    residual.plot(data["t"], data["corrected"] - data["exact"], color=CORRECTED)
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual against the exact model")
-    for panel in (force, x, residual):
-        panel.set_xlim(1.5, 10)
-    for panel in (force, x):
-        panel.tick_params(labelbottom=False)
+    force.set(ylabel="force [N]", title="Force on tip 1 along x", xlabel="time [s]", xlim=(1.5, 10))
+    for x, span, says in ((panels["first"], _FIRST, "The first swings"), (panels["last"], _LAST, "The last swings")):
+        x.plot(data["t"], data["exact"], color=EXACT, lw=2.4, label="exact model")
+        x.plot(data["t"], data["springs"], color=MODEL, lw=1.2, label="paper's method, stiff springs")
+        x.plot(data["t"], data["printed"], color=PAPER, ls="--", lw=1.2, label=f"sin {printed:g}(t − 2), scaled")
+        x.plot(data["t"], data["corrected"], color=CORRECTED, ls=":", lw=2, label="sine at the closed form's rate")
+        x.set(xlim=span, xlabel="time [s]", ylabel="$x - x(0)$ [m]", title=f"x of tip 1: {says.lower()}")
+    over = data["t"] > SPECTRUM_FROM
+    for name, colour, width in (("printed", PAPER, 1.6), ("springs", MODEL, 1.2), ("corrected", CORRECTED, 1.6)):
+        residual.plot(data["t"][over], (data[name] - data["exact"])[over], color=colour, lw=width)
+    residual.set(xlabel="time [s]", ylabel="residual [m]", xlim=(1.5, 10))
+    residual.set_title("Residual against the exact model, from the end of the shock")
     heights.plot(data["rate"], data["exact_amplitude"], color=EXACT)
     heights.plot(data["rate"], data["springs_amplitude"], color=MODEL, lw=1.2)
     heights.axvline(printed, color=PAPER, ls="--", lw=1.2)
     heights.axvline(data["closed_form_rate"][0], color=CORRECTED, ls=":", lw=2)
     heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", title="Spectrum of x after the shock")
     heights.set(xlim=(printed - 5, printed + 5), ylim=(0, None))
-    figure.suptitle(title)
-    figure.legend(loc="outside lower center", ncols=2)
+    handles, labels = panels["first"].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
 
 

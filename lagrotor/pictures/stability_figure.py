@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
 from lagrotor.drawing.style import OKABE_ITO, paper_style
@@ -14,7 +15,7 @@ STEM = "stability"
 
 def stability_figure(found: Usefulness) -> Figure:
     """Error of each order over amplitude and departure from opposite spins, and the line beyond which it is no use."""
-    figure = Figure(figsize=(3.2 * len(found.orders) + 1.2, 4.0))
+    figure = Figure(figsize=(7.4, 3.9))
     panels = figure.subplots(1, len(found.orders), sharey=True, squeeze=False)[0]
     levels = np.arange(-8, 1)
     for panel, order, errors in zip(panels, found.orders, found.errors, strict=True):
@@ -33,7 +34,10 @@ def stability_figure(found: Usefulness) -> Figure:
     panels[0].set_ylabel(r"departure from opposite spins, $1 + \omega_2/\omega_1$")
     bar = figure.colorbar(filled, ax=list(panels))
     bar.set_label(r"largest error over a turn, $\log_{10}$ of R")
-    figure.suptitle(f"Closed forms of the paired orbit: useful left of and below the line (error {USEFUL:g} $r_0$)")
+    line = Line2D(
+        [], [], color=OKABE_ITO["vermillion"], linewidth=2, label=f"error {USEFUL:g} $r_0$: useful left of and below it"
+    )
+    figure.legend(handles=[line], loc="outside lower center")
     return figure
 
 

@@ -85,8 +85,8 @@ class Report:
 
     @property
     def title(self) -> str:
-        """The paper's title."""
-        return self.paper.title
+        """What the report is: a re-examination of the paper, which it names."""
+        return f'A re-examination of "{self.paper.title}"'
 
     @property
     def how_to_read(self) -> str:
@@ -162,11 +162,11 @@ def contents(report: Report) -> list[tuple[str, str]]:
     """The sections of a report that have something in them, in their order: (anchor, heading)."""
     paper = [(f"section-{name}", f"{name} {report.paper.about.sections[name]}", True) for name in report.sections]
     listed = [
+        ("model", "The pair in motion", bool(report.model)),
         ("summary", "In short", True),
         ("verdicts", "Verdicts", True),
         ("notation", "Notation", bool(report.paper.glossary)),
         ("errata", "Errata", any(v.verdict == "refuted" for v in report.verdicts)),
-        ("model", "The interactive model", bool(report.model)),
         *paper,
         ("claims", "Claims", bool(report.claims)),
         ("derivations", "Derivations", bool(report.derivations)),
@@ -179,8 +179,10 @@ def contents(report: Report) -> list[tuple[str, str]]:
 
 
 def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
-    """The letters of the report: (symbol, meaning, unit), without velocities and accelerations, which have dots."""
-    shown = (entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot"))
+    """The letters of the report: (symbol, meaning, unit), those first that `paper.toml` names; dots mean rates."""
+    first = report.paper.about.letters
+    shown = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
+    shown.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
     return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
 
 
@@ -269,8 +271,11 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """What a table says beside the verdict's word: the order or the condition."""
+    """What a table says beside the verdict's word: why it is refuted, or the order and the condition in short."""
+    if verdict.verdict == "refuted":
+        return verdict.statement.wrong
+    parts = [premise.says for premise in verdict.premises]
     if verdict.order is not None and verdict.small is not None:
-        order = f"agrees through order {verdict.order} in {verdict.small}"
-        return f"{order}; {verdict.condition}" if verdict.condition else order
-    return verdict.condition or ""
+        parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
+    broken = any(premise.broken for premise in verdict.premises)
+    return "; ".join(parts) + (". The paper's own scene breaks this." if broken else "")

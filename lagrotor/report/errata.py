@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.ledger import Relation, Statement, Verdict
 from lagrotor.paper.papers import Paper
-from lagrotor.report.latex import END, head, printed, prose
+from lagrotor.report.latex import END, head, printed, prose, tidy
 
 
 @dataclass(frozen=True)
 class Erratum:
-    """One row: printed and corrected in LaTeX, `wrong` in a line, ids that use it, and whether a result falls with it."""
+    """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it."""
 
     id: str
+    cited: str
     title: str
     printed: str
     corrected: tuple[str, ...]
@@ -21,6 +22,7 @@ class Erratum:
     verdict_of_correction: str
     used_by: tuple[str, ...]
     survives: bool
+    letters: frozenset[str] = frozenset()
 
     @property
     def reach(self) -> str:
@@ -38,6 +40,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
             statement, entry = verdict.statement, paper.equation(verdict.id)
             yield Erratum(
                 id=entry.id,
+                cited=entry.cited,
                 title=entry.title,
                 printed=entry.latex,
                 corrected=corrected(statement),
@@ -45,6 +48,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 verdict_of_correction=(verdict.correction_verdict or "undecided").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
+                letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
             )
 
 
@@ -62,9 +66,42 @@ def _line(quantity: str, relation: Relation) -> str:
 
 
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
-    """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref."""
+    """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref: a summary, then an item each."""
+    listed = list(verdicts)
+    found = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{prose(paper.title)}}}}}"
-    return "\n".join([head(f"Errata to {paper.title}") + title, *map(latex_block, errata(verdicts, paper)), END])
+    summary = " ".join(prose(text) for text in _summary(listed, found, paper))
+    items = "\n".join(map(latex_item, found)) or rf"\item {prose('None.')}"
+    sheet = [r"{\small\setlength{\parskip}{1pt}\raggedright", r"\begin{enumerate}", items, r"\end{enumerate}}"]
+    return "\n".join([head(f"Errata to {paper.title}") + title, summary, *sheet, END])
+
+
+def _summary(verdicts: list[Verdict], found: list[Erratum], paper: Paper) -> Iterator[str]:
+    """What the sheet says before its items."""
+    yield (
+        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {len(found)} differ from what follows "
+        "from their premises. Each is listed by its own number or its section, as printed and as it should read; every "
+        "correction was decided by the same exact procedure as the print."
+    )
+    shown = {letter for e in found for letter in e.letters}
+    meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
+    letters = "; ".join(
+        f"{name} is {meanings[name]}" for name in paper.about.letters if name in shown and name in meanings
+    )
+    if letters:
+        yield f"Letters of the corrections: {letters}."
+    if reaching := sum(not e.survives for e in found):
+        yield f"{reaching} of them change a result; no result depends on the other {len(found) - reaching}."
+
+
+def latex_item(e: Erratum) -> str:
+    """One item: where it is, what is printed, what it should read, what was wrong."""
+    reach = "" if e.survives else " This changes a result."
+    right = r";\quad ".join(line.strip() for line in e.corrected)
+    return (
+        rf"\item \textbf{{{prose(e.cited.capitalize())}}}, {prose(e.title)}. {prose(e.wrong)}{reach}\\"
+        rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"
+    )
 
 
 def latex_block(e: Erratum) -> str:

@@ -101,11 +101,16 @@ def _letter(match: re.Match[str]) -> str:
 
 
 def printed(source: str) -> str:
-    """A printed formula on its own line: the source's last comma or full stop belongs to its sentence."""
-    tidy = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
-    tidy = "".join(c if c.isascii() else _GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in tidy)
-    tidy = _LONE.sub(r" \1 ", tidy)
-    return rf"\fit{{{tidy}}}{{\broken{{{_loose(tidy)}}}}}"
+    """A printed formula on its own line, broken where it is too wide."""
+    clean = tidy(source)
+    return rf"\fit{{{clean}}}{{\broken{{{_loose(clean)}}}}}"
+
+
+def tidy(source: str) -> str:
+    """A formula in ASCII, without its sentence's last comma or full stop."""
+    clean = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
+    clean = "".join(c if c.isascii() else _GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
+    return _LONE.sub(r" \1 ", clean)
 
 
 def derived(expression: sp.Basic) -> str:

@@ -33,7 +33,7 @@ from lagrotor.report.content import (
     word,
 )
 from lagrotor.report.errata import errata
-from lagrotor.report.results import balance, headlines
+from lagrotor.report.results import balance, headlines, opening
 
 
 def markdown(report: Report) -> str:
@@ -42,6 +42,7 @@ def markdown(report: Report) -> str:
     blocks = [
         f"# {report.title}",
         f"{SUBTITLE}.",
+        *(f"**{label}** {_prose(text)}" for label, text in opening(report)),
         _prose(report.how_to_read),
         "\n".join(f"- [{heading}](#{name})" for name, heading in listed),
     ]
@@ -103,7 +104,7 @@ def _table(report: Report) -> str:
         (_links([v.id]), _prose(report.paper.equation(v.id).title), word(v.verdict), _prose(note(v)))
         for v in report.verdicts
     ]
-    return _rows(("Equation", "Title", "Verdict", "Order or condition"), rows)
+    return _rows(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)
 
 
 def _equation(verdict: Verdict, report: Report) -> str:

@@ -16,12 +16,19 @@ _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
 
 @dataclass(frozen=True)
 class Headline:
-    """One result: what it says in a line, the sentence with its numbers, a formula in LaTeX, ids of where it is shown."""
+    """One result: what it says in a line, the sentence with its numbers, a formula in LaTeX, where it is shown, its figure."""
 
     title: str
     text: str
     ids: tuple[str, ...]
     formula: str = ""
+    figure: str = ""
+
+
+def opening(report: Report) -> list[tuple[str, str]]:
+    """The lines that the report opens with: (label, sentence)."""
+    numbers = _Numbers(report)
+    return [(line.label, numbers.format(line.text)) for line in report.paper.about.opening]
 
 
 def balance(report: Report) -> str:
@@ -55,6 +62,13 @@ class _Numbers(Formatter):
     def __init__(self, report: Report) -> None:
         self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
         self.measured: dict[str, Mapping[str, float]] = {r.test.id: r.measured for r in report.claims}
+        hold = ("holds", "holds-if", "holds-to-order")
+        self.counts = {
+            "equations": len(report.verdicts),
+            "claims": len(report.claims),
+            "holding": sum(report.counts.get(answer, 0) for answer in hold),
+            "refuted": report.counts.get("refuted", 0),
+        }
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
     def has(self, given: title_page.Headline) -> bool:
@@ -67,10 +81,12 @@ class _Numbers(Formatter):
         """The headline with its numbers."""
         known = self.verdicts.keys() | self.measured.keys()
         ids = tuple(identifier for identifier in given.ids if identifier in known)
-        return Headline(given.title, self.format(given.text), ids, self._formula(given))
+        return Headline(given.title, self.format(given.text), ids, self._formula(given), given.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
         """The value of what stands in braces. Raises InputError for a number that a test does not measure."""
+        if field_name in self.counts:
+            return self.counts[field_name], field_name
         match = _FIELD.fullmatch(field_name)
         identifier, name = (match[1], match[2] or "") if match else (field_name, "")
         if identifier in self.verdicts:

@@ -30,7 +30,7 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import errata, latex_block
 from lagrotor.report.latex import END, derived, head, inline, printed, prose, table
-from lagrotor.report.results import Headline, balance, headlines
+from lagrotor.report.results import Headline, balance, headlines, opening
 
 
 def supplement(report: Report) -> str:
@@ -38,6 +38,7 @@ def supplement(report: Report) -> str:
     blocks = [
         rf"\title{{{prose(report.title)}\\ \large {prose(SUBTITLE)}}}",
         r"\author{}\date{}\maketitle",
+        *(rf"\textbf{{{label}}} {prose(text)}" for label, text in opening(report)),
         prose(report.how_to_read),
     ]
     blocks += [r"\setcounter{tocdepth}{2}\tableofcontents"]
@@ -74,7 +75,7 @@ def _verdicts(report: Report) -> list[str]:
         (_link(v.id), prose(report.paper.equation(v.id).title), word(v.verdict), prose(note(v)))
         for v in report.verdicts
     ]
-    return [table(("Equation", "Title", "Verdict", "Order or condition"), rows)]
+    return [table(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)]
 
 
 def _paper(report: Report, name: str) -> list[str]:

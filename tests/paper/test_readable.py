@@ -16,6 +16,12 @@ from lagrotor.paper.readable import readable, scientific
         ("(a+b)**nu", "(a+b)^ν"),
         ("Omega**12", "Ω¹²"),
         ("varepsilon, sin(vartheta_1)", "ε, sin(ϑ₁)"),
+        ("Omega_y*I_x = -f_ij", "Ω_y·I_x = −f_ij"),
+        ("Omega^2 (X)^2 R^T", "Ω² (X)² Rᵀ"),
+        ("psi_1' = D s' + r'', the rotors' own, Hill's", "ψ₁′ = D s′ + r′′, the rotors' own, Hill's"),
+        ("r x F, R -> R, k >= 1, ||Omega||", "r × F, R → R, k ≥ 1, ‖Ω‖"),
+        ("1e-11, 5.9e+03, -1.2e-7, 0e+00", "10⁻¹¹, 5.9×10³, −1.2×10⁻⁷, 0"),
+        ("sqrt(1 + exp(-(2 t)))", "√(1 + exp(−(2 t)))"),
     ],
 )
 def test_formulas_are_set(typed: str, read: str) -> None:
@@ -26,7 +32,6 @@ def test_formulas_are_set(typed: str, read: str) -> None:
     "text",
     [
         "U_3_x",
-        "1e-11",
         "figures 13-14",
         "x-y",
         "lagrotor chart --quick",

@@ -39,7 +39,15 @@ def test_the_document_is_ascii_and_whole(verdicts: list[Verdict]) -> None:
     text = latex_document(verdicts, PAPER)
     assert text.isascii()
     assert text.rstrip().endswith(r"\end{document}")
-    assert text.count(r"\subsection*") == len(list(errata(verdicts, PAPER)))
+    assert text.count(r"\item ") == len(list(errata(verdicts, PAPER)))
+
+
+def test_the_sheet_names_the_paper_and_its_own_places(verdicts: list[Verdict]) -> None:
+    text = latex_document(verdicts, PAPER)
+    assert r"Errata to \emph{Dynamics of Axially Coupled Rotor Pairs}" in text
+    assert "(5), section 2" in text and "Section 3.2.1" in text
+    assert f"{len(list(errata(verdicts, PAPER)))} differ" in text
+    assert len(text) < 16_000, "two pages"
 
 
 def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:

@@ -16,7 +16,11 @@ from lagrotor.report.results import balance, headlines
 
 MEASURED = {
     "C16": {"corrected_shortest": 1.0811, "corrected_longest": 1.0822},
-    "C18": {"turned_about_joint_line_rad": 0.0712, "turned_about_joint_line_without_y_shock_rad": 3.333},
+    "C18": {
+        "least_lean_about_joint_line_rad": -0.051,
+        "largest_lean_about_joint_line_rad": 0.0712,
+        "turned_about_joint_line_without_y_shock_rad": 3.333,
+    },
     "C21": {
         "J_over_J_plus_half_m": 0.71421,
         "constant": 0.71432,
@@ -35,12 +39,13 @@ READ_OFF = {
         "cancelling force, second order (N)": -10.61,
         "cancelling force, exact runs (N)": -10.97,
         "exact rate without a force along y (rad/s)": -0.3631,
+        "exact rate with the paper's force (rad/s)": 0.0006,
     },
 }
 SAID = (
     ("spins 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
     ("108.1% to 108.2% of its length", "up to 0.047 m", "0.0077 m at second", "0.0013 m at third"),
-    ("-0.363 rad/s", "-10.61 N", "-10.97 N", "0.07 rad in 8 s", "by 3.33"),
+    ("-0.363 rad/s", "-10.61 N", "-10.97 N", "between -0.051 and +0.071 rad", "+0.0006 rad/s", "by 3.33"),
 )
 
 

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, paper_system, run_steps
+from lagrotor.numerics.harmonics import best_harmonics
 from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
@@ -123,12 +124,16 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
 
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
     """Read off `rate_runs`: amplitude (m), rates of the spectra and of the closed form (rad/s), largest residuals (m)."""
-    after, exact = runs["t"] > SPECTRUM_FROM, runs["exact"]
+    t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
+    after = t > SPECTRUM_FROM
+    early = after & (t < SPECTRUM_FROM + 3)
     return {
         "amplitude (m)": np.ptp(exact[after]) / 2,
         "rate, exact model (rad/s)": peak(runs["rate"], runs["exact_amplitude"]),
         "rate, spring model (rad/s)": peak(runs["rate"], runs["springs_amplitude"]),
+        "rate, spring model, first 3 s (rad/s)": best_harmonics(t[early], springs[early], rate).rate,
         "rate, closed form (rad/s)": runs["closed_form_rate"][0],
         "printed rate, largest residual (m)": np.abs(runs["printed"] - exact)[after].max(),
+        "spring model, largest residual (m)": np.abs(springs - exact)[after].max(),
         "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[after].max(),
     }

@@ -76,6 +76,7 @@ def programs() -> dict[str, Program]:
     constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
     rate_, axes_  for a bar shorter than, as long as, longer than an axis: of the minimal model; axes r_1, r_2
     start_        (r_0, y_1', y_2', k) → its state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
+    slopes_       (U, chi, alpha, k) → the derivatives of r_1, r_2 by the coordinates, 6 rows of 3
     small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one oscillation, linear in r_0, any spins
     series        (powers of r_0, sigma, k) → coefficients of c⁰ … in x, y / s, z, and Omega / Omega_0
     orbit         (c, s, coefficients) → r_1, r_2
@@ -86,6 +87,7 @@ def programs() -> dict[str, Program]:
     found |= {"series": _series(), "orbit": horner.program(ORDER)}
     for ratio in _BARS:
         found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
+        found[f"slopes_{ratio}"] = _slopes(ratio)
     return found
 
 
@@ -115,6 +117,10 @@ def _pair_at(ratio: Ratio) -> sp.Matrix:
 
 def _axes(ratio: Ratio) -> Program:
     return Program((*MINIMAL.q, k), (), tuple(_pair_at(ratio)))
+
+
+def _slopes(ratio: Ratio) -> Program:
+    return Program((*MINIMAL.q, k), (), tuple(_pair_at(ratio).jacobian(MINIMAL.q)))
 
 
 def _start(ratio: Ratio) -> Program:

@@ -31,14 +31,25 @@ function show(root) {
     unit("first", 1, " rad/s");
     unit("second", 1, " rad/s");
     unit("speed", 2, " ×");
+    const spins = `spins ${setting.spins.map((spin) => fixed(spin, 1)).join(" and ")} rad/s, amplitude ${fixed(setting.r0, 3)}`;
+    canvases.space.setAttribute("aria-label", `The pair in space: two wheels on axes, the bar between their tips, and the paths `
+      + `of the tips; ${spins}. The arrow keys turn it; the table below has its numbers`);
     controls.order.disabled = controls.rate.disabled = !run.paired;
     for (const layer of ["series", "paper"]) part(`show-${layer}`).disabled = !run.paired;
     ask();
   }
 
+  // Written only where it changes, so that a screen reader stays quiet while the pair moves.
+  function say(name, words) {
+    if (part(name).textContent !== words) part(name).textContent = words;
+  }
+
   function note(exact) {
     const said = [];
-    if (setting.spins.every((spin) => spin === 0)) {
+    if (run.struck) {
+      said.push(`After a shock of ${fixed(run.struck[0], 2)} and ${fixed(run.struck[1], 2)} N s along x and y on tip 1: the exact `
+        + "motion from the shock on. A slider starts anew.");
+    } else if (setting.spins.every((spin) => spin === 0)) {
       said.push("Without spin nothing drives the pair: it stays where it is put.");
     } else if (!run.paired) {
       said.push("The paper's formula and the series hold for opposite spins only. Shown is the exact model, started as a "
@@ -51,7 +62,7 @@ function show(root) {
       if (setting.ell !== 1 || setting.mass > 0) said.push("The paper's formula is for a massless bar as long as an axis.");
     }
     if (!exact) said.push(`The exact run ends at ${fixed(run.exact.end, 2)} s: an axis came to lie along the joint line.`);
-    part("note").textContent = said.join(" ");
+    say("note", said.join(" "));
   }
 
   // Axes of one layer at the time shown, its paths and bar lengths over the window; null where it has ended.
@@ -75,12 +86,12 @@ function show(root) {
   function read(layers) {
     const exact = layers.exact;
     for (const layer of LAYERS) {
-      const found = layers[layer], say = (name, words) => { part(`${layer}-${name}`).textContent = words; };
+      const found = layers[layer], tell = (name, words) => say(`${layer}-${name}`, words);
       const length = found ? barLength(found.axes, setting.ell) : NaN;
-      say("length", fixed(length, 6));
-      say("error", small(length - setting.ell));
+      tell("length", fixed(length, 6));
+      tell("error", small(length - setting.ell));
       for (const i of [0, 1]) {
-        if (layer !== "exact") say(`tip-${i + 1}`, small(found && exact ? apart(found.axes, exact.axes, i) : NaN));
+        if (layer !== "exact") tell(`tip-${i + 1}`, small(found && exact ? apart(found.axes, exact.axes, i) : NaN));
       }
     }
     part("exact-rate").textContent = fixed(
@@ -117,6 +128,41 @@ function show(root) {
     note(found.exact);
   }
 
+  const chosen = (name) => (controls[name].type === "checkbox" ? Number(controls[name].checked) : controls[name].value);
+
+  function copied(text, words) {
+    const show = (how) => say("copied", `${how}\n${text}`);
+    if (!navigator.clipboard) return show("To copy:");
+    navigator.clipboard.writeText(text).then(() => show(words), () => show("To copy:"));
+  }
+
+  // The run shown, as code for lagrotor.
+  function asPython() {
+    const { mass, inertia, ell, spins, r0 } = setting;
+    const link = `Link(length=${ell}, mass=${mass}, inertia=${inertia})`;
+    const head = "import numpy as np\n";
+    const times = `t=np.linspace(0, ${longest}, 2001)`;
+    if (run.paired && run.periodic && r0 > 0) {
+      return `${head}from lagrotor import Link, Scene, paired_scene, simulate\n\n`
+        + `scene = paired_scene(Scene(spins=(${spins}), link=${link}), ${r0})\nrun = simulate(scene, ${times})\nrun.plot()`;
+    }
+    const start = run.exact.states[0], pairs = (v) => `((${v.slice(0, 3)}), (${v.slice(3)}))`;
+    return `${head}from lagrotor import Link, Scene, simulate\n\nscene = Scene(\n    spins=(${spins}),\n    link=${link},\n`
+      + `    axes=${pairs(run.exact.axes[0])},\n    rates=${pairs(run.ratesOf(start))},\n)\n`
+      + `run = simulate(scene, ${times})\nrun.plot()`;
+  }
+
+  // Settings that the page's address holds: #model?r0=0.2&first=12…
+  function fromAddress() {
+    if (!location.hash.startsWith("#model?")) return;
+    const given = new URLSearchParams(location.hash.slice("#model?".length));
+    for (const name of choices.filter((each) => given.has(each))) {
+      if (controls[name].type === "checkbox") controls[name].checked = given.get(name) === "1";
+      else controls[name].value = given.get(name);
+    }
+    root.scrollIntoView();
+  }
+
   function ask() {
     if (!asked) asked = requestAnimationFrame(tick);
   }
@@ -149,6 +195,18 @@ function show(root) {
     ask();
   });
   part("play").addEventListener("click", () => play(!playing));
+  part("strike").addEventListener("click", () => {
+    const impulse = [Number(part("push-x").value), Number(part("push-y").value), 0];
+    const next = impulse.every(Number.isFinite) ? run.after(now, impulse) : null;
+    if (!next) return;
+    [run, now] = [next, 0];
+    ask();
+  });
+  part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
+  part("link").addEventListener("click", () => {
+    history.replaceState(null, "", `#model?${new URLSearchParams(choices.map((name) => [name, chosen(name)]))}`);
+    copied(location.href, "The link is on the clipboard:");
+  });
   part("again").addEventListener("click", () => {
     now = 0;
     ask();
@@ -191,5 +249,6 @@ function show(root) {
       play(false);
     }
   }, { threshold: 0.2 }).observe(space);
+  fromAddress();
   choose();
 }

@@ -90,13 +90,16 @@ function wheel(joint, [x, y, z], turn, radius) {
 
 function drawSpace(canvas, view, colours) {
   const { pen, width, height } = sheet(canvas), [right, up, towards] = camera(view.azimuth, view.elevation);
-  const reach = view.ell / 2 + 0.75, scale = Math.min(width / (2 * reach), height / 1.6);
-  const middle = [0, 0, 0.52];
-  const on = (p) => {
-    const from = p.map((v, i) => v - middle[i]);
-    return [width / 2 + scale * dot(from, right), height / 2 - scale * dot(from, up)];
-  };
   const joints = [[-view.ell / 2, 0, 0], [view.ell / 2, 0, 0]];
+  // The view follows the pair: all that the tips have done, the joints and their labels are in it.
+  const seen = [...joints, [0, 0, 1], ...view.layers.flatMap(({ axes, paths }) => [...tips(axes, view.ell), ...paths.flat()])];
+  const [wide, high] = [right, up].map((d) => seen.map((p) => dot(p, d)).filter(Number.isFinite));
+  const [left, rightmost, lowest, top] = [Math.min(...wide), Math.max(...wide), Math.min(...high), Math.max(...high)];
+  const scale = Math.min(width / (rightmost - left + 0.9), height / (top - lowest + 0.55));
+  const centre = [(left + rightmost) / 2, (lowest + top) / 2 - 0.06];
+  const on = (p) => [
+    width / 2 + scale * (dot(p, right) - centre[0]), height / 2 - scale * (dot(p, up) - centre[1]),
+  ];
   const far = Math.ceil(2 * (view.ell / 2 + 0.4)) / 2;
   for (let x = -far; x <= far; x += 0.5) line(pen, [on([x, -0.5, 0]), on([x, 0.5, 0])], colours.grid);
   for (let y = -0.5; y <= 0.5; y += 0.5) line(pen, [on([-far, y, 0]), on([far, y, 0])], colours.grid);

@@ -4,6 +4,7 @@
 const STEPS = 48; // of the exact run, a turn
 const RATES = { short: rate_short, equal: rate_equal, long: rate_long };
 const AXES = { short: axes_short, equal: axes_equal, long: axes_long };
+const SLOPES = { short: slopes_short, equal: slopes_equal, long: slopes_long };
 const STARTS = { short: start_short, equal: start_equal, long: start_long };
 
 // One step of an explicit scheme of order 8: midpoint rules of 2, 4, 6, 8 parts, extrapolated in the square of their
@@ -91,6 +92,12 @@ function exactRun(rate, axesOf, start, h, spins) {
       axes.push(seen);
     }
   };
+  run.stateAt = (time) => {
+    run.reach(time);
+    if (time > run.end) return null;
+    const n = Math.min(Math.floor(time / h), states.length - 1), rest = time - n * h;
+    return rest > 0 ? step(rate, states[n], rest) : states[n];
+  };
   run.at = (time) => {
     run.reach(time);
     if (time > run.end) return null;
@@ -101,6 +108,23 @@ function exactRun(rate, axesOf, start, h, spins) {
   return run;
 }
 
+// The rates of both axes, six numbers, from those of the coordinates.
+function axisRates(slopes, state, k) {
+  const by = slopes(...state.slice(0, 3), k);
+  return [0, 1, 2, 3, 4, 5].map((i) => [0, 1, 2].reduce((sum, j) => sum + by[3 * i + j] * state[3 + j], 0));
+}
+
+// The state after an impulse on tip 1, N s (R = 1 m): M change = slopes of r_1, transposed, times the impulse. M is that of
+// a (|r_1'|² + |r_2'|²)/2 + b r_1'·r_2' in the coordinates.
+function shocked(slopes, state, a, b, k, impulse) {
+  const by = slopes(...state.slice(0, 3), k), at = (i, j) => by[3 * i + j], rows = [0, 1, 2];
+  const mass = rows.map((m) => rows.map((n) => rows.reduce((sum, i) => sum
+    + a * (at(i, m) * at(i, n) + at(i + 3, m) * at(i + 3, n)) + b * (at(i, m) * at(i + 3, n) + at(i + 3, m) * at(i, n)), 0)));
+  const push = rows.map((m) => rows.reduce((sum, i) => sum + at(i, m) * impulse[i], 0));
+  const change = solve(mass, push);
+  return state.map((v, i) => (i < 3 ? v : v + change[i - 3]));
+}
+
 // All that a choice of amplitude, bar, spins, order and rate of the paper's formula fixes.
 function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   const [a, b, k, sigma, G1, G2, natural, paperRate] = constants(mass, inertia, ell, ...spins);
@@ -109,6 +133,8 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   const axesOf = (y) => AXES[ratio](y[0], y[1], y[2], k);
   const paired = spins[0] === -spins[1] && spins[0] !== 0;
   const found = { ell, paired, natural, exactRate: natural, periodic: false };
+  const slopes = SLOPES[ratio];
+  found.ratesOf = (state) => axisRates(slopes, state, k);
   let start;
   if (paired) {
     const sign = Math.sign(spins[0]);
@@ -137,7 +163,14 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   }
   const fastest = Math.max(natural, Math.abs(found.exactRate), Math.abs(G1) / a, Math.abs(G2) / a);
   found.turn = natural > 0 ? 2 * Math.PI / Math.abs(found.exactRate) : Infinity;
-  found.exact = exactRun(rate, axesOf, start, fastest > 0 ? 2 * Math.PI / (STEPS * fastest) : 0.1, spins);
+  const run = (from) => exactRun(rate, axesOf, from, fastest > 0 ? 2 * Math.PI / (STEPS * fastest) : 0.1, spins);
+  found.exact = run(start);
+  // The motion from a time on, after an impulse on tip 1: only the exact model knows it.
+  found.after = (time, impulse) => {
+    const state = found.exact.stateAt(time);
+    if (!state) return null;
+    return { ...found, paired: false, periodic: false, struck: impulse, exact: run(shocked(slopes, state, a, b, k, impulse)) };
+  };
   return found;
 }
 

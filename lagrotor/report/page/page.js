@@ -66,6 +66,48 @@ function setUpSearch() {
   });
 }
 
+// A figure opens as large as it is drawn, and closes by Escape, the button or a click.
+function setUpFigures() {
+  const dialog = document.createElement("dialog");
+  dialog.innerHTML = '<button type="button">Close</button><div class="large"></div>';
+  dialog.setAttribute("aria-label", "The figure, large");
+  document.body.append(dialog);
+  dialog.addEventListener("click", () => dialog.close());
+  for (const image of document.querySelectorAll("figure > img, .results img")) {
+    image.tabIndex = 0;
+    image.setAttribute("role", "button");
+    const open = () => {
+      const copy = new Image();
+      copy.src = image.src;
+      copy.alt = image.alt;
+      copy.style.height = Math.max(innerHeight, 0.6 * image.height) + "px";
+      dialog.querySelector(".large").replaceChildren(copy);
+      dialog.showModal();
+    };
+    image.addEventListener("click", open);
+    image.addEventListener("keydown", (event) => {
+      if (event.key === "Enter" || event.key === " ") {
+        event.preventDefault();
+        open();
+      }
+    });
+  }
+}
+
+// A formula wider than its box is drawn smaller, down to three fifths; what is then still too wide scrolls.
+function fitFormulas(narrowest) {
+  for (const box of document.querySelectorAll(".wide")) {
+    for (const formula of box.querySelectorAll("math[display=block]")) {
+      formula.style.fontSize = "";
+      const share = box.clientWidth / formula.scrollWidth;
+      if (box.clientWidth && share < 1) {
+        formula.style.fontSize = Math.max(narrowest, share) * parseFloat(getComputedStyle(formula).fontSize) + "px";
+      }
+    }
+    if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; // the keyboard must reach what scrolls
+  }
+}
+
 function setUpPage() {
   const contents = document.getElementById("contents");
   const wide = matchMedia("(min-width: 75rem)");
@@ -75,10 +117,9 @@ function setUpPage() {
   contents.addEventListener("click", (event) => {
     if (event.target.closest("a") && !wide.matches) contents.open = false;
   });
-  // What is too wide scrolls, and then the keyboard must reach it.
-  for (const box of document.querySelectorAll(".wide")) {
-    if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
-  }
+  fitFormulas(0.6);
+  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", () => fitFormulas(0.6));
+  setUpFigures();
   let opened = [];
   addEventListener("beforeprint", () => {
     opened = [...document.querySelectorAll("details.fold:not([open])")];

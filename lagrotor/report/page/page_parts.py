@@ -85,19 +85,26 @@ def claim_entry(result: Result, report: Report) -> str:
 
 def picture_entry(picture: Picture, report: Report) -> str:
     """The figure with its caption, what it belongs to, and the numbers read off it."""
-    width, height = size(picture)
     place = anchor(f"figure {picture.key}")
     measured = fold("Measured", numbers("What", picture.measured.items())) if picture.measured else ""
     return (
         f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
-        f'<img src="{embedded(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
+        f"{_image(picture)}"
         f"<figcaption>{prose(picture.caption)}</figcaption>{fact_list(figure_facts(picture, report))}{measured}</figure>"
     )
 
 
-def headline_entry(headline: Headline) -> str:
-    """One of the results that matter."""
+def _image(picture: Picture) -> str:
+    """The drawing alone; a click opens it large (page.js)."""
+    width, height = size(picture)
+    return f'<img src="{embedded(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
+
+
+def headline_entry(headline: Headline, report: Report) -> str:
+    """One of the results that matter, with its figure."""
     formula = typeset(headline.formula) if headline.formula else ""
+    drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
+    formula += _image(drawn) if drawn else ""
     shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
     return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
 

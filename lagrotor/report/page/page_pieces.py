@@ -1,5 +1,6 @@
 """The small pieces of HTML that the page is put together from: tables, formulas, links, badges."""
 
+import re
 from collections.abc import Iterable
 from html import escape
 
@@ -11,25 +12,46 @@ from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.report.content import Fact, Report, anchor, word
 from lagrotor.report.formulas.mathml_latex import from_latex
 
+# Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.
+_INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+)")
+_POWER = re.compile(r"\^(−?[\w.]+\w|−?\w|\([^()]*\))")
+_CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
+
 
 def prose(text: str) -> str:
-    """Plain text for HTML, its formulas as people read them."""
-    return escape(readable(text))
+    """Plain text for HTML, its formulas as people read them; between dollars LaTeX, which is typeset."""
+    plain, *rest = text.split("$")
+    parts = [_plain(plain)]
+    for n, part in enumerate(rest):
+        formula = from_latex(part, display=False) if n % 2 == 0 and n + 1 < len(rest) else None
+        parts.append(formula or _plain(part))
+    return "".join(parts)
+
+
+def _plain(text: str) -> str:
+    found = escape(readable(text))
+    found = _CODE.sub(r"<code>\1</code>", found)
+    return _POWER.sub(r"<sup>\1</sup>", _INDEX.sub(r"\1<sub>\2</sub>", found))
 
 
 def rows(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
     """A table of cells that are HTML already; the first of each line names it."""
+    heads = [escape(readable(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
     body = "".join(
-        f'<tr><th scope="row">{first}</th>' + "".join(f"<td>{cell}</td>" for cell in rest) + "</tr>"
-        for first, *rest in lines
+        f'<tr><th scope="row">{first}</th>' + "".join(map(_under, heads, rest)) + "</tr>" for first, *rest in lines
     )
     return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
+def _under(head: str, cell: str) -> str:
+    """A cell that knows its column's heading, which a narrow screen shows before it."""
+    return f'<td data-head="{head}">{cell}</td>' if head else f"<td>{cell}</td>"
+
+
 def numbers(what: str, measured: Iterable[tuple[str, float]]) -> str:
     """Measured numbers by name, six digits of each."""
-    return rows((what, "Value"), ((escape(name.replace("_", " ")), f"{value:.6g}") for name, value in measured))
+    return rows((what, "Value"), ((prose(name.replace("_", " ")), prose(f"{value:.6g}")) for name, value in measured))
 
 
 def side_by_side(table: Table, report: Report) -> str:

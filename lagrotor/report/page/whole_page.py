@@ -28,8 +28,19 @@ from lagrotor.report.page.page_parts import (
     headline_entry,
     picture_entry,
 )
-from lagrotor.report.page.page_pieces import badge, code, file_link, inline, link, links, prose, rows, side_by_side
-from lagrotor.report.results import balance, headlines
+from lagrotor.report.page.page_pieces import (
+    badge,
+    code,
+    file_link,
+    fold,
+    inline,
+    link,
+    links,
+    prose,
+    rows,
+    side_by_side,
+)
+from lagrotor.report.results import balance, headlines, opening
 
 _HERE = Path(__file__).parent
 # Hidden until the script shows it: without the script there is nothing that could search.
@@ -55,7 +66,7 @@ def page(report: Report) -> str:
             f"<title>{escape(report.title)}: {escape(SUBTITLE.lower())}</title>",
             f"<style>\n{font_face()}\n{style}</style></head>",
             '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
-            f"<header><h1>{escape(report.title)}</h1><p>{escape(SUBTITLE)}.</p><p>{escape(report.how_to_read)}</p></header>",
+            f"<header><h1>{escape(report.title)}</h1><p>{escape(SUBTITLE)}.</p>{_opening(report)}</header>",
             '<nav aria-label="Contents"><details id="contents"><summary>Contents</summary>'
             f"<ul>{entries}</ul></details></nav>",
             '<main id="content">',
@@ -64,6 +75,11 @@ def page(report: Report) -> str:
             f"<script>\n{script}</script></body></html>\n",
         ]
     )
+
+
+def _opening(report: Report) -> str:
+    lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
+    return f'<ul class="opening">{lines}</ul>' if lines else f"<p>{escape(report.how_to_read)}</p>"
 
 
 def _section(anchor: str, heading: str, report: Report) -> str:
@@ -81,12 +97,13 @@ def _summary(report: Report) -> str:
     tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
     fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
     balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Those that fall: {fallen}</p>" if fallen else "")
-    results = "".join(map(headline_entry, headlines(report)))
+    results = "".join(headline_entry(headline, report) for headline in headlines(report))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
     warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
     claims = f'<h3>Claims</h3><ul class="summary">{tried}</ul>' if tried else ""
-    return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}'
+    how = f"<p>{escape(report.how_to_read)}</p>"
+    return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}{how}'
 
 
 def _verdicts(report: Report) -> str:
@@ -94,12 +111,14 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return _SEARCH + rows(("Equation", "Title", "Verdict", "Order or condition"), lines, "verdicts")
+    return _SEARCH + rows(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
     lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
-    return rows(("Symbol", "Meaning", "Unit"), lines)
+    head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
+    rest = fold("All other letters", rows(head, lines[first:])) if lines[first:] else ""
+    return rows(head, lines[:first]) + rest
 
 
 def _derivations(report: Report) -> str:

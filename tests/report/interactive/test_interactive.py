@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
 from itertools import product
@@ -18,7 +19,7 @@ import pytest
 import sympy as sp
 
 import lagrotor.report.interactive.interactive as model
-from lagrotor import Link, Rotor, Scene, natural_rate, simulate
+from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
@@ -228,6 +229,23 @@ def test_ten_seconds_are_those_of_the_minimal_model(
 
 
 @node
+@pytest.mark.parametrize(("bar", "ell"), [("none", 1.0), ("heavy", 1.0), ("light", 1.4), ("heavy", 0.7)])
+def test_a_shock_changes_the_motion_as_a_narrow_pulse_does(bar: str, ell: float) -> None:
+    impulse, width = (1.1, -0.4), 1e-4
+    made = f"motion({choice(0.2, BARS[bar], ell, (10.0, -10.0))})"
+    struck = f"m.after(0.3, [{impulse[0]}, {impulse[1]}, 0])"
+    says = f"(m => ({{before: m.exact.stateAt(0.3), after: m.ratesOf({struck}.exact.states[0])}}))({made})"
+    found = run_node(says)
+    force = tuple(p / (np.sqrt(np.pi) * width) for p in impulse)
+    start = scene_started(BARS[bar], ell, (10.0, -10.0), found["before"])
+    shock = Shock(force=(*force, 0.0), at=10 * width, width=width, body=1)
+    run = simulate(replace(start, shock=shock), [0.0, 20 * width], model="minimal", tol=1e-10)
+    felt = np.reshape(found["after"], (2, 3))
+    assert np.abs(felt - run.rates[:, -1]).max() < 0.03, "the axes turn on by 1e-2 while the pulse lasts"
+    assert np.abs(run.rates[:, -1] - run.rates[:, 0]).max() > 0.3, "twin: without the impulse the rates are others"
+
+
+@node
 def test_the_stepper_is_of_order_eight() -> None:
     made = f"motion({choice(0.4, BARS['heavy'], 1.4, (10.0, -10.0))})"
     [a, b, k, _, *momenta, _, _] = called("constants", [[*BARS["heavy"], 1.4, 10.0, -10.0]])[0]
@@ -378,6 +396,12 @@ onload = async () => {
   set("second", 5);
   await soon();
   found.other = read();
+  part("strike").click();
+  await soon();
+  found.struck = read();
+  part("python").click();
+  await soon();
+  found.python = part("copied").textContent;
   found.width = [document.documentElement.scrollWidth, innerWidth];
   found.failures = failures;
   document.body.innerHTML = "<pre id=found></pre>";
@@ -417,4 +441,8 @@ def test_the_fragment_lives_in_a_browser(tmp_path: Path, motion_is_welcome: bool
     assert found["other"]["second-value"] == "5.0 rad/s"
     assert found["other"]["paper-length"] == "–"
     assert "opposite spins only" in found["other"]["note"]
+    assert "After a shock of 3.54 and −0.97 N s" in found["struck"]["note"]
+    names: dict[str, Any] = {}
+    exec(found["python"].partition("\n")[2].replace("20, 2001", "0.1, 3"), names)  # what is copied runs
+    assert names["scene"].spins == (10, 5) and np.abs(names["run"].link_length - 1).max() < 1e-9
     assert found["width"][0] <= found["width"][1]

@@ -62,7 +62,8 @@ def measure_c18(spins: Spins) -> dict[str, float]:
         "second_over_first_x_1": in_phase[0],
         "second_over_first_x_2": in_phase[1],
         "second_over_first_formula": r0 / 2,
-        "turned_about_joint_line_rad": abs(turned_about_joint_line(run.axes)[-1]),
+        "least_lean_about_joint_line_rad": turned_about_joint_line(run.axes).min(),
+        "largest_lean_about_joint_line_rad": turned_about_joint_line(run.axes).max(),
         "turned_about_joint_line_without_y_shock_rad": abs(turned_about_joint_line(without.axes)[-1]),
     }
 
@@ -78,9 +79,9 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
         f"{m['second_over_first_x_2']:+.4f} in x₂; the formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}: the signs "
         f"{'agree' if min(ratios) > 0 else 'do not agree'}, the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} of the "
         f"formula's, {'' if all(alike) else 'not '}of its order of magnitude, which is all that two graphs side by side can "
-        "show. The −11 N along y keeps the pair upright: it turns about the joint line by "
-        f"{m['turned_about_joint_line_rad']:.2f} rad in 8 s, without it by "
-        f"{m['turned_about_joint_line_without_y_shock_rad']:.2f} rad.",
+        "show. The −11 N along y keeps the pair upright: for 8 s it swings about the joint line between "
+        f"{m['least_lean_about_joint_line_rad']:+.3f} and {m['largest_lean_about_joint_line_rad']:+.3f} rad; without it "
+        f"it has then turned by {m['turned_about_joint_line_without_y_shock_rad']:.2f} rad.",
     )
 
 

@@ -71,7 +71,8 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
     exact, springs, small = (m[f"rate_{way}_rad_per_s"] for way in ("exact", "springs", "after_small_shock"))
     return Finding(
         (Part(AT_16, all(abs(rate - SINGLE) < HALF_UNIT for rate in (exact, springs, small))),),
-        f"{exact:.3f} rad/s exactly, {springs:.3f} with springs, {small:.4f} after a small shock; the excess comes from the "
+        f"{exact:.3f} rad/s exactly, {springs:.3f} with springs over the first 3 s (over longer times less, figure 25, since "
+        f"their dampers take the amplitude), {small:.4f} after a small shock; the excess comes from the "
         f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
         f"end of 8 s sin 16(t − 2) is {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle behind.",
     )
