@@ -87,7 +87,7 @@ def test_it_is_ascii_with_balanced_braces(report: Report) -> None:
     assert text.isascii()
     bare = re.sub(r"\\[{}\\]", "", text)
     assert bare.count("{") == bare.count("}")
-    assert text.startswith(head(PAPER.title)) and text.endswith(END)
+    assert text.startswith(head(report.title)) and text.endswith(END)
     assert text.count(r"\end{document}") == 1, "no text ends the document"
 
 

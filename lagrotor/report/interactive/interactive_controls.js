@@ -132,8 +132,8 @@ function show(root) {
 
   function copied(text, words) {
     const show = (how) => say("copied", `${how}\n${text}`);
-    if (!navigator.clipboard) return show("To copy:");
-    navigator.clipboard.writeText(text).then(() => show(words), () => show("To copy:"));
+    show("To copy:");
+    navigator.clipboard?.writeText(text).then(() => show(words), () => {});
   }
 
   // The run shown, as code for lagrotor.

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from html import escape, unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from lagrotor.pair.symbols import M, r0
 from lagrotor.paper import claim_tests
 from lagrotor.paper.claim_tests import Finding, Part, Result
 from lagrotor.paper.ledger import Relation, Statement, chain, decide
+from lagrotor.paper.notebook import Remark
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
@@ -226,11 +228,11 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
     assert places == sorted(places)
     assert [name for name, _ in listed if not name.startswith("section")] == [
         *(
+            "model",
             "summary",
             "verdicts",
             "notation",
             "errata",
-            "model",
             "claims",
             "derivations",
             "findings",
@@ -384,3 +386,35 @@ def test_search() -> None:
     asked = SEARCHED.replace("ENTRIES", json.dumps(ENTRIES)).replace("QUERIES", json.dumps(list(QUERIES)))
     done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
     assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES
+
+
+# What a formula typed on a keyboard looks like outside mathematics and code.
+ASCII = re.compile(
+    r"\w_\w|\*\*|\w\*\w|\d[eE][-+]?\d|\$|\\[A-Za-z]+|\^|\b(?:ell|theta|phi|psi|[oO]mega|sigma|alpha|sqrt)\b|->|>=|<=|"
+    r"\b[rFfJ] x [rFf]\b|<\w+'>|(?<![\w−])-\d"
+)
+
+
+def typed_formulas(html: str) -> list[str]:
+    """The texts of a page, descriptions of pictures left out, in which a formula is typed in ASCII or in raw LaTeX."""
+    bare = re.sub(r"<(style|script|math|pre|code)\b.*?</\1>", " ", html, flags=re.DOTALL)
+    bare = re.sub(r"<(sub|sup)>(.*?)</\1>", r"\2", bare)
+    return [text.strip() for text in map(unescape, re.findall(r">([^<>]+)<", bare)) if ASCII.search(text)]
+
+
+def test_no_formula_of_the_page_is_typed_in_ascii() -> None:
+    """Equations with all that is said of them, claims, premises, letters, titles; what comes from runs is in `test_reproduce`."""
+    stems = PAPER.stating_scripts
+    verdicts = tuple(decide(statement) for stem in stems for statement in PAPER.statements(stem))
+    found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
+    remarks = ShownPart("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
+    assert typed_formulas(page(Report(PAPER, verdicts, (), (), (), (remarks,)))) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["r_0 = 0.2", "a**2", "1e-9 m", "about $x$", r"the \phi of it", "Omega_0", "ell = R", "-11 N", "x^2", "k >= 1"],
+)
+def test_a_formula_typed_in_ascii_is_found(text: str) -> None:
+    assert typed_formulas(f"<p>{escape(text)}</p>") == [text]
+    assert typed_formulas(f"<p>so</p><code>{escape(text)}</code><math>{escape(text)}</math>") == []
