@@ -17,8 +17,16 @@ from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.paired_precession.stability import growth_squared
 from lagrotor.theory.toppling import toppling_threshold
 
-_stems = PAPER.scripts.names("derivations", "t")
-t1, t2, t3, t4, t5, t6, t7, t8, t9, t10 = (PAPER.scripts.run("derivations", stem) for stem in _stems)
+t1 = PAPER.scripts.run("derivations", "t1_normal_modes")
+t2 = PAPER.scripts.run("derivations", "t2_shock_response")
+t3 = PAPER.scripts.run("derivations", "t3_paired_orbit")
+t4 = PAPER.scripts.run("derivations", "t4_orbit_family")
+t5 = PAPER.scripts.run("derivations", "t5_floquet")
+t6 = PAPER.scripts.run("derivations", "t6_shock_drift")
+t7 = PAPER.scripts.run("derivations", "t7_duration")
+t8 = PAPER.scripts.run("derivations", "t8_toppling")
+t9 = PAPER.scripts.run("derivations", "t9_twist")
+t10 = PAPER.scripts.run("derivations", "t10_conserved")
 Omega_0, energy, wander, growth, power = (sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda"))
 
 

@@ -12,6 +12,7 @@
 # %%
 import numpy as np
 import sympy as sp
+from scipy.optimize import brentq
 
 from lagrotor import Link, Scene
 from lagrotor.mechanics import euler_lagrange
@@ -297,10 +298,7 @@ def exact_edge(sigma_value: float) -> float:
     scene = Scene(spins=(10, -10), link=Link(1, 2 * 1.25 * (sigma_value - 1), 0))
     about = 1.5 * float(elliptic_edge().error(sigma_value, 1.0))
     low, high = law_at(sigma_value) - about, law_at(sigma_value) + about
-    while high - low > 1e-5:
-        middle = (low + high) / 2
-        low, high = (middle, high) if floquet(scene, middle).pair_sum < 2 else (low, middle)
-    return (low + high) / 2
+    return float(brentq(lambda r0: floquet(scene, r0).pair_sum - 2, low, high, xtol=5e-6))
 
 
 def law_at(sigma_value: float) -> float:

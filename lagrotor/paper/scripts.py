@@ -3,7 +3,7 @@
 import ast
 import re
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -60,6 +60,7 @@ class Scripts:
     base: Path
     importable: Callable[[], AbstractContextManager[None]] = nullcontext
     ran: dict[Path, Script] = field(default_factory=dict, repr=False, compare=False)
+    elsewhere: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     def path(self, kind: Kind, stem: str) -> Path:
         """The file of a script."""
@@ -81,7 +82,18 @@ class Scripts:
 
     def run(self, kind: Kind, stem: str) -> dict[str, Any]:
         """The names that a script defines."""
-        return self.executed(kind, stem).names
+        path = self.path(kind, stem)
+        return self.elsewhere[path] if path in self.elsewhere else self.executed(kind, stem).names
+
+    @contextmanager
+    def ran_elsewhere(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
+        """Within the block `run` gives these values, stem → name → value, of derivations without running them; a name that
+        is not among them is taken by running the script."""
+        self.elsewhere.update({self.path("derivations", stem): _Elsewhere(self, stem, v) for stem, v in values.items()})
+        try:
+            yield
+        finally:
+            self.elsewhere.clear()
 
     def called(self, kind: Kind, stem: str, name: str) -> Any:
         """What a function of a script returns. Raises ScriptError with the file and the line where it fails."""
@@ -111,6 +123,17 @@ class Scripts:
                     raise InputError(f"{stem}.py:{line}: a verdict on {identifier} stands in {first} already")
                 found[identifier] = stem, line
         return found
+
+
+class _Elsewhere(dict[str, Any]):
+    """Names of a derivation that ran in another process; one that is missing is taken from the script, run here."""
+
+    def __init__(self, scripts: Scripts, stem: str, values: Mapping[str, Any]) -> None:
+        super().__init__(values)
+        self.scripts, self.stem = scripts, stem
+
+    def __missing__(self, name: str) -> Any:
+        return self.scripts.executed("derivations", self.stem).names[name]
 
 
 def verdicts_in(path: Path) -> list[tuple[str, int]]:

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 # Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
 # by tests/models/test_orbit_errors.py, against collocation.
 INTEGRATED = 3e-14
+_LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
+_SAME_SLOPE = 1e-6  # distance within which the Jacobian is taken for the same
 _NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
 FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
 
@@ -49,6 +51,7 @@ class QuarterPeriod:
         own, shared = scene.inertias
         self.natural = scene.momenta[0] / sqrt(own**2 - shared**2)
         self._flow = flow(self.scene)
+        self._last = np.full(4, np.nan), np.empty((3, 4))
 
     def state(self, z: Array) -> Array:
         """(U, chi, alpha and their rates) at Phi = 0."""
@@ -62,7 +65,13 @@ class QuarterPeriod:
         slope = np.column_stack(
             [now.slope[rows, 0], now.slope[rows, 4] * scale, now.slope[rows, 5] * scale, now.rate[rows] / abs(scale)]
         )
-        return weights * now.end[rows], weights[:, None] * slope
+        self._last = z, weights[:, None] * slope
+        return weights * now.end[rows], self._last[1]
+
+    def _slope(self, z: Array) -> Array:
+        """The Jacobian at z: the last one where that is no farther than Newton's last step."""
+        near = bool(np.abs(z - self._last[0]).max() < _SAME_SLOPE)
+        return self._last[1] if near else self(z)[1]
 
     def linear(self, u: float) -> Array:
         """The orbit of small amplitude: chi' = 2 u sqrt(sigma) Omega_0, by 1/k more for a short bar (Delta = k chi)."""
@@ -74,7 +83,7 @@ class QuarterPeriod:
             miss, slope = self(z)
             error = np.append(miss, row @ z - value)
             z = z - np.linalg.solve(np.vstack([slope, row]), error)
-            if np.abs(error).max() < 1e-11:
+            if np.abs(error).max() < _LAST_MISS:
                 return z
             if not np.isfinite(z).all() or np.abs(z).max() > 60:
                 break
@@ -82,7 +91,7 @@ class QuarterPeriod:
 
     def tangent(self, z: Array, along: Array) -> Array:
         """Unit tangent of the curve at z, on the side of `along`."""
-        null = np.linalg.svd(self(z)[1])[2][-1]
+        null = np.linalg.svd(self._slope(z))[2][-1]
         return null if null @ along >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
@@ -122,7 +131,7 @@ class QuarterPeriod:
         axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
         frequency = pi / 2 * self.natural / float(z[3])
         # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
-        slope = self(z)[1]
+        slope = self._slope(z)
         off = INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
         start = replace(self.scene, axes=axes, rates=rates)  # type: ignore[arg-type]
         return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))

@@ -22,24 +22,40 @@ def cores() -> int:
 
 
 def results(
-    tasks: Iterable[Task], run: Callable[[Task], Any], jobs: int, begins: Callable[[Task], None]
+    tasks: Iterable[Task],
+    run: Callable[..., Any],
+    jobs: int,
+    begins: Callable[[Task], None],
+    given: Callable[[Task], Any] = lambda task: (),
 ) -> Iterator[tuple[Task, Any]]:
-    """(task, what it gives) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process."""
-    if jobs == 1:
-        for task in tasks:
-            begins(task)
-            yield task, run(task)
-        return
+    """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
+
+    given: what a task takes from the results of others; None while they are not there, and the task waits.
+    """
     left, running = list(tasks), dict[Future[Any], Task]()
+    if jobs == 1:
+        while left:
+            task, more = _next(left, given)
+            begins(task)
+            yield task, run(task, *more)
+        return
     with _pool(jobs) as pool:
         while left or running:
-            while left and len(running) < jobs:
-                task = left.pop(0)
+            while len(running) < jobs and any(given(task) is not None for task in left):
+                task, more = _next(left, given)
                 begins(task)
-                running[pool.submit(run, task)] = task
+                running[pool.submit(run, task, *more)] = task
             done, _ = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
                 yield running.pop(future), future.result()
+
+
+def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
+    """Take the first task that need not wait, with what it is given."""
+    for i, task in enumerate(left):
+        if (more := given(task)) is not None:
+            return left.pop(i), more
+    raise RuntimeError(f"each of {left} waits for another")
 
 
 @contextmanager

@@ -72,11 +72,27 @@ def _file_of(module: str, folder: Path) -> Path | None:
 
 
 @cache
+def _texts(path: Path) -> frozenset[str]:
+    """Every string in a script."""
+    return frozenset(n.value for n in ast.walk(_tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str))
+
+
+@cache
+def named(path: Path, paper: Paper) -> tuple[str, ...]:
+    """Stems of the derivations that a script names: it may run them."""
+    stems = _texts(path) & set(paper.scripts.names("derivations"))
+    return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
+
+
+@cache
+def taken_from(stem: str, paper: Paper) -> frozenset[str]:
+    """Names that other scripts may take from a derivation: the strings in those that name it."""
+    others = (path for kind in ("derivations", "figures") for path in (paper.scripts.base / kind).glob("*.py"))
+    return frozenset(text for path in others if stem in named(path, paper) for text in _texts(path))
+
+
 def _named_scripts(path: Path, paper: Paper) -> frozenset[Path]:
-    """Derivations that a script names: it may run them."""
-    known = {stem: paper.scripts.path("derivations", stem) for stem in paper.scripts.names("derivations")}
-    texts = (n.value for n in ast.walk(_tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str))
-    return frozenset(known[text] for text in texts if text in known) - {path}
+    return frozenset(paper.scripts.path("derivations", stem) for stem in named(path, paper))
 
 
 @cache

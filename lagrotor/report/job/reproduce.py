@@ -91,8 +91,14 @@ def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tupl
     products = {step.name: kept.take(step.name, step.made_from) for step in wanted}
     left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(kept.old))
     seconds: dict[str, float] = {}
+
+    def given(step: Step) -> tuple[dict[str, dict[str, Any]]] | None:
+        needed = {stem: products[f"derivation {stem}"] for stem in step.needs}
+        return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
+
+    timed = partial(_timed, folder=kept.new / "figures")
     with progress(len(left) + 1) as begins:
-        for step, (product, took) in results(left, partial(_timed, folder=kept.new / "figures"), jobs, _named(begins)):
+        for step, (product, took) in results(left, timed, jobs, _named(begins), given):
             products[step.name], seconds[step.name] = product, round(took, 3)
             stem = getattr(product, "stem", "")
             files = [f for f in (kept.new / "figures").glob(f"{stem}.*") if stem and step.name.startswith("figure")]
@@ -105,9 +111,11 @@ def _named(begins: Callable[[str], None]) -> Callable[[Step], None]:
     return lambda step: begins(step.name)
 
 
-def _timed(step: Step, folder: Path) -> tuple[Any, float]:
+def _timed(step: Step, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
+    """The step's product and how long it took, with the values that it takes from other derivations."""
     began = time.perf_counter()
-    product = step.run(step.paper, step.part, folder)
+    with step.paper.scripts.ran_elsewhere(given):
+        product = step.run(step.paper, step.part, folder)
     return product, time.perf_counter() - began
 
 

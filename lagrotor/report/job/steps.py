@@ -1,6 +1,8 @@
 """The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives."""
 
-from collections.abc import Callable, Iterator
+import pickle
+from collections.abc import Callable, Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -11,13 +13,14 @@ from lagrotor.paper.notebook import Remark
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.tables import Table
 from lagrotor.pictures import figures
-from lagrotor.report.job.reach import made_from
+from lagrotor.report.job.reach import made_from, named, taken_from
 from lagrotor.report.page.derivation_pages import derivation_html, title
 
 
 @dataclass(frozen=True)
 class Derived:
-    """What a derivation gives: verdicts, what it found besides, tables, and itself as a part of the page."""
+    """What a derivation gives: verdicts, what it found besides, tables, itself as a part of the page, and the values that
+    other scripts take from it, by name."""
 
     stem: str
     title: str
@@ -25,6 +28,7 @@ class Derived:
     remarks: tuple[tuple[str, str], ...]
     tables: tuple[Table, ...]
     html: str
+    values: dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,11 @@ class Step:
     paper: Paper
     part: str
     source: Path
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Stems of the derivations whose values the step takes."""
+        return named(self.source, self.paper)
 
     @property
     def made_from(self) -> str:
@@ -50,7 +59,18 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
-    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html)
+    values = _values(script.names, taken_from(stem, paper))
+    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, values)
+
+
+def _values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
+    """The values of the names that are wanted, as far as they can be handed to another process."""
+    values = {}
+    for name in names.keys() & set(wanted):
+        with suppress(pickle.PicklingError, TypeError, AttributeError):
+            pickle.dumps(names[name])
+            values[name] = names[name]
+    return values
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:

@@ -28,6 +28,28 @@ def test_an_error_reaches_the_caller(jobs: int) -> None:
         list(results([1, -1, 2], square, jobs, lambda task: None))
 
 
+def plus(n: int, other: int) -> int:
+    return n + other
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_task_waits_for_what_it_is_given(jobs: int) -> None:
+    """Each of 3, 2, 1 is given the result of the one below it: they end in the other order."""
+    found: dict[int, int] = {0: 0}
+
+    def given(n: int) -> tuple[int] | None:
+        return (found[n - 1],) if n - 1 in found else None
+
+    for n, value in results([3, 2, 1], plus, jobs, lambda task: None, given):
+        found[n] = value
+    assert list(found.items()) == [(0, 0), (1, 1), (2, 3), (3, 6)]
+
+
+def test_tasks_that_wait_for_each_other_are_refused() -> None:
+    with pytest.raises(RuntimeError, match="waits for another"):
+        list(results([1, 2], plus, 1, lambda task: None, lambda task: None))
+
+
 def test_a_debugger_has_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cores() >= 1
     monkeypatch.setitem(__import__("sys").modules, "pydevd", None)

@@ -22,7 +22,15 @@ def fresh():
 
 
 def clear() -> None:
-    for cached in (reach._tree, reach._later, reach.imports, reach._named_scripts, reach.reached, reach._file_digest):
+    for cached in (
+        reach._tree,
+        reach._later,
+        reach.imports,
+        reach._texts,
+        reach.named,
+        reach.reached,
+        reach._file_digest,
+    ):
         cached.cache_clear()
 
 
@@ -52,6 +60,13 @@ def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
     script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
     assert PACKAGE / "models" / "simulate.py" in reached(script, PAPER)
     assert imports(script, PAPER.folder) == {PACKAGE / "models" / "simulate.py"}
+
+
+def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:
+    path = derivation("p1_past_the_paper")
+    assert {stem[:2] for stem in reach.named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {"t1"}
+    assert {"measured", "edges"} <= reach.taken_from("t5_floquet", PAPER)
+    assert "values" not in reach.taken_from("t5_floquet", PAPER)  # twin: a name that nobody takes
 
 
 def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
