@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from lagrotor.paper.rotor_pair.own_paper import audit
     from lagrotor.structures.assembly import Brace
     from lagrotor.structures.structure import Structure
+    from lagrotor.structures.waves.pattern import Pattern
     from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
     from lagrotor.theory.natural_rate import natural_rate
     from lagrotor.theory.paired_precession.closed_forms import paired_momentum
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 # Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
 _LATER = {
     "Brace": "lagrotor.structures.assembly",
+    "Pattern": "lagrotor.structures.waves.pattern",
     "Structure": "lagrotor.structures.structure",
     "Paper": "lagrotor.paper.papers",
     "audit": "lagrotor.paper.rotor_pair.own_paper",
@@ -44,6 +46,7 @@ __all__ = [
     "Brace",
     "Link",
     "Paper",
+    "Pattern",
     "Rotor",
     "Scene",
     "Shock",

@@ -11,12 +11,16 @@ leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
+
+Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
 ZERO = (
     1e-6  # of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits)
@@ -40,11 +44,11 @@ class Modes:
 class SmallMotion:
     """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the freedoms u = basis q, basis (2 N, n)."""
 
-    mass: Array
-    damping: Array
-    gyroscopic: Array
-    stiffness: Array
-    basis: Array
+    mass: Matrix
+    damping: Matrix
+    gyroscopic: Matrix
+    stiffness: Matrix
+    basis: Matrix
     rate: float
 
     @property
@@ -97,27 +101,34 @@ def small_motion(s: Assembly) -> SmallMotion:
 
     Raises InputError where a bar is of another length, so that upright is not where it stands.
     """
-    from scipy.linalg import null_space
-
     if not s.natural:
         raise InputError(
             "modes: a bar is not as long as its tips are apart when upright: small motion is about upright "
             "axes; simulate it"
         )
     c = coefficients(s)
-    N = len(c.R)
-    rows = bar_rows(c)
-    Z = null_space(rows) if len(rows) else np.eye(2 * N)
+    return on_freedoms(matrices(c), bar_rows(c), c.rate)
+
+
+def on_freedoms(parts: tuple[Matrix, ...], rows: Matrix, rate: float) -> SmallMotion:
+    """The system of `matrices` on what rows u = 0 leaves; all may be complex."""
+    from scipy.linalg import null_space
+
+    Z = null_space(rows, rcond=1e-10) if len(rows) else np.eye(len(parts[0]))
+    mass, damping, gyroscopic, stiffness = (Z.conj().T @ part @ Z for part in parts)
+    return SmallMotion(mass, damping, gyroscopic, stiffness, Z, rate)
+
+
+def matrices(c: Coefficients) -> tuple[Matrix, ...]:
+    """Mass, damping, gyroscopic and stiffness matrix on u, (2 N, 2 N) each, the bars' constraints left aside."""
     A = np.diag(c.A)
-    A[c.i, c.j] += c.coupling
-    A[c.j, c.i] += c.coupling
+    np.add.at(A, (c.i, c.j), c.coupling)
+    np.add.at(A, (c.j, c.i), c.coupling)
     C, K = (np.kron(np.diag(d), np.eye(2)) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    parts = (np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K)
-    mass, damping, gyroscopic, stiffness = (Z.T @ part @ Z for part in parts)
-    return SmallMotion(mass, damping, gyroscopic, stiffness, Z, c.rate)
+    return np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K
 
 
 def bar_rows(c: Coefficients) -> Array:

@@ -19,8 +19,11 @@ MUTANTS = [
     ("n2_shaken", "tuning = 1 - gamma**2 / 2", "tuning = 1 - gamma**2"),
     ("n2_shaken", "(3 + sign * gamma / sp.sqrt(2))", "(3 - sign * gamma / sp.sqrt(2))"),
     ("n2_shaken", '4 / gamma**2 - 1, "the least', '4 / gamma**2 + 1, "the least'),
-    ("n3_waves", "2 * G_1 * G_2 * sp.cos(q))", "G_1 * G_2 * sp.cos(q))"),
-    ("n3_waves", "mixed, spun = 2 / sp.sin(phi) ** 2, -sp.cos", "mixed, spun = 2 / sp.sin(phi) ** 2, 2 * sp.cos"),
+    ("n3_waves", "2 * G_1 * G_2 * sp.cos(Q))", "G_1 * G_2 * sp.cos(Q))"),
+    ("n3_waves", "2 * (1 - c * sp.cos(q)) / s**2", "2 * (1 + c * sp.cos(q)) / s**2"),
+    ("n3_waves", "4 * (sp.sin(q) ** 2 - c**2 + c", "4 * (sp.sin(q) ** 2 + c**2 + c"),
+    ("n3_waves", "[2 * i * sines, -2 * i * sines]", "[2 * i * sines, 2 * i * sines]"),
+    ("n3_waves", "closed = np.sqrt(3) * free", "closed = np.sqrt(2) * free"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
 ]
 

@@ -1,141 +1,213 @@
-"""Bands of patterns against finite structures, folded bands, differences; Chern numbers against a published case."""
+"""Bands of periodic patterns: closed forms, finite structures, group velocity, zero bands, what is refused."""
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Structure
+from lagrotor import Brace, Link, Pattern, Rotor, Structure
 from lagrotor.errors import InputError
-from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.chern import chern_numbers
-from lagrotor.structures.dispersion import dispersion
-from lagrotor.structures.periodic import Pattern, bloch, path
+from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
+from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, square, square_octagon, straight_row, zigzag
 
-BARS = (Link(), Link(1, 0.3, 0.1))
-
-
-def staircase(first=10.0, second=-10.0, link=BARS[0], **more) -> Pattern:
-    return Pattern(
-        Assembly([(0, 0), (1, 0)], spins=[first, second], **more), ((1, 1),), ((0, 1, (0,)), (1, 0, (1,))), link=link
-    )
+J = Rotor().J
+Q = np.linspace(-3.1, 3.1, 24)
+HEAVY = Link(mass=0.3, inertia=0.1)
+angles = st.floats(0.2, 2.5)
 
 
-def honeycomb(first=20.0, second=20.0) -> Pattern:
-    springs = ((0, 1, (0, 0), 1.0), (1, 0, (0, 1), 1.0), (1, 0, (-1, 1), 1.0))
-    rotors = Assembly([(0, 0), (0, 1)], spins=[first, second], hinge=4.0)
-    return Pattern(rotors, ((3**0.5, 0.0), (3**0.5 / 2, 1.5)), springs=springs)
+def ring_band(theta: float, q: np.ndarray, G: float = 10.0) -> np.ndarray:
+    return G / J * np.sin(theta) * np.sin(q) / (1 - np.cos(theta) * np.cos(q))
 
 
-@pytest.mark.parametrize("link", BARS)
-@pytest.mark.parametrize("n", [4, 6, 7])
-def test_a_ring_has_the_modes_of_the_structure(link, n) -> None:
-    turn = 2 * np.pi / n
-    rotors = {"spins": 12.0, "hinge": 3.0, "gravity": 9.81, "load": 0.1}
-    ring = Pattern(Assembly([(1, 0)], **rotors), ((0, 0),), ((0, 0, (1,)),), link=link, turn=turn)
-    joints = [(np.cos(k * turn), np.sin(k * turn)) for k in range(n)]
-    s = Structure(joints, [(k, (k + 1) % n) for k in range(n)], link=link, **rotors)
-    found = dispersion(ring, turn * np.arange(n))
-    every = (found.growth - 1j * found.rates).ravel()  # the roots s
-    from lagrotor.structures.small_motion import small_motion
-
-    for root in small_motion(s).roots[0]:
-        assert np.abs(every - root).min() < 1e-9 * (1 + abs(root))
-    assert every.size == 2 * n
+@settings(max_examples=15, deadline=None)
+@given(st.integers(4, 60), st.floats(-30, 30))
+def test_the_ring_has_one_band_that_runs_one_way(count: int, spin: float) -> None:
+    found = polygon_ring(count, spins=spin).dispersion(Q)
+    closed = np.maximum(ring_band(2 * np.pi / count, Q, spin), 0)
+    assert np.abs(found.rates[:, 0] - closed).max() < 2e-6 * max(1.0, abs(spin))
+    assert np.abs(found.rates[:, 0] - np.maximum(-ring_band(2 * np.pi / count, Q, spin), 0)).max() >= closed.max() / 2
 
 
-@pytest.mark.parametrize("n", [16, 32, 64])
-def test_an_open_staircase_lies_on_the_band(n) -> None:
-    rates = np.sort(staircase().finite(n // 2).modes().rates)[-(n // 2) :]
-    closed = np.sort(10 / 1.25 * np.cos(np.pi * np.arange(n // 2) / n))
-    assert np.abs(rates / closed - 1).max() < 1e-9
-    band = dispersion(staircase(), np.pi - 2 * np.pi * np.arange(n // 2) / n).rates[:, -1]
-    assert np.abs(np.sort(band) / closed - 1).max() < 1e-9
+@settings(max_examples=15, deadline=None)
+@given(angles)
+def test_a_zigzag_of_alternating_spins_has_the_band_of_the_ring(theta: float) -> None:
+    found = np.sort(zigzag(theta, spins=(10, -10)).dispersion(Q).rates, axis=1)
+    both = np.maximum([ring_band(theta, Q / 2), ring_band(theta, Q / 2 + np.pi)], 0).T
+    assert np.abs(found - np.sort(both, axis=1)).max() < 1e-5
 
 
-def test_heavy_bars_converge_to_the_band() -> None:
-    pattern = staircase(link=BARS[1])
-    q = np.linspace(0.01, np.pi, 400)
-    band = dispersion(pattern, q).rates[:, -1]
-    off = []
-    for n in (16, 32, 64):
-        rates = np.sort(pattern.finite(n // 2).modes().rates)[-(n // 2) :]
-        k = np.pi - 2 * np.pi * np.arange(n // 2) / n
-        off.append(np.abs(rates[:3] / np.sort(np.interp(k, q, band))[:3] - 1).max())
-    assert off[0] > 1.7 * off[1] > 1.7**2 * off[2] > 0
+@settings(max_examples=15, deadline=None)
+@given(angles)
+def test_a_zigzag_of_equal_spins_begins_at_the_free_precession(theta: float) -> None:
+    found = zigzag(theta, spins=10.0).dispersion(Q).rates
+    c, s = np.cos(theta) * np.cos(Q / 2), np.sin(theta) * np.abs(np.cos(Q / 2))
+    assert np.abs(found - np.array([0 * Q, 10 / J * s / np.sqrt(1 - c**2)]).T).max() < 1e-5
+    assert not len(long_wave_speeds(zigzag(theta, spins=10.0)))
 
 
-def test_a_doubled_cell_folds_the_bands() -> None:
-    one = staircase(12.0, -7.0, BARS[1], hinge=3.0)
-    both = Assembly([(0, 0), (1, 0), (1, 1), (2, 1)], spins=[12, -7, 12, -7], hinge=3.0)
-    bars = ((0, 1, (0,)), (1, 2, (0,)), (2, 3, (0,)), (3, 0, (1,)))
-    two = Pattern(both, ((2, 2),), bars, link=BARS[1])
-    q = 0.7
-    folded = np.sort(np.concatenate([dispersion(one, [q / 2 + shift]).rates[0] for shift in (0, np.pi)]))
-    assert np.abs(dispersion(two, [q]).rates[0] - folded).max() < 1e-12
+@pytest.mark.parametrize("theta", [0.3, 0.9, np.pi / 2, 2.0])
+def test_long_waves_of_a_zigzag_run_at_the_cotangent_of_half_its_angle(theta: float) -> None:
+    pattern = zigzag(theta, spins=(10, -10))
+    along = np.cos(theta / 2)  # metres a rotor
+    assert long_wave_speeds(pattern) == pytest.approx([10 / J / np.tan(theta / 2) * along], rel=1e-8)
+    assert long_wave_speeds(pattern, [-1.0]) == pytest.approx([10 / J * np.tan(theta / 2) * along], rel=1e-8)
 
 
-@pytest.mark.parametrize("pattern", [staircase(12.0, -7.0, BARS[1], hinge=3.0), staircase()])
-def test_the_group_velocity_is_the_slope(pattern) -> None:
-    q, h = np.array([0.4, 1.3, 2.6]), 1e-4
-    after, before = (dispersion(pattern, q + by).rates for by in (h, -h))
-    found = dispersion(pattern, q).velocity[:, 0]
-    kept = np.isfinite(found)
-    assert kept.sum() >= 6
-    assert np.abs(found - (after - before) / (2 * h))[kept].max() < 1e-6
-
-
-def test_zero_bands_gaps_and_sound() -> None:
-    q = np.linspace(0.01, np.pi - 0.01, 60)
-    assert dispersion(staircase(), q).zero == 2
-    row = Pattern(Assembly([(0, 0)], spins=10.0), ((1, 0),), ((0, 0, (1,)),))
-    assert dispersion(row, q).zero == 2 and dispersion(row, q).rates.shape[1] == 2
-    assert dispersion(staircase(), [1e-3]).velocity[0, 0, -1] == pytest.approx(10 / 2.5, rel=1e-6)
-    (gap,) = dispersion(staircase(12.0, -7.0), np.linspace(0, np.pi, 60)).gaps()
-    assert gap == pytest.approx((0, 5 / 2 / 1.25))
-    falls = dispersion(staircase(12.0, -7.0, gravity=9.81, load=2.0), q)
-    assert falls.growth.max() > 0
-    assert dispersion(staircase(200.0, -7.0, gravity=9.81, load=2.0), q).growth.max() == 0
-
-
-def test_rigid_bars_in_two_directions() -> None:
-    square = Pattern(Assembly([(0, 0)], spins=10.0), ((1, 0), (0, 1)), ((0, 0, (1, 0)), (0, 0, (0, 1))))
-    assert bloch(square, (0.3, 0.4)).freedoms().shape[1] == 0
-    with pytest.raises(InputError, match="0 freedoms"):
-        dispersion(square, [(0.3, 0.4)])
-    springs = honeycomb()
-    rigid = Pattern(springs.rotors, springs.vectors, tuple(spring[:3] for spring in springs.springs))
-    found = dispersion(rigid, path([(0.1, 0.2), (2, 1), (3, 2.5)], 5))
-    assert np.abs(np.abs(found.rates) - np.sqrt(4 / 1.25)).max() < 1e-9
-    with pytest.raises(InputError, match="no bundle"):
-        chern_numbers(rigid)
-
-
-@pytest.mark.parametrize(("spins", "numbers"), [((20, 20), (-1, 1)), ((-20, -20), (1, -1)), ((20, 30), (0, 0))])
-def test_chern_numbers_of_gyroscopes_on_a_honeycomb(spins, numbers) -> None:
-    for mesh in (12, 24):
-        assert chern_numbers(honeycomb(*spins), mesh)[:2] == numbers
-
-
-def test_a_finite_pattern_of_springs_is_a_structure() -> None:
-    s = honeycomb().finite(2, 2)
-    assert len(s.joints) == 8 and len(s.braces) == 7
-    assert s.modes().rates.shape == (16,)
+@pytest.mark.parametrize("spins", [(10.0, -10.0), (10.0, 10.0)])
+@pytest.mark.parametrize("N", [16, 32, 64])
+def test_an_open_zigzag_has_the_rates_of_the_closed_form(N: int, spins: tuple[float, float]) -> None:
+    x = np.pi * np.arange(N // 2) / N
+    closed = 10 / J * np.sin(0.9) * np.cos(x) / np.sqrt(1 - (np.cos(0.9) * np.cos(x)) ** 2)
+    rates = np.sort(zigzag(0.9, spins=spins).piece(N // 2).modes().rates)[-N // 2 :]
+    assert rates == pytest.approx(np.sort(closed), rel=1e-12)
+    other = np.sort(zigzag(0.91, spins=spins).piece(N // 2).modes().rates)[-N // 2 :]
+    assert np.abs(other / np.sort(closed) - 1).max() > 1e-3
 
 
 @pytest.mark.parametrize(
-    ("given", "reason"),
+    "more", [{}, {"link": HEAVY}, {"hinge": 20.0, "link": HEAVY}, {"hinge": 30.0, "gravity": 9.81}]
+)
+@pytest.mark.parametrize("count", [5, 12])
+def test_a_closed_ring_has_the_modes_of_its_bands(count: int, more: dict) -> None:
+    pattern = polygon_ring(count, spins=12.0, **more)
+    bands = pattern.dispersion(2 * np.pi * np.arange(count) / count).rates[:, 0]
+    rates = pattern.piece(count).modes().rates
+    waves = np.sort(bands)
+    if "hinge" in more:  # each real mode once: at +q or at −q
+        found = [np.abs(rates - w).min() for w in waves]
+        assert max(found) < 1e-9
+    else:
+        assert np.abs(np.sort(rates) - waves).max() < 1e-9
+    wrong = polygon_ring(count, spins=12.0, **more | {"link": Link(mass=0.4, inertia=0.1)})
+    assert np.abs(np.sort(wrong.dispersion(2 * np.pi * np.arange(count) / count).rates[:, 0]) - waves).max() > 1e-3
+
+
+def test_the_honeycomb_of_opposite_spins_has_its_closed_form_and_that_of_equal_spins_a_zero_band() -> None:
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (50, 2))
+    d = np.array([q[:, 0], -q[:, 1], q[:, 1] - q[:, 0]])
+    for spins in ((10.0, -10.0), (10.0, -4.0)):
+        closed = (spins[0] - spins[1]) / 2 / J * np.sqrt(3) * np.sin(d).sum(0) / (3 - np.cos(d).sum(0))
+        assert np.abs(honeycomb(spins=spins).dispersion(q).rates[:, 0] - np.maximum(closed, 0)).max() < 1e-5
+    equal = honeycomb(spins=(10.0, 10.0)).dispersion(q)
+    assert equal.zero_bands == 1 and not equal.rates.any()
+    assert honeycomb(spins=(10.0, 10.0), hinge=1.0).dispersion(q).zero_bands == 0
+
+
+def test_the_straight_row_has_a_wave_across_its_bars_alone() -> None:
+    found = straight_row(spins=10.0, hinge=50.0, link=Link(mass=1.0, inertia=0.1)).dispersion(Q)
+    A, B = J + 2 * (1 / 4 + 0.1), 1 / 4 - 0.1
+    assert found.rates[:, 0] == pytest.approx(np.sqrt(50 / (A + 2 * B * np.cos(Q))), rel=1e-9)
+    assert straight_row(spins=10.0).dispersion(Q).zero_bands == 1
+    assert straight_row(spins=10.0).dispersion([0.0, 1.0]).freedoms.tolist() == [2, 1]
+    assert np.isnan(straight_row(spins=10.0).dispersion([0.0, 1.0]).rates).sum() == 1
+
+
+def test_the_square_net_moves_along_whole_rows_and_columns_alone() -> None:
+    assert square(spins=10.0).dispersion([[0.3, 1.0], [0, 1.0], [1.0, 0], [0, 0]]).freedoms.tolist() == [0, 1, 1, 2]
+    assert not square(spins=10.0).dispersion([[0.3, 1.0]]).gaps
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(st.floats(5, 40), min_size=4, max_size=4), st.tuples(st.floats(0.3, 3), st.floats(0.3, 3)))
+def test_the_group_velocity_is_the_slope_of_the_bands(spins: list[float], q: tuple[float, float]) -> None:
+    pattern = square_octagon((0.3, 0.2), spins=spins, hinge=50.0, link=HEAVY)
+    h, steps = 1e-5, np.array(pattern.steps)
+    there = np.array([q, *(np.add(q, sign * h * e) for e in np.eye(2) for sign in (1, -1))])
+    rates = pattern.dispersion(there).rates
+    slopes = np.stack([(rates[1] - rates[2]) / 2 / h, (rates[3] - rates[4]) / 2 / h], axis=1) @ steps
+    assert pattern.dispersion([q]).velocity[0] == pytest.approx(slopes, abs=1e-4)
+
+
+def test_waves_under_weight_fall_where_the_spins_act_too_little_and_stand_elsewhere() -> None:
+    found = zigzag(np.pi / 2, spins=(40.0, -40.0), gravity=9.81).dispersion(Q)
+    falls = (40 * np.sin(Q / 2)) ** 2 < 4 * J * 9.81 / 2
+    assert ((found.growth.max(axis=1) > 0) == falls).all() and falls.any() and not falls.all() and found.falls
+
+
+def test_friction_makes_every_wave_decay() -> None:
+    found = polygon_ring(12, spins=10.0, hinge=20.0, friction=0.5).dispersion(Q)
+    assert (found.growth < 0).all()
+    assert not polygon_ring(12, spins=10.0, hinge=20.0).dispersion(Q).growth.any()
+
+
+def test_a_piece_and_its_pattern_agree_with_springs_and_several_rotors() -> None:
+    """A strip one cell wide of the square is a row of springs; its piece has no mode outside the bands."""
+    row = square(spring=40.0, spins=20.0, hinge=30.0).strip(1)
+    bands = row.dispersion(np.linspace(0, 2 * np.pi, 721)).rates
+    body = row.piece(20)
+    assert isinstance(body, Structure) and len(body.braces) == 19 and isinstance(body.braces[0], Brace)
+    rates = body.modes().rates
+    inside = [(bands.min(0) - 1e-9 <= w) & (w <= bands.max(0) + 1e-9) for w in rates]
+    assert np.all(np.any(inside, axis=1))
+
+
+def test_gaps_are_where_no_band_is() -> None:
+    found = square(spring=40.0, spins=20.0, hinge=30.0).dispersion(np.random.default_rng(0).uniform(-3, 3, (200, 2)))
+    assert len(found.gaps) == 2
+    for low, high in found.gaps:
+        assert low < high and not ((found.rates > low + 1e-9) & (found.rates < high - 1e-9)).any()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "why"),
     [
-        ({"vectors": ()}, "one or two"),
-        ({"bars": ((0, 0, (0,)),)}, "joins no two"),
-        ({"bars": ((0, 2, (0,)),)}, "joins no two"),
-        ({"rotors": Assembly([(0, 0), (1, 0)], [(0, 1)])}, "without bars"),
-        ({"rotors": Assembly([(0, 0), (1, 0)], rotor=[Rotor(), Rotor(length=2)])}, "one length"),
+        ({"joints": ()}, "give a joint"),
+        ({"steps": ()}, "one or two steps"),
+        ({"steps": ((1, 0), (2, 0))}, "span no plane"),
+        ({"steps": ((1, 0), (0, 1)), "turn": 0.3}, "only a row of cells turns"),
+        ({"bars": ((0, 1, 1),)}, "numbered 0 to 0"),
+        ({"bars": ((0, 0, 0),)}, "to itself"),
+        ({"bars": ((0, 0, (1, 0)),)}, "whole number"),
+        ({"bars": ((0, 0, 0.5),)}, "whole number"),
+        ({"braces": ((0, 0, 1),)}, "stiffness"),
+        ({"spins": (1.0, 2.0)}, "2 values for 1"),
     ],
 )
-def test_a_pattern_that_makes_no_sense_is_refused(given, reason) -> None:
-    with pytest.raises(InputError, match=reason):
-        Pattern(**{"rotors": Assembly([(0, 0), (1, 0)]), "vectors": ((1, 1),)} | given)
+def test_a_pattern_that_makes_no_sense_is_refused(wrong: dict, why: str) -> None:
+    with pytest.raises(InputError, match=why):
+        Pattern(**{"joints": ((0, 0),), "steps": ((1, 0),), "bars": ((0, 0, 1),)} | wrong)
 
 
-def test_chern_numbers_need_a_gap() -> None:
-    with pytest.raises(InputError, match="touch"):
-        chern_numbers(honeycomb(0.0, 0.0))
+def test_wave_numbers_pieces_and_strips_of_a_wrong_shape_are_refused() -> None:
+    with pytest.raises(InputError, match=r"\(n_q, 2\)"):
+        dispersion(honeycomb(spins=1.0), [0.1, 0.2])
+    with pytest.raises(InputError, match="finite"):
+        dispersion(straight_row(spins=1.0), [np.nan])
+    with pytest.raises(InputError, match="number"):
+        honeycomb().piece(3)
+    with pytest.raises(InputError, match="needs two"):
+        straight_row().strip(3)
+    with pytest.raises(InputError, match="no polygon"):
+        polygon_ring(2)
+
+
+def test_a_doubled_cell_folds_the_bands() -> None:
+    more = {"link": HEAVY, "hinge": 3.0}
+    one = zigzag(np.pi / 2, spins=(12.0, -7.0), **more)
+    x = np.cos(np.pi / 4)
+    joints = ((0, 0), (x, x), (2 * x, 0), (3 * x, x))
+    two = Pattern(joints, ((4 * x, 0),), ((0, 1), (1, 2), (2, 3), (3, 0, 1)), spins=(12.0, -7.0) * 2, **more)
+    folded = np.sort(one.dispersion([0.35, 0.35 + np.pi]).rates.ravel())
+    assert np.abs(two.dispersion([0.7]).rates[0] - folded).max() < 1e-12
+
+
+def test_spins_of_two_sizes_leave_a_gap_in_which_the_staircase_stands_under_weight() -> None:
+    q = np.linspace(0, 2 * np.pi, 61)
+    (gap,) = zigzag(np.pi / 2, spins=(12.0, -7.0)).dispersion(q).gaps
+    assert gap == pytest.approx((0, 5 / 2 / J))
+    more = {"gravity": 9.81, "load": 2.0}
+    a, kappa = J + 2, 9.81 * (1 / 2 + 2)
+    needs = 4 * np.sqrt(a * kappa) + 7
+    assert zigzag(np.pi / 2, spins=(0.999 * needs, -7.0), **more).dispersion(q).falls
+    assert not zigzag(np.pi / 2, spins=(1.001 * needs, -7.0), **more).dispersion(q).falls
+
+
+@pytest.mark.parametrize("n", [4, 6, 7])
+def test_a_ring_under_weight_has_every_root_of_the_structure(n) -> None:
+    ring = polygon_ring(n, spins=12.0, hinge=3.0, gravity=9.81, load=0.1, link=HEAVY)
+    found = ring.dispersion(2 * np.pi * np.arange(n) / n)
+    every = (found.growth - 1j * found.rates).ravel()
+    for rate, growth in zip(*(getattr(ring.piece(n).modes(), name) for name in ("rates", "growth")), strict=True):
+        root = abs(growth) + 1j * rate
+        assert min(np.abs(every - root).min(), np.abs(every - root.conjugate()).min()) < 1e-9 * (1 + abs(root))

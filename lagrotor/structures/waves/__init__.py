@@ -1,0 +1,1 @@
+"""Periodic patterns of rotors: bands, gaps, group velocity, Chern numbers."""

@@ -1,0 +1,162 @@
+"""A periodic pattern of rotors: one cell, the steps that repeat it, bars and braces within and to other cells."""
+
+from cmath import exp
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from math import pi
+from typing import Any, Self
+
+from lagrotor.errors import InputError
+from lagrotor.pair.scene import Link, Rotor
+from lagrotor.structures.assembly import Brace
+from lagrotor.structures.structure import Structure
+
+Shift = tuple[int, ...]
+Site = tuple[int, Shift]  # joint of the cell, and which cell
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of N rotors repeated along one or two steps (x, y), m; with a turn (rad), each cell is the one before it
+    moved by the step and turned about its own origin: a ring, closed after 2π/turn cells.
+
+    bars: (i, j, shift) from joint i to joint j of the cell that is `shift` steps away, a whole number, or one a step; (i, j)
+    within the cell. braces: (i, j, shift, stiffness, damping), in N/m and N s/m, damping 0 unless given. spins, rotor, load,
+    friction, hinge: one for all, or one a joint; link: one for all, or one a bar; units as of `Structure`.
+
+    Raises InputError for a joint, a shift or a step that makes no sense.
+    """
+
+    joints: tuple[tuple[float, float], ...]
+    steps: tuple[tuple[float, float], ...]
+    bars: tuple[Any, ...] = ()
+    spins: Any = 0.0
+    turn: float = 0.0
+    rotor: Any = field(default_factory=Rotor)
+    link: Any = field(default_factory=Link)
+    gravity: float = 0.0
+    load: Any = 0.0
+    friction: Any = 0.0
+    hinge: Any = 0.0
+    braces: tuple[Any, ...] = ()
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        for name in ("joints", "steps"):
+            put(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
+        if len(self.steps) not in (1, 2) or not self.joints:
+            raise InputError(
+                f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint and one or two steps at least"
+            )
+        if self.turn and len(self.steps) == 2:
+            raise InputError(
+                f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; leave one out"
+            )
+        if len(self.steps) == 2 and abs(_cross(*self.steps)) < 1e-12:
+            raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
+        put(self, "bars", tuple(self._joined("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
+        put(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
+        for name in ("spins", "rotor", "load", "friction", "hinge"):
+            put(self, name, _each(getattr(self, name), len(self.joints), name))
+        put(self, "link", _each(self.link, len(self.bars), "link"))
+
+    def _joined(self, what: str, k: int, given: Any, shift: Any) -> tuple[int, int, Shift]:
+        i, j = given[:2]
+        where = f"Pattern: {what}[{k}] = {given!r}"
+        if not all(isinstance(end, int) and 0 <= end < len(self.joints) for end in (i, j)):
+            raise InputError(f"{where}: joints are numbered 0 to {len(self.joints) - 1}")
+        found = shift[0] if shift else (0,) * len(self.steps)
+        cells = tuple(found) if isinstance(found, Sequence) else (found,)
+        if len(cells) != len(self.steps) or not all(isinstance(n, int) for n in cells):
+            raise InputError(f"{where}: its shift must be {len(self.steps)} whole number(s) of steps")
+        if i == j and not any(cells):
+            raise InputError(f"{where} joins a tip to itself: give two different tips")
+        return i, j, cells
+
+    def _sprung(self, k: int, given: Any) -> tuple[int, int, Shift, float, float]:
+        if len(given) not in (4, 5):
+            raise InputError(f"Pattern: braces[{k}] = {given!r} must be (i, j, shift, stiffness, damping)")
+        return (
+            *self._joined("braces", k, given, given[2:3]),
+            float(given[3]),
+            float(given[4]) if len(given) > 4 else 0.0,
+        )
+
+    @property
+    def neighbours(self) -> tuple[Site, ...]:
+        """The joints of other cells to which bars and braces lead, each once."""
+        return tuple(dict.fromkeys((j, shift) for _, j, shift, *_ in (*self.bars, *self.braces) if any(shift)))
+
+    def place(self, site: Site) -> tuple[float, float]:
+        """Where a joint of any cell is, m."""
+        shift = site[1]
+        z = complex(*self.joints[site[0]])
+        if self.turn:  # the steps so far, each turned once more than the one before it
+            turned = exp(1j * self.turn * shift[0])
+            z = z * turned + complex(*self.steps[0]) * (turned - 1) / (exp(1j * self.turn) - 1)
+        else:
+            z += sum(n * complex(*step) for n, step in zip(shift, self.steps, strict=True))
+        return z.real, z.imag
+
+    def piece(self, *counts: int) -> Structure:
+        """The finite structure of so many cells along each step, its border free; a ring where turn × count is a full turn.
+
+        Joint i of cell n is rotor N n + i, the last step fastest. Raises InputError as `Structure` does.
+        """
+        if len(counts) != len(self.steps) or any(n < 1 for n in counts):
+            raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
+        ring = bool(self.turn) and abs(abs(self.turn) * counts[0] - 2 * pi) < 1e-9
+        cells = list(product(*(range(n) for n in counts)))
+        number = {(i, cell): len(self.joints) * k + i for k, cell in enumerate(cells) for i in range(len(self.joints))}
+
+        def kept(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:
+            for cell in cells:
+                for k, (i, j, shift, *_) in enumerate(joined):
+                    other = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
+                    if (j, other) in number:
+                        yield k, number[i, cell], number[j, other]
+
+        bars = list(kept(self.bars))
+        return Structure(
+            joints=tuple(self.place(site) for site in number),
+            bars=tuple((a, b) for _, a, b in bars),
+            link=tuple(self.link[k] for k, *_ in bars) or Link(),
+            braces=tuple(Brace(a, b, *self.braces[k][3:]) for k, a, b in kept(self.braces)),
+            gravity=self.gravity,
+            **{name: getattr(self, name) * len(cells) for name in ("spins", "rotor", "load", "friction", "hinge")},
+        )
+
+    def strip(self, width: int) -> Self:
+        """Of a pattern with two steps: `width` cells along the second, its borders free, repeated along the first."""
+        if len(self.steps) != 2 or width < 1:
+            raise InputError(
+                f"Pattern: strip({width}) of {len(self.steps)} step(s): it needs two, and a width of 1 or more"
+            )
+        N = len(self.joints)
+
+        def kept(joined: Sequence[Any]) -> list[tuple[int, tuple[Any, ...]]]:
+            rows = [(n, k, one) for n in range(width) for k, one in enumerate(joined) if 0 <= n + one[2][1] < width]
+            return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *rest)) for n, k, (i, j, s, *rest) in rows]
+
+        bars = kept(self.bars)
+        return type(self)(
+            joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)),
+            steps=self.steps[:1],
+            bars=tuple(bar for _, bar in bars),
+            link=tuple(self.link[k] for k, _ in bars) or Link(),
+            braces=tuple(brace for _, brace in kept(self.braces)),
+            gravity=self.gravity,
+            **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
+        )
+
+
+def _cross(a: tuple[float, float], b: tuple[float, float]) -> float:
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def _each(value: Any, count: int, name: str) -> tuple[Any, ...]:
+    items = tuple(value) if isinstance(value, Sequence) else (value,) * count
+    if len(items) != count:
+        raise InputError(f"Pattern: {name} has {len(items)} values for {count}: give one for all, or {count}")
+    return items

@@ -1,0 +1,134 @@
+"""Bands of a pattern: rates against wave number, growth, gaps, group velocity, zero bands, long-wave speed."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.structures.coefficients import Array, Complex
+from lagrotor.structures.waves.bloch import Bloch, bloch
+from lagrotor.structures.waves.cell import Cell
+
+_SAME = 1e-9  # of the largest rate: a difference below it is none
+
+
+@dataclass(frozen=True, eq=False)
+class Dispersion:
+    """Waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad a cell.
+
+    rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
+    rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). freedoms (n_q,): the f that the
+    bars leave at q; n_bands is their most, and where there are fewer the row ends in nan. zero_bands: freedoms, where the
+    bars leave the fewest, on which neither spins nor springs nor weight act.
+    """
+
+    pattern: Cell
+    q: Array
+    rates: Array
+    growth: Array
+    shapes: Complex
+    freedoms: Array
+    zero_bands: int
+
+    @property
+    def gaps(self) -> tuple[tuple[float, float], ...]:
+        """Intervals (low, high) of rates, rad/s, between zero and the highest rate, that no band enters at the q given."""
+        if not self.rates.size:
+            return ()
+        low, high = np.nanmin(self.rates, axis=0), np.nanmax(self.rates, axis=0)
+        found, top = [], 0.0
+        for k in np.argsort(low):
+            if low[k] > top + _SAME * high.max():
+                found.append((float(top), float(low[k])))
+            top = max(top, high[k])
+        return tuple(found)
+
+    @cached_property
+    def velocity(self) -> Array:
+        """Group velocity, (n_q, n_bands, 2), m/s: the steps weighed by dω/dq of each; zero where the rate is.
+
+        Where bands cross it is a mean of theirs. Of waves without friction that stand.
+        """
+        b, steps = bloch(self.pattern), np.array(self.pattern.steps)
+        found = np.full((*self.rates.shape, 2), np.nan)
+        for q, f, rates, shapes, row in zip(self.q, self.freedoms, self.rates, self.shapes, found, strict=True):
+            u = shapes[:f].reshape(f, -1)
+            row[:f] = np.stack([_slopes(b, q, k, rates[:f], u) for k in range(len(q))], axis=1) @ steps
+        return found
+
+    @property
+    def falls(self) -> bool:
+        """Whether some wave grows."""
+        return bool(np.nanmax(self.growth) > 0)
+
+
+def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
+    """The bands of a pattern at the wave numbers q, (n_q,) for one step, (n_q, d) for d steps, in rad a cell.
+
+    The bars hold as constraints, so that only what they leave at q moves; a bar that stretches is a stiff brace.
+    Raises InputError for a q of another shape.
+    """
+    d = len(p.steps)
+    points = np.asarray(q, dtype=float)
+    points = points[:, None] if points.ndim == 1 and d == 1 else points
+    if points.ndim != 2 or points.shape[1] != d or not len(points) or not np.isfinite(points).all():
+        raise InputError(f"dispersion: q must be finite numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
+    b = bloch(p)
+    found = [_waves(b, point) for point in points]
+    freedoms = np.array([len(rates) for rates, *_ in found])
+    most = int(freedoms.max())
+    rates, growth, shapes = (np.stack([_padded(row[k], most) for row in found]) for k in range(3))
+    still = min(row[3] for row in found if len(row[0]) == freedoms.min())
+    return Dispersion(p, points, rates, growth, shapes.reshape(*rates.shape, len(p.joints), 2), freedoms, still)
+
+
+def _padded(row: Any, most: int) -> Any:
+    """Rows of nan added at the end, `most` in all."""
+    return np.concatenate([row, np.full((most - len(row), *row.shape[1:]), np.nan)])
+
+
+def _waves(b: Bloch, q: Array) -> tuple[Array, Array, Complex, int]:
+    """Rates, growth (f,), shapes (f, 2 N), and how many freedoms nothing acts on."""
+    motion = b.motion(q)
+    f = motion.freedoms
+    if not f:
+        return np.zeros(0), np.zeros(0), np.zeros((0, b.copies.shape[1]), dtype=complex), 0
+    s, vectors = motion.roots
+    kept = np.lexsort((s.real, -s.imag))[f:]
+    shapes = (motion.basis @ vectors[:, kept]).T
+    acting = np.vstack([motion.stiffness / b.rate**2, (motion.gyroscopic + motion.damping) / b.rate])
+    still = f - np.linalg.matrix_rank(acting, tol=_SAME * max(1.0, float(np.abs(motion.mass).max())))
+    return 0.0 - s.imag[kept], s.real[kept], shapes / np.linalg.norm(shapes, axis=1, keepdims=True), int(still)
+
+
+def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
+    """dω/dq_k of each wave, (f,): −x†(dL/dq)x / x†(dL/dω)x, L the matrix of u and the bars' multipliers, x its null vector.
+
+    Of D = −ω² M − iω C + K with D u + A† λ = 0 (Hellmann & Feynman with constraints).
+    """
+    (M, C, G, K), A = b.at(q)
+    (dM, dC, dG, dK), dA = b.slopes(q, k)
+    u, w = shapes.T, rates
+    forces = -(w**2) * (M @ u) - 1j * w * ((C + G) @ u) + K @ u
+    multipliers = -np.linalg.pinv(A.conj().T, rcond=1e-10) @ forces
+    change = -(w**2) * (dM @ u) - 1j * w * ((dC + dG) @ u) + dK @ u
+    moved = (u.conj() * change).sum(0) + 2 * (multipliers.conj() * (dA @ u)).sum(0).real
+    norm = (u.conj() * (-2 * w * (M @ u) - 1j * ((C + G) @ u))).sum(0)
+    sound = (w != 0) & (np.abs(norm) > _SAME * np.abs((u.conj() * (M @ u)).sum(0)) * b.rate)
+    return np.asarray(np.where(sound, -moved / np.where(sound, norm, 1), 0).real)
+
+
+def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,), small: float = 1e-3) -> Array:
+    """Speeds dω/d|k| (m/s) at q → 0 along a direction of q (d,), of the bands that begin there at rate zero in proportion to q.
+
+    k is the wave vector with k . step = q. To fourth order in `small`, the largest q (rad a cell) at which the bands are read.
+    """
+    along = np.asarray(direction, dtype=float)
+    along = along / np.abs(along).max()
+    k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), along, rcond=None)[0])
+    half, whole = dispersion(p, np.array([[small / 2], [small]]) * along).rates
+    linear = (half > 0) & (np.abs(whole / np.where(half > 0, 2 * half, 1) - 1) < 1e-3)
+    return np.asarray((8 * half - whole)[linear] / (3 * small * k))

@@ -1,0 +1,56 @@
+"""Patterns that have a name: rows, zigzags, rings, honeycomb, square, squares with octagons; bars one metre long.
+
+More of `Pattern` is given by name: spins, link, gravity, hinge …
+"""
+
+from math import cos, pi, sin, sqrt
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.structures.waves.pattern import Pattern
+
+
+def straight_row(**more: Any) -> Pattern:
+    """Rotors along a line, each joined to the next."""
+    return Pattern(joints=((0, 0),), steps=((1, 0),), bars=((0, 0, 1),), **more)
+
+
+def zigzag(angle: float, **more: Any) -> Pattern:
+    """Two rotors a cell, each bar turned by ±angle (rad) against the one before it; π/2 is the staircase."""
+    x, y = cos(angle / 2), sin(angle / 2)
+    return Pattern(joints=((0, 0), (x, y)), steps=((2 * x, 0),), bars=((0, 1), (1, 0, 1)), **more)
+
+
+def polygon_ring(count: int, **more: Any) -> Pattern:
+    """One rotor a cell, each bar turned by 2π/count against the one before it: `piece(count)` is the closed ring.
+
+    Raises InputError below 3.
+    """
+    if count < 3:
+        raise InputError(f"polygon_ring: {count} rotors are no polygon: give 3 or more")
+    return Pattern(joints=((0, 0),), steps=((1, 0),), turn=2 * pi / count, bars=((0, 0, 1),), **more)
+
+
+def honeycomb(spring: float | None = None, **more: Any) -> Pattern:
+    """Two rotors a cell, three bars at each; with `spring` (N/m) braces instead of bars."""
+    joins = ((0, 1, (0, 0)), (0, 1, (-1, 0)), (0, 1, (0, -1)))
+    return _two_steps(((0, 0), (0, 1)), ((sqrt(3) / 2, 1.5), (-sqrt(3) / 2, 1.5)), joins, spring, more)
+
+
+def square(spring: float | None = None, **more: Any) -> Pattern:
+    """One rotor a cell, joined to its four neighbours; with `spring` (N/m) braces instead of bars."""
+    return _two_steps(((0, 0),), ((1, 0), (0, 1)), ((0, 0, (1, 0)), (0, 0, (0, 1))), spring, more)
+
+
+def square_octagon(move: tuple[float, float] = (0.0, 0.0), **more: Any) -> Pattern:
+    """Four rotors a cell, at the corners of a square, each joined to one of the next square; `move` (m) displaces one."""
+    r, step = sqrt(0.5), 1 + sqrt(2)
+    joints = ((r + move[0], move[1]), (0, r), (-r, 0), (0, -r))
+    bars = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 2, (1, 0)), (1, 3, (0, 1)))
+    return Pattern(joints, ((step, 0), (0, step)), bars=bars, **more)
+
+
+def _two_steps(joints: Any, steps: Any, joins: Any, spring: float | None, more: dict[str, Any]) -> Pattern:
+    if spring is None:
+        return Pattern(joints, steps, bars=joins, **more)
+    return Pattern(joints, steps, braces=tuple((*join, spring) for join in joins), **more)

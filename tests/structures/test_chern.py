@@ -1,0 +1,123 @@
+"""Chern numbers: Nash's honeycomb of springs, its reversed and trivial twins, rigid bars, and waves along a border."""
+
+import numpy as np
+import pytest
+
+from lagrotor.errors import InputError
+from lagrotor.structures.waves.bloch import bloch
+from lagrotor.structures.waves.chern import chern_numbers
+from lagrotor.structures.waves.edge_waves import edge_waves
+from lagrotor.structures.waves.patterns import honeycomb, square, square_octagon, straight_row
+
+SPRINGS = {"spring": 50.0, "hinge": 200.0}
+BARS = {"move": (0.3, 0.3), "hinge": 200.0}
+
+
+@pytest.mark.parametrize("grid", [18, 24])
+def test_gyroscopes_on_a_honeycomb_of_springs_have_bands_of_chern_number_one(grid: int) -> None:
+    """Nash et al. 2015: the two bands of precession have ±1; so have the two of nutation."""
+    found = chern_numbers(honeycomb(**SPRINGS, spins=30.0), grid)
+    assert found.groups == ((0, 0), (1, 1), (2, 2), (3, 3)) and found.numbers == (-1, 1, -1, 1) and found.off < 1e-9
+
+
+def test_reversed_spins_reverse_them() -> None:
+    assert chern_numbers(honeycomb(**SPRINGS, spins=-30.0), 18).numbers == (1, -1, 1, -1)
+
+
+def test_opposite_spins_leave_the_bands_touching_and_in_the_trivial_phase_have_zero() -> None:
+    touching = chern_numbers(honeycomb(**SPRINGS, spins=(30.0, -30.0)), 18)
+    assert touching.groups == ((0, 1), (2, 3)) and touching.numbers == (0, 0)
+    trivial = chern_numbers(honeycomb(spring=50.0, spins=(30.0, -30.0), hinge=(100.0, 300.0)), 18)
+    assert len(trivial.groups) == 4 and trivial.numbers == (0, 0, 0, 0)
+
+
+def test_spins_that_differ_enough_end_the_phase() -> None:
+    assert chern_numbers(honeycomb(spring=1.0, hinge=4.0, spins=(20.0, 20.0)), 12).numbers == (-1, 1, -1, 1)
+    assert chern_numbers(honeycomb(spring=1.0, hinge=4.0, spins=(20.0, 30.0)), 12).numbers == (0, 0, 0, 0)
+
+
+def energy_chern(pattern, grid: int) -> tuple[int, ...]:
+    """The same from the Hermitian matrix of (K^½ u, M^½ u'), whose square is twice the energy."""
+    b, phases = bloch(pattern), 2 * np.pi * (np.arange(grid) + 0.5) / grid
+    states = []
+    for q in ((x, y) for x in phases for y in phases):
+        m = b.motion(np.array(q))
+        stiff, vectors = np.linalg.eigh(m.stiffness)
+        root_K = (vectors * np.sqrt(stiff)) @ vectors.conj().T
+        heavy, vectors = np.linalg.eigh(m.mass)
+        root_M = (vectors / np.sqrt(heavy)) @ vectors.conj().T
+        across = 1j * root_K @ root_M
+        _, v = np.linalg.eigh(np.block([[0 * across, across], [across.conj().T, -1j * root_M @ m.gyroscopic @ root_M]]))
+        f = m.freedoms
+        states.append(np.vstack([m.basis @ v[:f, f:], m.basis @ v[f:, f:]]).T)
+    v = np.array(states).reshape(grid, grid, *states[0].shape)
+    link = [(v.conj() * np.roll(v, -1, axis)).sum(-1) for axis in (0, 1)]
+    loop = link[0] * np.roll(link[1], -1, 0) * np.roll(link[0], -1, 1).conj() * link[1].conj()
+    sense = np.sign(np.linalg.det(pattern.steps))
+    return tuple(round(sense * x) for x in np.angle(loop).sum((0, 1)) / (2 * np.pi))
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        honeycomb(**SPRINGS, spins=30.0),
+        honeycomb(**SPRINGS, spins=(30.0, 20.0)),
+        square_octagon(**BARS, spins=(30.0, 10.0, 30.0, 10.0)),
+        square_octagon(**BARS, spins=(10.0, 10.0, 30.0, 10.0)),
+    ],
+)
+def test_the_product_of_energy_gives_the_same_numbers(pattern) -> None:
+    assert energy_chern(pattern, 24) == chern_numbers(pattern, 24).numbers
+
+
+def test_unequal_hinges_end_the_phase_of_equal_spins() -> None:
+    assert chern_numbers(honeycomb(spring=50.0, spins=30.0, hinge=(100.0, 300.0)), 18).numbers == (0, 0, 0, 0)
+
+
+def test_the_numbers_of_all_bands_add_up_to_zero() -> None:
+    for spins in (3.0, 12.0):
+        assert sum(chern_numbers(honeycomb(**SPRINGS, spins=spins), 18).numbers) == 0
+
+
+def test_rigid_bars_can_have_a_gap_and_chern_numbers() -> None:
+    for sign in (1, -1):
+        pattern = square_octagon(**BARS, spins=[sign * w for w in (30.0, 10.0, 30.0, 10.0)])
+        found = chern_numbers(pattern, 18)
+        assert found.groups == ((0, 0), (1, 1)) and found.numbers == (-sign, sign)
+    q = 2 * np.pi * np.stack(np.meshgrid(np.arange(18), np.arange(18)), -1).reshape(-1, 2) / 18
+    assert len(pattern.dispersion(q).gaps) == 2
+
+
+@pytest.mark.parametrize(
+    ("pattern", "rate"),
+    [
+        (honeycomb(**SPRINGS, spins=30.0), 6.94),
+        (square_octagon(**BARS, spins=(30.0, 10.0, 30.0, 10.0)), 12.65),
+    ],
+    ids=["springs", "rigid bars"],
+)
+def test_a_border_carries_as_many_one_way_waves_as_the_numbers_below_the_gap(pattern, rate: float) -> None:
+    found = edge_waves(pattern, rate, width=7, points=61)
+    below = chern_numbers(pattern, 18).numbers[0]
+    assert (found.first, found.last) == (below, -below) and below == -1
+
+
+def test_a_trivial_gap_has_none() -> None:
+    found = edge_waves(honeycomb(spring=50.0, spins=30.0, hinge=(100.0, 300.0)), 6.8, width=6, points=41)
+    assert (found.first, found.last) == (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "why"),
+    [
+        (straight_row(spins=1.0), "one step"),
+        (honeycomb(spins=(30.0, -10.0), hinge=200.0), "self-stress"),
+        (square(spins=30.0, hinge=200.0), "more freedoms"),
+        (honeycomb(spring=50.0, spins=30.0), "rate zero"),
+        (honeycomb(**SPRINGS, spins=1.0, gravity=900.0), "falls"),
+        (honeycomb(**SPRINGS, spins=1.0, friction=0.1), "friction"),
+    ],
+)
+def test_where_there_is_no_chern_number_the_reason_is_given(pattern, why: str) -> None:
+    with pytest.raises(InputError, match=why):
+        chern_numbers(pattern, 12)
