@@ -22,6 +22,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.constraints import dependent_rows
+from lagrotor.mechanics.expressions import expression
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, singular_mass, t, total_derivative
 
 
@@ -51,15 +52,18 @@ class Equations:
         for name in ("constraints", "rolling", "forces"):
             given = getattr(self, name)
             if isinstance(given, sp.Expr | str) or not isinstance(given, Sequence | sp.MatrixBase):
-                raise InputError(f"System: {name} = {given} must be a tuple of expressions: write ({given},)")
-            object.__setattr__(self, name, tuple(_expression(f"{name}[{i}]", e) for i, e in enumerate(given)))
-        object.__setattr__(self, "dissipation", _expression("dissipation", self.dissipation))
+                way = f": write ({given},)" if isinstance(given, sp.Expr) else ""
+                raise InputError(f"System: {name} = {given} must be a tuple of expressions{way}")
+            object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(given)))
+        object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
         if self.forces and len(self.forces) != len(self.c.q):
             raise InputError(
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
         self._check_symbols()
+        if not self.bodies:
+            _ = self.L  # checked now; an energy of bodies is written out when it is needed
 
     def _check_symbols(self) -> None:
         velocities, higher = {*self.c.v}, {*self.c.a}
@@ -88,7 +92,7 @@ class Equations:
     @cached_property
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
-        L = _expression("L", self.lagrangian)
+        L = expression("System: L", self.lagrangian)
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
 
@@ -184,23 +188,6 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
         )
     k, n = G.shape
     return n - int(np.linalg.matrix_rank(np.array(G.tolist(), dtype=float))) if k else n
-
-
-def _expression(name: str, given: Any) -> sp.Expr:
-    try:
-        e = sp.sympify(given, strict=True)
-    except (sp.SympifyError, TypeError):
-        raise InputError(f"System: {name} = {given!r} is no expression: build it from sympy symbols") from None
-    if not isinstance(e, sp.Expr):
-        raise InputError(f"System: {name} = {given!r} is no expression: build it from sympy symbols")
-    if moving := e.atoms(sp.Derivative, sp.core.function.AppliedUndef):
-        raise InputError(
-            f"System: {name} contains {', '.join(sorted(map(str, moving)))}: coordinates and velocities are plain "
-            "symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
-        )
-    if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
-        raise InputError(f"System: {name} = {e} is not finite: correct it")
-    return e
 
 
 def _free_of(name: str, e: sp.Expr, unwanted: set[sp.Symbol], way: str) -> None:

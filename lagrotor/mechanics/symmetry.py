@@ -205,10 +205,11 @@ def _vanish(expressions: Sequence[sp.Expr]) -> bool:
 
 
 def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
-    field = sp.Matrix([sp.sympify(component) for component in xi])
-    if len(field) != len(system.c.q) or field.free_symbols & {*system.c.a}:
+    given = isinstance(xi, Sequence | sp.MatrixBase) and len(xi) == len(system.c.q)
+    field = sp.Matrix([sp.sympify(component) for component in xi]) if given else sp.Matrix()
+    if not given or field.free_symbols & {*system.c.a}:
         raise InputError(
-            f"noether: ξ = {tuple(xi)}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "
+            f"noether: ξ = {xi}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "
             "accelerations; write it so"
         )
     return field

@@ -49,16 +49,23 @@ class Program:
 
 def reduce_common(program: Program) -> tuple[list[Stage], list[sp.Expr]]:
     """Stages with their common subexpressions taken out, in an order that can be run, and the reduced outputs."""
-    names = [name for name, _ in program.stages]
-    expressions = [e for _, e in program.stages] + list(program.outputs)
+    stages, outputs = list(program.stages), list(program.outputs)
+    if program.shared:
+        stages = _ordered(dict(stages), outputs)
+    names, expressions = [name for name, _ in stages], [*(e for _, e in stages), *outputs]
+    if program.shared and not _repeats(expressions):
+        return stages, outputs
     symbols = sp.numbered_symbols("c_", real=True)
     if program.shared:
         found, reduced = tree_cse(expressions, symbols, order="none")
     else:
         found, reduced = sp.cse(expressions, symbols=symbols)
     body = dict(found) | dict(zip(names, reduced[: len(names)], strict=True))
-    outputs = reduced[len(names) :]
-    # Only what an output needs, depth first, so that every definition comes before its use.
+    return _ordered(body, reduced[len(names) :]), reduced[len(names) :]
+
+
+def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> list[Stage]:
+    """Only the stages that an output needs, depth first, so that every definition comes before its use."""
     order: dict[sp.Symbol, None] = {}
     queue = [(s, False) for e in reversed(outputs) for s in _named(e, body)]
     while queue:
@@ -67,7 +74,21 @@ def reduce_common(program: Program) -> tuple[list[Stage], list[sp.Expr]]:
             order[name] = None
         elif name not in order:
             queue += [(name, True), *((s, False) for s in _named(body[name], body) if s not in order)]
-    return [(name, body[name]) for name in order], outputs
+    return [(name, body[name]) for name in order]
+
+
+def _repeats(expressions: Sequence[sp.Expr]) -> bool:
+    """Whether a part of them occurs twice."""
+    left, seen = list(expressions), set[sp.Basic]()
+    while left:
+        e = left.pop()
+        if e.is_Atom:
+            continue
+        if e in seen:
+            return True
+        seen.add(e)
+        left += e.args
+    return False
 
 
 def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:

@@ -12,6 +12,7 @@ from typing import Any
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
+from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrators import Rate
@@ -27,6 +28,9 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.names.get(expr) or super()._print_Symbol(expr)
+
+    def _print_not_supported(self, expr: sp.Expr) -> str:
+        raise InputError(f"{expr} has no code in Python's math module: write it with elementary functions")
 
     def _as_ordered_terms(self, expr: sp.Add, order: Any = None) -> list[sp.Expr]:
         return sorted(super()._as_ordered_terms(expr, order), key=lambda term: term.could_extract_minus_sign())

@@ -256,7 +256,11 @@ def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
     parts = [_translate(x, known, heyoka) for x in e.args]
     if e.is_Add:
         return heyoka.sum(parts)
-    return _product(parts) if e.is_Mul else getattr(heyoka, e.func.__name__)(*parts)
+    if e.is_Mul:
+        return _product(parts)
+    if not hasattr(heyoka, e.func.__name__):
+        raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
+    return getattr(heyoka, e.func.__name__)(*parts)
 
 
 def _product(parts: Sequence[Any]) -> Any:

@@ -17,6 +17,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
+from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
 
 Vector = Sequence[Any]
@@ -53,12 +54,12 @@ class MovingFrame:
             raise InputError(f"turned: axes {axes!r} and angles {angles!r}: one angle for each letter of x, y, z")
         frame = self
         for letter, angle in zip(axes, given, strict=True):
-            frame = type(self)(self.c, frame, AXES.index(letter), sp.sympify(angle))
+            frame = type(self)(self.c, frame, AXES.index(letter), expression("turned: angle", angle))
         return frame
 
     def moved(self: Kind, x: Any = 0, y: Any = 0, z: Any = 0) -> Kind:
         """Shifted along its own axes; lengths may be coordinates."""
-        return type(self)(self.c, self, None, sp.Matrix([x, y, z]))
+        return type(self)(self.c, self, None, sp.Matrix(vector_of("moved: (x, y, z)", (x, y, z), 3)))
 
     @cached_property
     def rotation(self) -> sp.Matrix:

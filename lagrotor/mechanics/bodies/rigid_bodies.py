@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+from lagrotor.mechanics.expressions import expression, vector_of
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
 _ARCS = 16  # chords of a drawn rim
@@ -40,7 +41,7 @@ class Body:
 
     def potential(self, field: Vector) -> "Energy":
         """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
-        return Energy(((self, tuple(sp.sympify(e) for e in field), sp.S.One),))
+        return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
     @cached_property
     def outline(self) -> Outline:
@@ -77,7 +78,9 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
         raise InputError(
             f"body: {', '.join(map(str, used))} in a rigid body: its inertia and centre are fixed; move its frame"
         )
-    return Body(frame, sp.sympify(mass), I, place)
+    if (m := expression("body: mass", mass)).is_negative:
+        raise InputError(f"body: mass = {m} must not be negative")
+    return Body(frame, m, I, place)
 
 
 @dataclass(frozen=True)

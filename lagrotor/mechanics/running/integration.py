@@ -62,8 +62,9 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
     engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
 
-    Raises InputError for a value that is missing, and without heyoka.
+    Raises InputError for a value that is missing, another engine, and without heyoka.
     """
+    check_engine(engine)
     given = motion_program(system)
     parameters = parameter_values(given, values)
     fast = engine == "fast"
@@ -132,6 +133,11 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
 
 
+def check_engine(engine: str) -> None:
+    if engine not in ("core", "fast"):
+        raise InputError(f"simulate: engine = {engine!r} must be 'core' or 'fast'")
+
+
 def vector(name: str, given: ArrayLike, n: int) -> Array:
     try:
         found = np.asarray(given, dtype=float)
@@ -144,9 +150,17 @@ def vector(name: str, given: ArrayLike, n: int) -> Array:
 
 def increasing(given: ArrayLike) -> Array:
     try:
-        found = np.atleast_1d(np.asarray(given, dtype=float))
+        found = np.asarray(given, dtype=float)
     except (TypeError, ValueError):
         raise InputError(f"simulate: t = {given!r} must be an array of times in s") from None
     if found.ndim != 1 or not len(found) or not np.isfinite(found).all() or (np.diff(found) <= 0).any():
-        raise InputError("simulate: t must be an increasing array of finite times, t[0] the time of q0 and v0")
+        raise InputError(
+            f"simulate: t = {_short(given)} must be an increasing array of finite times, t[0] the time of q0 and v0: "
+            "np.linspace(0, 10, 101)"
+        )
     return found
+
+
+def _short(given: ArrayLike) -> str:
+    text = repr(given)
+    return text if len(text) < 60 else f"{text[:57]}…"

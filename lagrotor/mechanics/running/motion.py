@@ -10,8 +10,15 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.integration import Array, Engine, Values, increasing, rhs_factory, states
-from lagrotor.mechanics.running.programs import Generated, energy_program, generated, motion_program, parameter_values
+from lagrotor.mechanics.running.programs import (
+    Generated,
+    energy_program,
+    function_program,
+    motion_program,
+    parameter_values,
+)
 from lagrotor.numerics.codegen import compile_program
 
 Kind = TypeVar("Kind", bound="Motion")
@@ -42,11 +49,12 @@ class Motion:
         return np.abs([self.evaluate(e) for e in off]).max(0) if off else np.zeros(len(self.t))
 
     def evaluate(self, expression: sp.Expr) -> Array:
-        """An expression in q, v, t and the parameters along the run, (n,).
+        """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ
+        of the constraints, system.multipliers, with which Gᵀ λ is the generalised force of the constraints.
 
         Raises InputError when it contains anything else.
         """
-        given = _function(self.system, sp.sympify(expression))
+        given = _function(self.system, checked("evaluate: expression", expression))
         return self._values(given, _compiled(given))
 
     def _values(self, given: Generated, function: Any) -> Array:
@@ -57,7 +65,7 @@ class Motion:
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
-        wanted = increasing(times)
+        wanted = increasing(np.atleast_1d(times))
         if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
         found = np.empty((len(wanted), 2 * self.q.shape[1]))
@@ -80,7 +88,7 @@ class Motion:
 
 @lru_cache(maxsize=256)
 def _function(system: Equations, expression: sp.Expr) -> Generated:
-    return generated(system, (), [expression])
+    return function_program(system, expression)
 
 
 @lru_cache(maxsize=256)

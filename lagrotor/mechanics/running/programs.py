@@ -46,7 +46,7 @@ def motion_program(system: Equations) -> Generated:
 
     Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
     """
-    stages, a = _accelerations(system)
+    stages, a, _ = _accelerations(system)
     return generated(system, stages, [*system.c.v, *a], moving=True)
 
 
@@ -86,6 +86,15 @@ def generated(
     return Generated(program, states, parameters)
 
 
+def function_program(system: Equations, expression: sp.Expr) -> Generated:
+    """(q, v[, t]) → an expression in q, v, t, the accelerations and the multipliers of a motion."""
+    if not expression.free_symbols & {*system.c.a, *system.multipliers}:
+        return generated(system, (), [expression])
+    stages, a, lam = _accelerations(system)
+    made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
+    return generated(system, stages, [expression.xreplace(made)])
+
+
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
     """(q, v[, t]) → the Jacobi integral."""
@@ -110,8 +119,8 @@ def depends_on_time(system: Equations) -> bool:
     return any(t in e.free_symbols for e in expressions)
 
 
-def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
-    """Stages, and the accelerations made of them: of a tree of bodies by its recursion, else from the mass matrix."""
+def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
+    """Stages, accelerations and multipliers made of them: of a tree of bodies by its recursion, else from the mass matrix."""
     G = system.rows
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is not None:
@@ -128,13 +137,15 @@ def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
     return bound(stages, solved, G, system.gamma)
 
 
-def bound(stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix) -> tuple[list[Stage], list[sp.Expr]]:
-    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints."""
+def bound(
+    stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix
+) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
+    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints, and the multipliers."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
-        return stages, list(free)
+        return stages, list(free), []
     right, lam = constraint_solve(G * W, -(G * free + gamma), "_s")
-    return [*stages, *right], list(free + W * lam)
+    return [*stages, *right], list(free + W * lam), list(lam)
 
 
 def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
@@ -192,6 +203,8 @@ def parameter_values(given: Generated, values: Mapping[Any, Any]) -> tuple[float
 
     Raises InputError when one is missing or is not a finite number.
     """
+    if not isinstance(values, Mapping):
+        raise InputError(f"simulate: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}
     if missing := [str(p) for p in given.parameters if str(p) not in by_name]:
         raise InputError(f"simulate: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")

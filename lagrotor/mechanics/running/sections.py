@@ -8,6 +8,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.errors import InputError
+from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.integration import Array
 from lagrotor.mechanics.running.motion import Motion
@@ -27,7 +28,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
-    section, n = sp.sympify(section), run.q.shape[1]
+    section, n = expression("crossings: section", section), run.q.shape[1]
     curve = CubicHermiteSpline(run.t, np.hstack([run.q, run.v]), run.derivatives())
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
     values = _moved(run, fine, curve(fine)).evaluate(section)
@@ -54,8 +55,9 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
 def poincare(run: Motion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
     """The values of the expressions `of` at the crossings, (m, len(of)): of two, the points of a Poincaré section."""
+    wanted = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
     there = crossings(run, section, direction)
-    return np.stack([there.evaluate(e) for e in of], axis=1)
+    return np.stack([there.evaluate(e) for e in wanted], axis=1)
 
 
 def _moved(run: Kind, times: Array, states: Array) -> Kind:

@@ -6,10 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import ConstraintError, InputError
+from lagrotor.errors import ConstraintError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running import lyapunov, run_pictures, sections
-from lagrotor.mechanics.running.integration import Array, Engine, Values, consistent, increasing, states, vector
+from lagrotor.mechanics.running.integration import (
+    Array,
+    Engine,
+    Values,
+    check_engine,
+    consistent,
+    increasing,
+    states,
+    vector,
+)
 from lagrotor.mechanics.running.motion import Motion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values
 from lagrotor.numerics.integrate import check_tolerance
@@ -46,8 +55,7 @@ def simulate(
     SingularError for a singular mass matrix, IntegrationError where the motion cannot go on.
     """
     times, tol = increasing(t), check_tolerance(tol)
-    if engine not in ("core", "fast"):
-        raise InputError(f"simulate: engine = {engine!r} must be 'core' or 'fast'")
+    check_engine(engine)
     n = len(system.c.q)
     start = np.concatenate([vector("q0", q0, n), vector("v0", v0, n)])
     parameter_values(motion_program(system), values)

@@ -1,0 +1,33 @@
+"""What is given as an expression is one: of plain symbols, finite, no text."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+
+
+def expression(where: str, given: Any) -> sp.Expr:
+    """A sympy expression; raise InputError, which begins with `where`, for anything else. No text is parsed."""
+    try:
+        e = sp.sympify(given, strict=True)
+    except (sp.SympifyError, TypeError):
+        e = None
+    if not isinstance(e, sp.Expr) or isinstance(e, sp.MatrixExpr | sp.MatrixBase):
+        raise InputError(f"{where} = {given!r} is no expression: build it from sympy symbols")
+    if moving := e.atoms(sp.Derivative, sp.core.function.AppliedUndef):
+        raise InputError(
+            f"{where} contains {', '.join(sorted(map(str, moving)))}: coordinates and velocities are plain "
+            "symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
+        )
+    if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+        raise InputError(f"{where} = {e} is not finite: correct it")
+    return e
+
+
+def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:
+    """n expressions; raise InputError, which begins with `where`, for anything else."""
+    if not isinstance(given, Sequence | sp.MatrixBase) or isinstance(given, str) or len(given) != n:
+        raise InputError(f"{where} = {given!r} must be {n} expressions")
+    return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(given))

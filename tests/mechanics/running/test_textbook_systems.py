@@ -1,0 +1,255 @@
+"""Systems that are not in the gallery, each against its equations of motion written by hand, and a twin that is elsewhere."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from lagrotor.mechanics import Frame, System, coordinates, t
+
+m, M, l, g, k, R, h, I, J, r, w, A, b = sp.symbols("m M l g k R h I J r omega A b", positive=True)
+cos, sin, sqrt = sp.cos, sp.sin, sp.sqrt
+DOWN = (0, 0, -g)
+VALUES = {m: 0.3, M: 1.2, l: 0.5, g: 9.81, k: 40.0, R: 0.4, h: 0.2, I: 0.01, J: 0.05, r: 0.1, w: 3.0, A: 0.7, b: 0.4}
+m_, M_, l_, g_, k_, R_, h_, I_, J_, r_, w_, A_, b_ = VALUES.values()
+
+
+@dataclass(frozen=True)
+class Case:
+    make: Callable[[], System]
+    accelerations: Callable[[float, np.ndarray, np.ndarray], object]
+    q: tuple[float, ...]
+    v: tuple[float, ...]
+    twin: sp.Symbol = m
+
+
+def cart() -> System:
+    c = coordinates("x theta")
+    top = Frame(c).moved(c.q[0])
+    bob, wagon = top.turned("y", c.q[1]).body(m, centre=(0, 0, -l)), top.body(M)
+    L = wagon.kinetic + bob.kinetic - bob.potential(DOWN)
+    return System(c, L, dissipation=b * c.v[0] ** 2 / 2, forces=(A * cos(w * t), 0))
+
+
+def cart_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    S, C = np.sin(q[1]), np.cos(q[1])
+    push = [A_ * np.cos(w_ * s) - b_ * v[0] - m_ * l_ * S * v[1] ** 2, -m_ * g_ * l_ * S]
+    return np.linalg.solve([[M_ + m_, -m_ * l_ * C], [-m_ * l_ * C, m_ * l_**2]], push)
+
+
+def elastic() -> System:
+    c = coordinates("r theta")
+    bob = Frame(c).turned("y", c.q[1]).moved(0, 0, -c.q[0]).body(m)
+    return System(c, bob.kinetic - bob.potential(DOWN) - k * (c.q[0] - l) ** 2 / 2)
+
+
+def elastic_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    out = q[0] * v[1] ** 2 + g_ * np.cos(q[1]) - k_ / m_ * (q[0] - l_)
+    return out, -(2 * v[0] * v[1] + g_ * np.sin(q[1])) / q[0]
+
+
+def atwood() -> System:
+    """Two masses on a rope over a wheel that does not slip."""
+    c = coordinates("z_1 z_2 phi")
+    one, two = Frame(c).moved(0, 0, c.q[0]).body(m), Frame(c).moved(0, 0, c.q[1]).body(M)
+    wheel = Frame(c).turned("y", c.q[2]).body(M, (0, I, 0))
+    L = one.kinetic + two.kinetic + wheel.kinetic - one.potential(DOWN) - two.potential(DOWN)
+    return System(c, L, constraints=(c.q[0] + c.q[1], c.q[0] - R * c.q[2]))
+
+
+def atwood_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    a = (M_ - m_) * g_ / (m_ + M_ + I_ / R_**2)
+    return a, -a, a / R_
+
+
+def helix() -> System:
+    c = coordinates("s")
+    (s,) = c.q
+    bead = Frame(c).moved(R * cos(s), R * sin(s), h * s).body(m)
+    return System(c, bead.kinetic - bead.potential(DOWN))
+
+
+def furuta() -> System:
+    c = coordinates("phi theta")
+    arm = Frame(c).turned("z", c.q[0])
+    pendulum = arm.moved(R).turned("x", c.q[1]).body(m, (I, I, 0), (0, 0, -l))
+    L = arm.body(M, (0, 0, J)).kinetic + pendulum.kinetic - pendulum.potential(DOWN)
+    return System(c, L, dissipation=b * c.v[0] ** 2 / 2, forces=(A, 0))
+
+
+def furuta_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    S, C, K, H = np.sin(q[1]), np.cos(q[1]), I_ + m_ * l_**2, m_ * R_ * l_
+    mass = [[J_ + m_ * R_**2 + K * S**2, H * C], [H * C, K]]
+    first = A_ - b_ * v[0] - 2 * K * S * C * v[0] * v[1] + H * S * v[1] ** 2
+    return np.linalg.solve(mass, [first, K * S * C * v[0] ** 2 - m_ * g_ * l_ * S])
+
+
+def driven() -> System:
+    c = coordinates("theta")
+    L = m * l**2 * c.v[0] ** 2 / 2 + m * g * l * cos(c.q[0])
+    return System(c, L, dissipation=b * c.v[0] ** 2 / 2, forces=(A * cos(w * t),))
+
+
+def driven_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    return (A_ * np.cos(w_ * s) - b_ * v - m_ * g_ * l_ * np.sin(q)) / (m_ * l_**2)
+
+
+def three_bodies() -> System:
+    c = coordinates("x_1 y_1 x_2 y_2 x_3 y_3")
+    places = [sp.Matrix(c.q[2 * i : 2 * i + 2]) for i in range(3)]
+    pairs = [places[i] - places[j] for i in range(3) for j in range(i)]
+    return System(c, m * sum(v**2 for v in c.v) / 2 + sum(A * m**2 / sqrt(e.dot(e)) for e in pairs))
+
+
+def three_bodies_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    P = q.reshape(3, 2)
+    way = P[None] - P[:, None]
+    cubes = np.linalg.norm(way, axis=-1) ** 3 + np.eye(3)
+    return (A_ * m_ * way / cubes[..., None]).sum(1).ravel()
+
+
+def shaken_top() -> System:
+    c = coordinates("phi theta psi")
+    body = Frame(c).moved(0, 0, A * cos(w * t)).turned("zxz", c.q).body(m, (J, J, I), (0, 0, l))
+    return System(c, body.kinetic - body.potential(DOWN))
+
+
+def shaken_top_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    S, C, K, pull = np.sin(q[1]), np.cos(q[1]), J_ + m_ * l_**2, g_ - A_ * w_**2 * np.cos(w_ * s)
+    spin = v[2] + v[0] * C
+    first = (I_ * spin * v[1] - 2 * K * v[0] * v[1] * C) / (K * S)
+    second = S * (K * v[0] ** 2 * C - I_ * spin * v[0] + m_ * pull * l_) / K
+    return first, second, -first * C + v[0] * v[1] * S
+
+
+def skate() -> System:
+    """On a slope, without sliding sideways."""
+    c = coordinates("x y phi")
+    L = m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 + I * c.v[2] ** 2 / 2 + m * A * c.q[0]
+    return System(c, L, rolling=(c.v[0] * sin(c.q[2]) - c.v[1] * cos(c.q[2]),))
+
+
+def skate_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    S, C = np.sin(q[2]), np.cos(q[2])
+    speed = v[0] * C + v[1] * S
+    return A_ * C * C - speed * v[2] * S, A_ * C * S + speed * v[2] * C, 0.0
+
+
+def absolute() -> System:
+    """A double pendulum in the angles to the vertical, from frames."""
+    c = coordinates("a b")
+    first = Frame(c).turned("y", c.q[0])
+    one = first.body(m, centre=(0, 0, -l))
+    two = first.moved(0, 0, -l).turned("y", c.q[1] - c.q[0]).body(m, centre=(0, 0, -l))
+    return System(c, one.kinetic + two.kinetic - one.potential(DOWN) - two.potential(DOWN))
+
+
+def absolute_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    d = q[0] - q[1]
+    force = [-np.sin(d) * v[1] ** 2 - 2 * g_ / l_ * np.sin(q[0]), np.sin(d) * v[0] ** 2 - g_ / l_ * np.sin(q[1])]
+    return np.linalg.solve([[2, np.cos(d)], [np.cos(d), 1]], force)
+
+
+def springs() -> System:
+    """Twelve masses in a row between walls, with a quadratic force (Fermi, Pasta, Ulam and Tsingou)."""
+    c = coordinates([f"x_{i}" for i in range(12)])
+    places = (0, *c.q, 0)
+    stretched = [right - left for left, right in pairwise(places)]
+    return System(c, m * sum(v**2 for v in c.v) / 2 - sum(k * (e**2 / 2 + A * e**3 / 3) for e in stretched))
+
+
+def springs_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
+    stretched = np.diff([0, *q, 0])
+    return k_ / m_ * np.diff(stretched + A_ * stretched**2)
+
+
+CASES = {
+    "a pendulum on a driven cart with friction": Case(cart, cart_by_hand, (0, 1.0), (0, 0.5)),
+    "an elastic pendulum": Case(elastic, elastic_by_hand, (0.6, 0.5), (0, 0.3)),
+    "Atwood's machine": Case(atwood, atwood_by_hand, (0, 0, 0), (0, 0, 0)),
+    "a bead on a helix": Case(helix, lambda s, q, v: -g_ * h_ / (R_**2 + h_**2), (0,), (1,), R),
+    "a Furuta pendulum": Case(furuta, furuta_by_hand, (0, 1.0), (0.5, 0.2)),
+    "a driven and damped pendulum": Case(driven, driven_by_hand, (0.2,), (0,)),
+    "three bodies in a plane": Case(
+        three_bodies, three_bodies_by_hand, (1, 0, -1, 0.3, 0, 2), (0, 0.2, 0.1, -0.2, 0, 0.1), A
+    ),
+    "a top on a shaken support": Case(shaken_top, shaken_top_by_hand, (0, 0.6, 0), (0.3, 0, 300), J),
+    "a skate on a slope": Case(skate, skate_by_hand, (0, 0, 0.3), (np.cos(0.3), np.sin(0.3), 2), A),
+    "a double pendulum in absolute angles": Case(absolute, absolute_by_hand, (1, 0.5), (0, 0), l),
+    "a chain of springs": Case(springs, springs_by_hand, tuple(np.sin(np.arange(1, 13))), (0,) * 12),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_it_moves_as_its_equations_by_hand(name: str) -> None:
+    case, times = CASES[name], np.linspace(0, 1, 21)
+    n = len(case.q)
+
+    def rhs(s: float, y: np.ndarray) -> np.ndarray:
+        return np.append(y[n:], case.accelerations(s, y[:n], y[n:]))
+
+    found = solve_ivp(rhs, (0, 1), (*case.q, *case.v), "DOP853", times, rtol=1e-12, atol=1e-12).y.T
+    run = case.make().simulate(VALUES, case.q, case.v, times, 1e-11)
+    scale = 1 + np.abs(found).max()
+    assert np.abs(np.hstack([run.q, run.v]) - found).max() < 1e-9 * scale
+    assert run.drift.max() < 1e-12
+    other = case.make().simulate(VALUES | {case.twin: 1.001 * VALUES[case.twin]}, case.q, case.v, times, 1e-11)
+    assert np.abs(np.hstack([other.q, other.v]) - found).max() > 1e-6 * scale
+
+
+def test_a_ball_on_a_turntable_goes_in_circles_at_two_sevenths_of_its_rate() -> None:
+    """Two rolling constraints that the table drives; Euler angles of the ball."""
+    c = coordinates("x y phi theta psi")
+    centre = Frame(c).moved(c.q[0], c.q[1], r)
+    turned = centre.turned("zxz", c.q[2:])
+    contact = turned.velocity((0, 0, -r), seen=centre)
+    rolling = (contact[0] + w * c.q[1], contact[1] - w * c.q[0])
+    ball = System(c, turned.body(m, (I, I, I)).kinetic, rolling=rolling)
+    values = VALUES | {I: 2 / 5 * m_ * r_**2}
+    start = ball.consistent(values, (0.3, 0, 0.1, 1.2, 0), (0.2, 0.1, 0.3, 0.2, 0.5))
+    times = np.linspace(0, 4, 41)
+
+    def circle(run_values: dict) -> float:
+        run = ball.simulate(run_values, *start, times, 1e-10)
+        z, z_v = run.q[:, 0] + 1j * run.q[:, 1], run.v[0, 0] + 1j * run.v[0, 1]
+        rate = 2 / 7 * w_
+        return float(np.abs(z - z[0] - z_v / (1j * rate) * (np.exp(1j * rate * times) - 1)).max())
+
+    assert circle(values) < 1e-9
+    assert circle(values | {I: 1 / 2 * m_ * r_**2}) > 1e-3
+
+
+def test_the_tension_of_a_rod_is_its_multiplier_and_an_acceleration_is_evaluated() -> None:
+    """T = m g cos θ + m v²/l of a pendulum in x and y; T along the rod is 2 l λ."""
+    c = coordinates("x y")
+    x, y = c.q
+    rod = System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
+    run = rod.simulate(VALUES, (l_, 0), (0, -1), np.linspace(0, 1, 21), 1e-11)
+    (lam,) = rod.multipliers
+    tension = m_ * g_ * -run.q[:, 1] / l_ + m_ * (run.v**2).sum(1) / l_
+    np.testing.assert_allclose(-2 * l_ * run.evaluate(lam), tension, atol=1e-9)
+    np.testing.assert_allclose(run.evaluate(m * c.a[0]), run.evaluate(2 * lam * x), atol=1e-9)
+    assert (
+        np.abs(run.evaluate(m * c.a[1]) - run.evaluate(2 * lam * y)).min() > 1
+    )  # gravity is no force of the constraint
+
+
+def test_the_hinge_force_of_a_tree_is_the_multiplier_of_what_holds_it() -> None:
+    """A four-bar linkage by the recursion: multipliers as from the mass matrix."""
+    c = coordinates("a b c")
+    frame, L = Frame(c), sp.S.Zero
+    for q in c.q:
+        frame = frame.turned("y", q)
+        bob, frame = frame.body(m, centre=(0, 0, -l)), frame.moved(0, 0, -l)
+        L = L + bob.kinetic - bob.potential(DOWN)
+    x, _, z = frame.place()
+    loop = (x - l, z + l)
+    tree, plain = System(c, L, loop), System(c, System(c, L).L, loop)
+    q, v = tree.consistent(VALUES, (0.3, -1.2, -0.5), (0.4, 0, 0))
+    runs = [system.simulate(VALUES, q, v, np.linspace(0, 0.5, 6), 1e-11) for system in (tree, plain)]
+    for lam in tree.multipliers:
+        np.testing.assert_allclose(runs[0].evaluate(lam), runs[1].evaluate(lam), rtol=1e-7)
