@@ -24,6 +24,9 @@ MUTANTS = [
     ("n3_waves", "4 * (sp.sin(q) ** 2 - c**2 + c", "4 * (sp.sin(q) ** 2 + c**2 + c"),
     ("n3_waves", "[2 * i * sines, -2 * i * sines]", "[2 * i * sines, 2 * i * sines]"),
     ("n3_waves", "closed = np.sqrt(3) * free", "closed = np.sqrt(2) * free"),
+    ("n4_damped", "(2 * (a * s + c) ** 2 + G_1", "(2 * (a * s - c) ** 2 + G_1"),
+    ("n4_damped", "gap = (y_1 - y_2) ** 2 / (2 * k)", "gap = (y_1 - y_2) ** 2 / k"),
+    ("n4_damped", "velocity = sp.exp(-c * t / a", "velocity = sp.exp(-c * t / (2 * a)"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
 ]
 
