@@ -11,9 +11,9 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.integrated import problem_of
 from lagrotor.numerics.adams import adams
-from lagrotor.numerics.integrate import Rate
-from lagrotor.numerics.integrators import Engine, StopError, Stretch, dop853
-from lagrotor.numerics.integrators import Run as States
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.segment import Engine, RightHandSide, Segment, StopError
+from lagrotor.numerics.segment import Run as States
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ IVP = ("RK45", "Radau", "BDF", "LSODA")
 
 
 def run_by(
-    solver: str, rhs: Rate, start: Array, t_eval: Array, tol: float, longest: float = np.inf
+    solver: str, rhs: RightHandSide, start: Array, t_eval: Array, tol: float, longest: float = np.inf
 ) -> tuple[Array, int]:
     """States (n, d) at increasing t_eval (n,) from `start` (d,) at t_eval[0], by one of SOLVERS, and nfev.
 
@@ -61,10 +61,10 @@ def run_by(
 def ode_engine(solver: str) -> Engine:
     """One of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
-    def run(stretch: Stretch, error: float) -> States:
-        t_eval = np.union1d([stretch.left], stretch.asked)
-        states, nfev = run_by(solver, stretch.rate, stretch.start, t_eval, error, stretch.longest)
-        return States(states[-len(stretch.asked) :], states[-1], nfev)
+    def run(segment: Segment, error: float) -> States:
+        t_eval = np.union1d([segment.left], segment.t_eval)
+        states, nfev = run_by(solver, segment.rhs, segment.start, t_eval, error, segment.longest)
+        return States(states[-len(segment.t_eval) :], states[-1], nfev)
 
     return run
 
@@ -72,7 +72,7 @@ def ode_engine(solver: str) -> Engine:
 def ivp_engine(method: str) -> Engine:
     """A method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
 
-    def run(stretch: Stretch, error: float) -> States:
+    def run(segment: Segment, error: float) -> States:
         from scipy.integrate import solve_ivp
 
         nfev = 0
@@ -80,18 +80,18 @@ def ivp_engine(method: str) -> Engine:
         def counted(s: float, y: Array) -> list[float]:
             nonlocal nfev
             nfev += 1
-            if nfev > stretch.allowance:
+            if nfev > segment.max_nfev:
                 raise StopError(s, f"{nfev - 1} evaluations by s = {s:.3g} s")
-            return stretch.rate(s, y)
+            return segment.rhs(s, y)
 
         found = solve_ivp(
-            counted, (stretch.left, stretch.right), stretch.start, method=method, t_eval=stretch.asked,
-            rtol=max(error, 2.3e-14), atol=error, max_step=stretch.longest,
+            counted, (segment.left, segment.right), segment.start, method=method, t_eval=segment.t_eval,
+            rtol=max(error, 2.3e-14), atol=error, max_step=segment.longest,
         )  # fmt: skip
         if not found.success:
-            raise StopError(stretch.right, found.message)
+            raise StopError(segment.right, found.message)
         if not np.isfinite(found.y).all():
-            raise StopError(stretch.right, "a value is not finite")
+            raise StopError(segment.right, "a value is not finite")
         return States(found.y.T, found.y[:, -1], nfev)
 
     return run
@@ -107,19 +107,19 @@ def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
         end = float(t_eval[-1])
         problem = problem_of(minimal.MODEL, scene, end)
         longest = problem.width if problem.driven and sees_shock else np.inf
-        stretch = Stretch(
-            rate=problem.driven or problem.free,
+        segment = Segment(
+            rhs=problem.driven or problem.free,
             start=problem.start,
             left=-problem.at,
             right=end - problem.at,
-            asked=t_eval - problem.at,
+            t_eval=t_eval - problem.at,
             longest=longest,
-            allowance=5 * problem.allowance,
+            max_nfev=5 * problem.max_nfev,
         )
 
         def run(tol: float) -> tuple[Array, int]:
-            found = engine(stretch, tol)
-            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.evaluations
+            found = engine(segment, tol)
+            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.nfev
 
         return run
 

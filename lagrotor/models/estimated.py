@@ -16,8 +16,9 @@ from lagrotor.models.conserved import PulseNodes, conservation_defect, pulse_nod
 from lagrotor.models.integrated import integrated
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import PACE
-from lagrotor.numerics.integrate import CROSSOVER, TIGHTEST
-from lagrotor.numerics.integrators import StopError
+from lagrotor.numerics.calibrated import CROSSOVER
+from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 
 _SAMPLES = 65  # times at which a run is watched besides those it is read at
@@ -83,28 +84,38 @@ def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, pr
 def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: str, bounded: bool) -> Estimated:
     """The model at tolerances that keep the axes within `wanted` as the estimate has it, else the best there is.
 
+    Each run is compared with the one before it, at APART times the tolerance. Where the two differ by more than `wanted`, a
+    third is enough if the tolerance of the second gives it in proportion; else a pair follows at the tolerances that do.
     Scene in natural units. Raises as `run_at`.
     """
     watched = _watched(model, scene, times, engine, bounded)
-    loose, nfev = max(min(wanted * FIRST, LOOSEST), 3 * TIGHTEST), 0
+    loose, nfev, companion = max(min(wanted * FIRST, LOOSEST), CLEARLY * TIGHTEST), 0, True
+    one: Observed | None = None
     best: Estimated | None = None
     stopped: IntegrationError | None = None
     while True:
         tight = _tighter(loose, engine)
         try:
-            (one, spent), (two, more) = watched.run(loose, True), watched.run(tight)
-            nfev += spent + more
+            if one is None:
+                one, spent = watched.run(loose, companion)
+                nfev += spent
+            two, spent = watched.run(tight, not companion)
+            nfev += spent
             found = _estimated(watched, one, two, nfev, tight, wanted)
-            best = found if best is None or found.errors[-1] < best.errors[-1] else replace(best, nfev=nfev)
         except IntegrationError as refusal:
             stopped = stopped or refusal
-        if stopped and (best or bounded or loose > GIVEN_UP):
+            if best or bounded or loose > GIVEN_UP:
+                break
+            loose, one = loose * APART, None
+            continue
+        best = found if best is None or found.errors[-1] < best.errors[-1] else replace(best, nfev=nfev)
+        error = float(found.errors[-1])
+        if error <= wanted or tight < CLEARLY * TIGHTEST or _hopeless(found, loose, float(watched.t[-1])):
             break
-        if best and (
-            best.errors[-1] <= wanted or loose <= 3 * TIGHTEST or _hopeless(best, loose, float(watched.t[-1]))
-        ):
-            break
-        loose = loose * APART if best is None else max(min(tight, loose * wanted / best.errors[-1] / 2), 3 * TIGHTEST)
+        if error * tight / loose <= wanted / 2:
+            loose, one, companion = tight, two, not companion
+        else:
+            loose, one = max(min(tight, loose * wanted / error / 2), CLEARLY * TIGHTEST), None
     if best is None:
         raise stopped or IntegrationError("no run")
     return best

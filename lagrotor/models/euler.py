@@ -14,7 +14,7 @@ import numpy as np
 from lagrotor.errors import SingularError
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.numerics.generated import generated
-from lagrotor.numerics.integrate import Projection
+from lagrotor.numerics.segment import Projection
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -33,9 +33,9 @@ def program(massive: bool, body: int) -> Program:
 
 @generated((*kind, False) for kind in product((False, True), (0, 1, 2)))
 def _rhs(massive: bool, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rate_source
+    from lagrotor.numerics.rhs import rhs_source
 
-    return rate_source(program(massive, body), 12, body > 0, bounded)
+    return rhs_source(program(massive, body), 12, body > 0, bounded)
 
 
 @generated(((False,), (True,)))

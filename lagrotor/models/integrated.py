@@ -11,7 +11,7 @@ import numpy as np
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import typical_rate
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.integrators import OutsideError
+from lagrotor.numerics.segment import OutsideError
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def problem_of(model: Model, scene: Scene, t_end: float, bounded: bool = False, 
     return Problem(
         free=model.rate(scene, False, bounded),
         start=_start(model, scene, companion),
-        allowance=20_000 + 250 * rate * t_end,
+        max_nfev=20_000 + 250 * rate * t_end,
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
         width=shock.width if shock else 0.0,
@@ -55,15 +55,14 @@ def integrated(
 ) -> Integrated:
     """The model's run at increasing `times` (n,) in s, with a local error `tol` as `integrate` has it.
 
-    companion: by steps that a run without it does not take, from the start brought onto its constraints once more, so that
-    the rounding of the two differs.
+    companion: from a start that is off by rounding, and by steps that a run without it does not take.
 
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.
     """
     if engine == "core":
         solution = integrate(problem_of(model, scene, float(times[-1]), bounded, companion), times, tol)
-        return Integrated(model.observe(scene, solution.states), solution.evaluations)
+        return Integrated(model.observe(scene, solution.states), solution.nfev)
     from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
 
     shock, project = scene.shock, model.projection(scene) if model.projection else None
@@ -82,12 +81,15 @@ def integrated(
     )
     if bounded:
         _check_states(*model.program(scene, False), times, solution.states)
-    return Integrated(model.observe(scene, solution.states), solution.evaluations)
+    return Integrated(model.observe(scene, solution.states), solution.nfev)
 
 
 def _start(model: Model, scene: Scene, companion: bool) -> Array:
     start = model.start(scene)
-    return model.projection(scene)(start) if companion and model.projection else start
+    if not companion:
+        return start
+    beside = start * (1 + np.finfo(float).eps * np.cos(np.arange(1, len(start) + 1)))  # in no special direction
+    return model.projection(scene)(beside) if model.projection else beside
 
 
 def check_range(model: Model, scene: Scene) -> None:

@@ -34,9 +34,9 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
 
 @generated((*kind, bounded) for kind in KINDS for bounded in (False, True))
 def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rate_source
+    from lagrotor.numerics.rhs import rhs_source
 
-    return rate_source(program(massive, ratio, body), 6, body > 0, bounded)
+    return rhs_source(program(massive, ratio, body), 6, body > 0, bounded)
 
 
 @generated(KINDS)

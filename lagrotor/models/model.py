@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.generated import GeneratedFunction
-from lagrotor.numerics.integrate import Projection, Rate
+from lagrotor.numerics.segment import Projection, RightHandSide
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class Model:
         kind, values = self.kind(scene, driven)
         return self.derive(*kind), values
 
-    def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> Rate:
+    def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> RightHandSide:
         """The right-hand side s, y ↦ y' in Python floats, s the time from the pulse's peak, with the pulse if `driven`.
 
         A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; bounded: a state
@@ -66,11 +66,11 @@ class Model:
         shock = scene.shock if driven else None
         if shock:
             values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
-        rate: Rate = self.rhs(*kind, bounded)(*values)
+        rate: RightHandSide = self.rhs(*kind, bounded)(*values)
         return rate if self.outside is None else _guarded(rate, self.outside, self.size)
 
 
-def _guarded(rate: Rate, outside: Callable[[Array], bool], size: int) -> Rate:
+def _guarded(rate: RightHandSide, outside: Callable[[Array], bool], size: int) -> RightHandSide:
     def guarded(s: float, y: Array) -> list[float]:
         return [float("nan")] * size if outside(y) else rate(s, y)
 

@@ -18,7 +18,7 @@ from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, constant_momenta
 from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
 from lagrotor.numerics.integrate import check_tolerance
-from lagrotor.numerics.integrators import StopError
+from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from lagrotor.models.model import Array, Model, Observed, constant_momenta
 from lagrotor.numerics.generated import generated
-from lagrotor.numerics.integrate import Projection
+from lagrotor.numerics.segment import Projection
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -36,9 +36,9 @@ def program(massive: bool, bar: bool, body: int) -> Program:
 
 @generated((*kind, False) for kind in KINDS)
 def _rhs(massive: bool, bar: bool, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rate_source
+    from lagrotor.numerics.rhs import rhs_source
 
-    return rate_source(program(massive, bar, body), 12, body > 0, bounded)
+    return rhs_source(program(massive, bar, body), 12, body > 0, bounded)
 
 
 @generated(kind[:2] for kind in KINDS if kind[2] == 0)

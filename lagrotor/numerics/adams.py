@@ -6,20 +6,21 @@ from functools import lru_cache
 
 import numpy as np
 
-from lagrotor.numerics.integrators import Array, Run, StopError, Stretch
+from lagrotor.numerics.segment import Array, Run, Segment, StopError
 
 _BLOCK = 100
 _SWEEPS = 25
+_PIECE = 2_000  # steps, after which a longer one than had failed before is tried again
 
 
 def adams_order(error: float) -> int:
-    """Of the pair, for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
+    """Order of the pair for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
     return 10 if error >= 1e-10 else 12
 
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array]:
-    """What an Adams pair of q rates needs, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
+    """Weights of an Adams pair of q nodes, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
 
     A (q,): integrals from the last node to the one after it (Adams–Bashforth); B (q,): from the last but one to the last
     (Adams–Moulton); P (q, q + 1): the integral of l_j from the middle node q // 2 as a polynomial in steps from there.
@@ -45,15 +46,15 @@ def adams_weights(q: int) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and rates (n + 1, d) at the nodes, what was spent, and by how
-    much h is to change."""
+    """Equal steps h from t by the pair of order q: states and velocities y' (n + 1, d) at the nodes, evaluations, and the
+    factor by which h is to change."""
 
     q: int
     t: float
     h: float
     states: Array
-    rates: Array
-    spent: int
+    velocities: Array
+    nfev: int
     change: float
 
     def read(self, times: Array) -> Array:
@@ -63,91 +64,110 @@ class _Piece:
         steps = (times - self.t) / self.h
         middle = np.clip(np.floor(steps).astype(int), q // 2, len(self.states) - q + q // 2)
         weights = np.vander(steps - middle, q + 1, increasing=True) @ P.T
-        window = self.rates[middle[:, None] + np.arange(q) - q // 2]
+        window = self.velocities[middle[:, None] + np.arange(q) - q // 2]
         return self.states[middle] + self.h * np.einsum("mj,mjd->md", weights, window)
 
 
-def _piece(stretch: Stretch, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
+def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
     """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
 
     Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
     Wanner, III.1). The first q nodes come together: their integral equation is swept until nothing moves.
     """
-    rate = stretch.rate
+    rhs = segment.rhs
     A, B, P = adams_weights(q)
     from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
     S = h * (from_middle - from_middle[0])
-    states, rates, off = np.empty((steps + 1, len(y))), np.empty((steps + 1, len(y))), np.zeros((steps + 1, len(y)))
-    states[:q], rates[:q] = y, rate(t, y)
-    spent = 1
+    states, velocities, off = (
+        np.empty((steps + 1, len(y))),
+        np.empty((steps + 1, len(y))),
+        np.zeros((steps + 1, len(y))),
+    )
+    states[:q], velocities[:q] = y, rhs(t, y)
+    nfev = 1
     for sweep in range(_SWEEPS):
         before = states[:q].copy()
-        states[:q] = y + S @ rates[:q]
+        states[:q] = y + S @ velocities[:q]
         for i in range(1, q):
-            rates[i] = rate(t + i * h, states[i])
-        spent += q - 1
+            velocities[i] = rhs(t + i * h, states[i])
+        nfev += q - 1
         moved = np.abs(states[:q] - before).max()
         if sweep and not moved > 2e-15 * (1 + np.abs(y).max()):
             break
     if not moved < 1e-13 * (1 + np.abs(y).max()):
-        return _Piece(q, t, h, states[:1], rates[:1], spent, 0.5)
+        return _Piece(q, t, h, states[:1], velocities[:1], nfev, 0.5)
 
+    # What rounding alone leaves of predictor less corrector, over h.
+    noise = 4 * np.finfo(float).eps * (np.abs(A).sum() * np.abs(velocities[:q]).max() / (1 + np.abs(y).max()) + 1 / h)
+    limit = max(limit, noise)
     hA, hB, last, n = h * A, h * B, states[q - 1], q
     while n <= steps:
         block = range(n, min(n + (_BLOCK if n > q else 2 * q), steps + 1))
         for n in block:
-            predicted = last + hA.dot(rates[n - q : n])
-            rates[n] = rate(t + n * h, predicted)
-            states[n] = last = last + hB.dot(rates[n - q + 1 : n + 1])
+            predicted = last + hA.dot(velocities[n - q : n])
+            velocities[n] = rhs(t + n * h, predicted)
+            states[n] = last = last + hB.dot(velocities[n - q + 1 : n + 1])
             off[n] = last - predicted
-            rates[n] = rate(t + n * h, last)
-            if stretch.time_to_singular and stretch.clear(last) < h:
-                raise StopError(t + n * h, "equal steps would pass a singular position")
-        spent += 2 * len(block)
+            velocities[n] = rhs(t + n * h, last)
+        nfev += 2 * len(block)
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
         worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
-        if not worst <= limit:
+        near = _passes_singular(segment, states[block.start - q : n + 1], h)
+        if near or not worst <= limit:
+            change = min(change, 0.5) if near else change
             kept = block.start if block.start > q else 1
-            return _Piece(q, t, h, states[:kept], rates[:kept], spent, change)
-        if stretch.project is not None:
-            states[n] = last = stretch.project(last)
+            return _Piece(q, t, h, states[:kept], velocities[:kept], nfev, change)
+        if segment.project is not None:
+            states[n] = last = segment.project(last)
         n += 1
-        if worst < limit / 300 and n <= steps and 1.3 * h < stretch.longest:
-            return _Piece(q, t, h, states[:n], rates[:n], spent, change)
-    return _Piece(q, t, h, states, rates, spent, 1.0)
+        if worst < max(limit / 300, noise) and n <= steps and 1.3 * h < segment.longest:
+            return _Piece(q, t, h, states[:n], velocities[:n], nfev, change)
+    return _Piece(q, t, h, states, velocities, nfev, 1.0)
 
 
-def adams(stretch: Stretch, error: float) -> Run:
-    """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it."""
-    asked, right, y, t = stretch.asked, stretch.right, stretch.start, stretch.left
+def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
+    return segment.time_to_singular is not None and any(segment.clear(y) < h for y in states)
+
+
+def adams(segment: Segment, error: float) -> Run:
+    """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it.
+
+    Raises StopError with what was reached.
+    """
+    t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
     h = min(
         (right - t) / q,
-        stretch.longest,
-        min(limit ** (1 / q) / 5, 0.05) / (max(stretch.pace, stretch.typical_rate) + 1e-300),
+        segment.longest,
+        min(limit ** (1 / q) / 5, 0.05) / (max(segment.relative_speed, segment.typical_rate) + 1e-300),
     )
-    found, done, spent, end = np.empty((len(asked), len(y))), 0, 1, y
+    found, done, nfev, end = np.empty((len(t_eval), len(y))), 0, 1, y
     while t < right:
-        steps = min(max(int(np.ceil((right - t) / h)), q), 10_000)
+        steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
         with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
-            piece = _piece(stretch, q, y, t, h, steps, limit)
-        spent += piece.spent
-        if piece.change < 1:  # too long once, for its error or because it is not stable: not tried again
-            stretch = replace(stretch, longest=1.2 * piece.change * h)
-        if spent > stretch.allowance:
-            raise StopError(t, f"{spent} evaluations spent")
+            piece = _piece(replace(segment, longest=longest), q, y, t, h, steps, limit)
+        nfev += piece.nfev
+        # A step too long once, for its error or because it is not stable, is not tried again for a while.
+        if piece.change < 1:
+            longest = 1.2 * piece.change * h
+        elif len(piece.states) > _PIECE:
+            longest = min(1.5 * longest, segment.longest)
         if len(piece.states) > 1:
             reached = t + (len(piece.states) - 1) * h
-            until = int(np.searchsorted(asked, reached, side="right")) if reached < right else len(asked)
-            found[done:until] = piece.read(asked[done:until])
+            until = int(np.searchsorted(t_eval, reached, side="right")) if reached < right else len(t_eval)
+            found[done:until] = piece.read(t_eval[done:until])
             end = piece.read(np.array([right]))[0] if reached >= right else end
             done, t, y = until, reached, piece.states[-1]
-        h = min(h * min(piece.change, 2.0), stretch.longest)
-        if t + h == t:
-            raise StopError(t, "the step vanishes")
+        h = min(h * min(piece.change, 2.0), longest)
+        if t < right and (nfev > segment.max_nfev or t + h == t):
+            reason = "the step vanishes" if t + h == t else f"{nfev} evaluations spent"
+            raise StopError(t, reason, _on_constraints(segment, found[:done], y, nfev))
     if not (np.isfinite(end).all() and np.isfinite(found).all()):
         raise StopError(t, "a value is not finite")
-    if stretch.project is not None:
-        return Run(stretch.project(found.T).T, stretch.project(end), spent)
-    return Run(found, end, spent)
+    return _on_constraints(segment, found, end, nfev)
+
+
+def _on_constraints(segment: Segment, states: Array, end: Array, nfev: int) -> Run:
+    project = segment.project
+    return Run(project(states.T).T, project(end), nfev) if project and len(states) else Run(states, end, nfev)

@@ -25,14 +25,14 @@ class Swarm:
     """n problems y' = rates(s, y) with s = t − at, y = start (d, n) at t = 0.
 
     rates: given the indices of those still on their way, their right-hand side. fastest (n,), rad/s: for the first step.
-    allowance (n,): evaluations after which one is given up. at, width (n,), s: pulses, within 6.5 widths of which no step
+    max_nfev (n,): evaluations after which one is given up. at, width (n,), s: pulses, within 6.5 widths of which no step
     is longer than the width, and at whose edges a step ends; width 0 for none.
     """
 
     rates: Callable[[Index], Rates]
     start: Array
     fastest: Array
-    allowance: Array
+    max_nfev: Array
     at: Array
     width: Array
 
@@ -41,7 +41,7 @@ def march(swarm: Swarm, times: Array, tol: float) -> tuple[Array, NDArray[np.int
     """States (n, m, d) at the times (m,), increasing from 0 or later, and evaluations (n,).
 
     DOP853 (Hairer, Nørsett & Wanner, II.5) with the error norm of scipy's, taken for each trajectory by itself, and a
-    local error of tol / 20, as in `numerics.solve`. One that gets stuck or has used its allowance leaves NaN from
+    local error of tol / 20, as in `numerics.solve`. One that gets stuck or has used its max_nfev leaves NaN from
     there on.
     """
     (d, n), m, error = swarm.start.shape, len(times), max(tol / 20, 2.3e-14)
@@ -86,7 +86,7 @@ def _march(swarm: Swarm, times: Array, error: float, first: int, states: Array, 
         if there.any():
             states[who[there], following[there]] = y[:, there].T
             following = following + there
-        stay = (following < m) & (spent[who] < swarm.allowance[who]) & (ok | (step > least[who]))
+        stay = (following < m) & (spent[who] < swarm.max_nfev[who]) & (ok | (step > least[who]))
         if not stay.all():
             who, s, h, following = who[stay], s[stay], h[stay], following[stay]
             f, y, rates = room[0][:, stay], y[:, stay], swarm.rates(who)

@@ -1,40 +1,34 @@
-"""One door to scipy's initial value solvers, which never steps over a pulse."""
+"""States of an initial value problem at any times: the solver that is fastest at the tolerance, never over a pulse."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.adams import adams
-from lagrotor.numerics.integrators import OutsideError, Run, StopError, Stretch, dop853, lsoda
-from lagrotor.numerics.integrators import Projection as Projection
-from lagrotor.numerics.integrators import Rate as Rate
+from lagrotor.numerics.calibrated import CROSSOVER, DETOUR
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import segments
-
-Array = NDArray[np.float64]
+from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHandSide, Run, Segment, StopError
 
 TIGHTEST = 1e-13
-# LSODA leaves up to 200 times the error it is asked for, and cannot be asked for much less than 1e-13. 10 s of the
-# displaced pair: an error of 1e-10 takes it 9 ms, Adams of order 12 11 ms, DOP853 in Python 60; one of 1e-13 only Adams
-# reaches, in 16 ms.
-CROSSOVER = 5e-11
 
 
 @dataclass(frozen=True)
 class Problem:
     """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
 
-    `project` brings a state (d,), or states (d, n), back onto their constraints; `allowance` is how many evaluations the
-    run may take before it is said to crawl; `typical_rate`, in rad/s, bounds the first step;
+    `project` brings a state (d,), or states (d, n), back onto their constraints; `max_nfev` is how many evaluations the
+    run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
     no step is longer than half of `time_to_singular` of the state where it begins.
     """
 
-    free: Rate
+    free: RightHandSide
     start: Array
-    allowance: float
-    driven: Rate | None = None
+    max_nfev: float
+    driven: RightHandSide | None = None
     at: float = 0.0
     width: float = 0.0
     project: Projection | None = None
@@ -44,10 +38,10 @@ class Problem:
 
 @dataclass(frozen=True)
 class Solution:
-    """States (n, d) at the asked times, and how often the right-hand side was evaluated."""
+    """States (n, d) at the times of the run, and how often the right-hand side was evaluated."""
 
     states: Array
-    evaluations: int
+    nfev: int
 
 
 def check_tolerance(tol: float) -> float:
@@ -63,48 +57,84 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
     at the pulse's edges, s = ± 6.5 width; within them no step is longer than `width`, so no tolerance can miss it.
 
-    Raises StopError, an IntegrationError with the time, when the solver cannot go on, or crawls.
+    Raises StopError, an IntegrationError with the time, when the solver cannot go on, or takes more than `max_nfev`.
     """
-    asked = times - problem.at
-    begin, end = -problem.at, float(asked[-1])
+    t_eval = times - problem.at
+    begin, end = -problem.at, float(t_eval[-1])
     states = np.empty((len(times), len(problem.start)))
-    states[asked == begin] = problem.start
-    y, evaluations = problem.start, 0
+    states[t_eval == begin] = problem.start
+    y, nfev = problem.start, 0
     for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
         if right > left:
-            inside = (asked > left) & (asked <= right)
+            inside = (t_eval > left) & (t_eval <= right)
+            segment = Segment(
+                problem.driven if pulsed and problem.driven else problem.free,
+                y,
+                left,
+                right,
+                t_eval[inside],
+                problem.width if pulsed else np.inf,
+                problem.max_nfev - nfev,
+                problem.project,
+                problem.typical_rate,
+                problem.time_to_singular,
+            )
             try:
-                run = _run(problem, pulsed, y, left, right, asked[inside], tol, evaluations)
+                run = _run(segment, pulsed, tol)
             except StopError as stopped:
                 raise StopError(problem.at + stopped.at, stopped.reason) from None
             states[inside], y = run.states, run.end
-            evaluations += run.evaluations
-    return Solution(states, evaluations)
+            nfev += run.nfev
+            if nfev > problem.max_nfev:
+                raise StopError(problem.at + right, f"{nfev} evaluations spent")
+    return Solution(states, nfev)
 
 
-def _run(
-    problem: Problem, pulsed: bool, y: Array, left: float, right: float, asked: Array, tol: float, spent: int
-) -> Run:
-    """One stretch without an edge inside, by the engine that is fastest at this tolerance.
+def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
+    """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
 
-    Where that engine stops, DOP853 tries again in its own steps, and says where it stops if it does.
+    The while is longer after each time that the solver took more evaluations than DOP853 does for as long a run.
     """
-    rate = problem.driven if pulsed and problem.driven else problem.free
-    # From a rate that is not finite a solver makes a step that is not, and retries it for ever.
-    if not np.isfinite(rate(left, y)).all():
-        raise StopError(left, "the right-hand side is not finite")
-    longest, allowance = problem.width if pulsed else np.inf, problem.allowance - spent
-    stretch = Stretch(
-        rate, y, left, right, asked, longest, allowance, problem.project, problem.typical_rate, problem.time_to_singular
-    )
-    try:
-        if tol >= CROSSOVER:
-            return lsoda(stretch, min(tol / 200, 1e-6 if pulsed else np.inf))
-        if pulsed:
-            return dop853(stretch, tol / 20)
-        # Where equal steps do not pay, Adams is given up soon and DOP853 takes its own steps.
-        return adams(replace(stretch, allowance=min(allowance, 5_000 + 0.15 * allowance)), tol)
-    except OutsideError:
-        raise
-    except StopError:
-        return dop853(stretch, tol / 20)
+    # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
+    if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
+        raise StopError(segment.left, "the right-hand side is not finite")
+    if pulsed and tol < CROSSOVER:
+        return dop853(segment, tol / 20)
+    whole, nfev, found, per_time = segment.right - segment.left, 0, list[Array](), np.inf
+    detour = DETOUR / segment.typical_rate if segment.typical_rate else whole
+    while True:
+        left = segment.left
+        try:
+            run = _fastest(replace(segment, max_nfev=segment.max_nfev - nfev), pulsed, tol)
+            break
+        except OutsideError:
+            raise
+        except StopError as stopped:
+            if stopped.reached:
+                segment, nfev = _after(segment, stopped.at, stopped.reached, found), nfev + stopped.reached.nfev
+                if stopped.reached.nfev >= per_time * (stopped.at - left):
+                    detour *= 4
+            else:
+                detour *= 4
+        left, right = segment.left, min(segment.left + detour, segment.right)
+        inside = segment.t_eval <= right
+        part = replace(segment, right=right, t_eval=segment.t_eval[inside], max_nfev=segment.max_nfev - nfev)
+        run = dop853(part, tol / 20)
+        if right == segment.right:
+            break
+        per_time = run.nfev / (right - left)
+        segment, nfev = _after(segment, right, run, found), nfev + run.nfev
+    return Run(np.concatenate([*found, run.states]), run.end, nfev + run.nfev)
+
+
+def _fastest(segment: Segment, pulsed: bool, tol: float) -> Run:
+    if tol >= CROSSOVER:
+        return lsoda(segment, min(tol / 200, 1e-6 if pulsed else np.inf))
+    # Where equal steps do not pay, Adams is given up soon.
+    return adams(replace(segment, max_nfev=min(segment.max_nfev, 5_000 + 0.15 * segment.max_nfev)), tol)
+
+
+def _after(segment: Segment, t: float, run: Run, found: list[Array]) -> Segment:
+    """What is left of a segment after a run up to t, whose states are added to what was found."""
+    found.append(run.states)
+    return replace(segment, start=run.end, left=t, t_eval=segment.t_eval[len(run.states) :])

@@ -15,7 +15,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.generated import function_of
-from lagrotor.numerics.integrators import Rate
+from lagrotor.numerics.segment import RightHandSide
 
 
 class _Products(PythonCodePrinter):  # type: ignore[misc]
@@ -75,12 +75,14 @@ def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: 
     return lines
 
 
-def rate_factory(program: Program, states: int, driven: bool = False, bounded: bool = False) -> Callable[..., Rate]:
-    """parameters → rhs(s, y): the function of `rate_source`."""
-    return function_of(rate_source(program, states, driven, bounded))
+def make_rhs(
+    program: Program, states: int, driven: bool = False, bounded: bool = False
+) -> Callable[..., RightHandSide]:
+    """parameters → rhs(s, y): the function of `rhs_source`."""
+    return function_of(rhs_source(program, states, driven, bounded))
 
 
-def rate_source(program: Program, states: int, driven: bool = False, bounded: bool = False) -> str:
+def rhs_source(program: Program, states: int, driven: bool = False, bounded: bool = False) -> str:
     """Source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
 
     driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
@@ -118,7 +120,7 @@ def _made(body: list[str], fixed: list[str], given: list[str], outputs: int) -> 
     """The function of the lines `body`, made for given parameters once the lines `fixed` are evaluated."""
     source = [
         "from math import *",
-        "from lagrotor.numerics.integrators import LOST, OutsideError",
+        "from lagrotor.numerics.segment import LOST, OutsideError",
         f"def make({', '.join(given)}):",
         *(f"    {line}" for line in fixed),
         "    def bare(s, y):",

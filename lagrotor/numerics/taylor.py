@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.integrate import Projection, Solution
-from lagrotor.numerics.integrators import StopError
+from lagrotor.numerics.integrate import Solution
 from lagrotor.numerics.pulse import segments
+from lagrotor.numerics.segment import Projection, StopError
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
@@ -74,7 +74,7 @@ def integrate_taylor(
     at, width = (pulse.at, pulse.width) if pulse else (0.0, 0.0)
     t_eval = times - at if pulse else times
     found: list[Array] = []
-    d, y, evaluations = len(start), start, 0
+    d, y, nfev = len(start), start, 0
     for left, right, driven in segments(-at, float(t_eval[-1]), width):
         program, values = generated(driven)
         solver = _solver(program, d, driven, order, 1, get_ident())
@@ -94,9 +94,9 @@ def integrate_taylor(
             y[cyclic] /= _CARRIED
             found.append(states[:, :d])
             y, left = (y[:d] if project is None else project(y[:d])), until
-            evaluations += steps * solver.order
+            nfev += steps * solver.order
     states = np.concatenate(found)
-    return Solution(states if project is None else project(states.T).T, evaluations)
+    return Solution(states if project is None else project(states.T).T, nfev)
 
 
 def _propagated(solver: Any, t_eval: Array, until: float, longest: float) -> tuple[Array | None, Array, int]:

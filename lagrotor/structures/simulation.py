@@ -68,7 +68,7 @@ def _integrated(motion: ExactMotion, start: Array, times: Array, local: float) -
     found = integrate(problem, rate * times, local)
     states = found.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
     states[1] *= rate
-    return states, found.evaluations
+    return states, found.nfev
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:

@@ -11,7 +11,9 @@ from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.benchmark.scipy_solvers import ENGINES, IVP, TRAPS, ivp_engine
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics.adams import adams
-from lagrotor.numerics.integrators import StopError, Stretch, dop853, lsoda
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.lsoda import lsoda
+from lagrotor.numerics.segment import Segment, StopError
 
 COURSES = {name: CASES[name](True) for name in ("displaced", "shock")}
 TIMES = np.linspace(0, 4, 41)
@@ -47,9 +49,9 @@ def test_a_shock_too_small_to_square_stops_one_of_them() -> None:
 
 def test_an_engine_that_crawls_is_stopped() -> None:
     scene = COURSES["displaced"].scene
-    stretch = Stretch(minimal.MODEL.rate(scene, False), minimal.MODEL.start(scene), 0.0, 4.0, TIMES, allowance=100)
+    segment = Segment(minimal.MODEL.rate(scene, False), minimal.MODEL.start(scene), 0.0, 4.0, TIMES, max_nfev=100)
     with pytest.raises(StopError, match="100 evaluations by"):
-        ivp_engine("RK45")(stretch, 1e-8)
+        ivp_engine("RK45")(segment, 1e-8)
 
 
 # Trap: a plain call over the run.
@@ -108,7 +110,7 @@ def test_a_reused_output_is_silently_wrong() -> None:
 
     times = np.linspace(0, 1, 11)
     for engine, hurt in ((dop853, True), (adams, False), (lsoda, False)):
-        sound, twin = (engine(Stretch(f, start, 0.0, 1.0, times), 1e-9).states for f in (rate, reused))
+        sound, twin = (engine(Segment(f, start, 0.0, 1.0, times), 1e-9).states for f in (rate, reused))
         assert np.isfinite(twin).all()
         assert (np.abs(twin - sound).max() > 1e-3) == hurt
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.numerics.integrate import Array, Problem, Rate, check_tolerance, integrate
+from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.segment import Array, RightHandSide
 
 ENOUGH = 1e6
 START = np.array([1.0, 0.0])
@@ -19,7 +20,7 @@ def oscillate(s: float, y: Array) -> list[float]:
     return [y[1], -y[0]]
 
 
-def kick(strength: float, width: float) -> Rate:
+def kick(strength: float, width: float) -> RightHandSide:
     def rate(s: float, y: Array) -> list[float]:
         return [y[1], strength * np.exp(-((s / width) ** 2))]
 
@@ -47,7 +48,7 @@ def test_the_oscillator_oscillates() -> None:
     exact = np.column_stack([np.cos(times), -np.sin(times)])
     assert solution.states == pytest.approx(exact, abs=1e-11)
     assert solution.states != pytest.approx(np.column_stack([np.cos(1.0001 * times), -np.sin(times)]), abs=1e-11)
-    assert solution.evaluations > 0
+    assert solution.nfev > 0
 
 
 def test_the_error_falls_with_the_tolerance_and_stays_below_it() -> None:
@@ -55,7 +56,7 @@ def test_the_error_falls_with_the_tolerance_and_stays_below_it() -> None:
     for tol in (1e-3, 1e-6, 1e-9, 1e-12):
         solution = integrate(Problem(oscillate, START, ENOUGH), np.array([10.0]), tol)
         errors.append(abs(solution.states[0, 0] - cos(10)))
-        evaluations.append(solution.evaluations)
+        evaluations.append(solution.nfev)
         assert errors[-1] < tol
     assert errors == sorted(errors, reverse=True)
     assert evaluations == sorted(evaluations)
@@ -73,7 +74,7 @@ def test_evaluations_are_counted() -> None:
 
     problem = Problem(counted, START, ENOUGH, project=lambda y: y / np.hypot(*y))
     solution = integrate(problem, np.array([1.0, 3.0]), 1e-8)
-    assert solution.evaluations == pytest.approx(calls, abs=1)
+    assert solution.nfev == pytest.approx(calls, abs=1)
 
 
 WIDTHS = [1e-1, 1e-3, 1e-5, 1e-7, 1e-9]
@@ -143,7 +144,7 @@ def test_any_pulse_gives_its_impulse_at_any_times(exponent: float, at: float, ti
 
 
 def test_output_times_may_lie_on_the_edges() -> None:
-    """The cuts of the run, the start and the end, belong to one stretch each."""
+    """The cuts of the run, the start and the end, belong to one segment each."""
     at, width = 2.0, 0.125
     edges = np.array([0.0, at - 6.5 * width, at, at + 6.5 * width, 5.0])
     expected = [impulse(1.0, at, width, t) for t in edges]
@@ -153,7 +154,7 @@ def test_output_times_may_lie_on_the_edges() -> None:
 def test_the_start_alone_and_a_late_start() -> None:
     only = integrate(Problem(oscillate, START, ENOUGH), np.array([0.0]), 1e-9)
     assert only.states.tolist() == [[1, 0]]
-    assert only.evaluations == 0
+    assert only.nfev == 0
     late = integrate(Problem(oscillate, START, ENOUGH), np.array([2.0, 3.0]), 1e-10).states
     assert late[:, 0] == pytest.approx(np.cos([2, 3]), abs=1e-9)
     pulsed = integrate(Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 0.3, 0.1), np.array([0.0]), 1e-9)
@@ -199,13 +200,13 @@ def test_a_rate_that_is_not_finite_stops_the_run(since: float, bad: float) -> No
 def test_a_run_that_crawls_is_stopped() -> None:
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(Problem(oscillate, START, 500), np.array([1e4]), 1e-9)
-    assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).evaluations < 500
+    assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).nfev < 500
 
 
 def test_the_allowance_is_for_the_whole_run() -> None:
-    """The stretches before, in and after the pulse share it."""
+    """The segments before, in and after the pulse share it."""
     problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, 0.1)
-    needed = integrate(problem, np.array([4.0]), 1e-11).evaluations
+    needed = integrate(problem, np.array([4.0]), 1e-11).nfev
     tight = Problem(drift, np.zeros(2), needed - 10, kick(1, 0.1), 2.0, 0.1)
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(tight, np.array([4.0]), 1e-11)

@@ -9,13 +9,15 @@ import pytest
 from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
 from lagrotor.models.integrated import problem_of
-from lagrotor.numerics import integrators as engines
+from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import integrate
-from lagrotor.numerics.integrators import Array, StopError, Stretch, dop853, lsoda
-from lagrotor.numerics.rhs import rate_factory
+from lagrotor.numerics.lsoda import lsoda
+from lagrotor.numerics.rhs import make_rhs
+from lagrotor.numerics.segment import Array, Segment, StopError
 from lagrotor.pair.examples import HEAVY
 
 TIMES = np.linspace(0.3, 20, 57)
@@ -25,15 +27,15 @@ def oscillate(s: float, y: Array) -> list[float]:
     return [y[1], -y[0]]
 
 
-def stretch(**more: object) -> Stretch:
-    return Stretch(oscillate, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, **more)  # type: ignore[arg-type]
+def segment(**more: object) -> Segment:
+    return Segment(oscillate, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, **more)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
     ("engine", "error", "within"), [(lsoda, 1e-10, 2e-8), (adams, 1e-12, 1e-12), (dop853, 1e-12, 1e-11)]
 )
 def test_each_engine_reads_the_oscillator_at_any_time(engine, error, within) -> None:
-    run = engine(stretch(), error)
+    run = engine(segment(), error)
     assert run.states == pytest.approx(np.column_stack([np.cos(TIMES), -np.sin(TIMES)]), abs=within)
     assert run.end[0] == pytest.approx(cos(20), abs=within)
 
@@ -47,14 +49,14 @@ def test_evaluations_are_those_that_were_made(engine) -> None:
         calls += 1
         return oscillate(s, y)
 
-    run = engine(Stretch(counted, np.array([1.0, 0.0]), 0.0, 20.0, TIMES), 1e-8)
-    assert run.evaluations == pytest.approx(calls, abs=2)
+    run = engine(Segment(counted, np.array([1.0, 0.0]), 0.0, 20.0, TIMES), 1e-8)
+    assert run.nfev == pytest.approx(calls, abs=2)
 
 
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])
 def test_each_engine_stops_when_it_crawls(engine) -> None:
     with pytest.raises(StopError):
-        engine(stretch(allowance=100), 1e-9)
+        engine(segment(max_nfev=100), 1e-9)
 
 
 def test_the_weights_integrate_polynomials_exactly() -> None:
@@ -73,7 +75,7 @@ def test_the_order_is_what_it_is_called(error: float) -> None:
     order = adams_order(error)
 
     def off(power: int) -> float:
-        rising = Stretch(lambda s, y: [(power + 1) * s**power], np.zeros(1), 0.0, 1.0, TIMES[:1])
+        rising = Segment(lambda s, y: [(power + 1) * s**power], np.zeros(1), 0.0, 1.0, TIMES[:1])
         reached = piece(rising, order, np.zeros(1), 0.0, 1 / 20, 20, 1e9).states[:, 0]
         return float(np.abs(reached - (np.arange(len(reached)) / 20) ** (power + 1)).max())
 
@@ -86,7 +88,7 @@ def test_the_adams_pair_shortens_a_step_that_becomes_too_long() -> None:
         faster = 1 + 20 / (1 + np.exp(-4 * (s - 10)))
         return [y[1] * faster, -y[0] * faster]
 
-    run = adams(Stretch(quickens, np.array([1.0, 0.0]), 0.0, 20.0, np.array([20.0])), 1e-10)
+    run = adams(Segment(quickens, np.array([1.0, 0.0]), 0.0, 20.0, np.array([20.0])), 1e-10)
     turned = 20 + 5 * (np.log1p(np.exp(40)) - np.log1p(np.exp(-40)))
     assert run.states[0, 0] == pytest.approx(cos(turned), abs=1e-8)
 
@@ -94,7 +96,7 @@ def test_the_adams_pair_shortens_a_step_that_becomes_too_long() -> None:
 @pytest.mark.parametrize(("error", "ceiling"), [(1e-3, 1100), (1e-6, 1100), (1e-9, 800), (1e-12, 2000)])
 def test_the_adams_pair_finds_its_step_at_once(error: float, ceiling: int) -> None:
     """A loose tolerance takes no more than a tight one: a step that is not stable is not tried again and again."""
-    assert adams(stretch(), error).evaluations < ceiling
+    assert adams(segment(), error).nfev < ceiling
 
 
 @pytest.mark.parametrize("link", [Link(), HEAVY, Link(0.8), Link(1.3, 0.2, 0.1)])
@@ -103,7 +105,7 @@ def test_the_rate_is_the_compiled_program(module, link) -> None:
     scene = Scene((10, -7), link=link, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
     program, parameters = module.MODEL.program(scene, False)
     y = module.MODEL.start(scene)
-    made = rate_factory(program, len(y))(*parameters)(0.0, y)
+    made = make_rhs(program, len(y))(*parameters)(0.0, y)
     assert made == pytest.approx(compile_program(program)(*y.tolist(), *parameters), rel=1e-13, abs=1e-13)
 
 
@@ -137,8 +139,8 @@ def test_where_the_constraints_drift_fast_the_run_is_cut_shorter(tol: float) -> 
 
 def test_a_projection_from_far_off_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     """Twin: without a bound on what is projected the same run is wrong, and nothing says so."""
-    monkeypatch.setattr(engines, "_DRIFT", np.inf)
-    monkeypatch.setattr(engines, "_A_CUT", 10**9)
+    monkeypatch.setattr(lsoda_module, "_DRIFT", np.inf)
+    monkeypatch.setattr(lsoda_module, "_MAX_NFEV_PART", 10**9)
     pressed = consistent_scene(
         (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
     )

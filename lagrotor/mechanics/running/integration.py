@@ -21,7 +21,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.rhs import rate_factory
+from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.taylor import integrate_taylor, taylor_rhs
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def states(
 
 @lru_cache(maxsize=64)
 def rhs_factory(given: Generated) -> Any:
-    return rate_factory(given.program, len(given.states))
+    return make_rhs(given.program, len(given.states))
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:

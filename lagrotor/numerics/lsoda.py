@@ -1,0 +1,109 @@
+"""LSODA, Adams and BDF methods of variable order (Petzold 1983), in scipy's compiled loop: only the right-hand side is Python."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from lagrotor.numerics.segment import LOST, Array, Run, Segment, StopError
+
+_MAX_NFEV_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
+_DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
+
+
+def lsoda(segment: Segment, error: float) -> Run:
+    """The segment at a local error `error`, relative and absolute.
+
+    The first step is given, not found from the first output, so outputs do not change the run. Where there are
+    constraints the run is cut about once a turn and projected: their error grows exponentially where the axes are pressed.
+    Raises StopError, with constraints also with what was reached.
+    """
+    if segment.project is None:
+        return _lsoda(segment, error)
+    found, nfev, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
+    while left < segment.right:
+        cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
+        right = left + cut if left + 1.5 * cut < segment.right else segment.right
+        # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
+        longest = min(segment.longest, cut / 25)
+        part = replace(segment, start=y, left=left, right=right, longest=longest)
+        try:
+            part, run = _up_to_singular(part, min(segment.max_nfev - nfev, _MAX_NFEV_PART), error)
+            end, nfev = segment.project(run.end), nfev + run.nfev + 1
+            drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
+        except StopError as stopped:
+            if cut < longest_cut / 2 or nfev + _MAX_NFEV_PART > segment.max_nfev:
+                raise StopError(left, stopped.reason, _read(segment, found, y, nfev)) from None
+            drifted, nfev = np.inf, nfev + _MAX_NFEV_PART
+        if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
+            longest_cut = cut / 8
+            if longest_cut < 1e-6 * (segment.right - segment.left):
+                reason = "the constraints drift faster than they can be kept"
+                raise StopError(left, reason, _read(segment, found, y, nfev))
+            continue
+        found.append(run.states)
+        y, left, longest_cut = end, part.right, 1.5 * longest_cut
+    run = _read(segment, found, y, nfev)
+    if not np.isfinite(run.states).all():
+        raise StopError(segment.left, "a state could not be brought back onto its constraints")
+    return run
+
+
+def _read(segment: Segment, found: list[Array], y: Array, nfev: int) -> Run:
+    states = np.concatenate(found)
+    return Run(segment.project(states.T).T if segment.project and len(states) else states, y, nfev)
+
+
+def _up_to_singular(part: Segment, max_nfev: float, error: float) -> tuple[Segment, Run]:
+    """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
+    inside = (part.t_eval > part.left) & (part.t_eval <= part.right)
+    if part.time_to_singular is None:
+        return part, _lsoda(replace(part, t_eval=part.t_eval[inside], max_nfev=max_nfev), error)
+    watched = np.linspace(part.left, part.right, 66)[1:-1]
+    t_eval = np.union1d(part.t_eval[inside], watched)
+    run = _lsoda(replace(part, t_eval=t_eval, max_nfev=max_nfev), error)
+    for s, y in zip(t_eval, run.states, strict=True):
+        if s < part.right and part.clear(y) < part.longest and s - part.left > part.longest:
+            shorter = replace(part, right=float(s), longest=min(part.longest, (s - part.left) / 25))
+            inside = (part.t_eval > part.left) & (part.t_eval <= s)
+            again = _lsoda(replace(shorter, t_eval=part.t_eval[inside], max_nfev=max_nfev), error)
+            return shorter, replace(again, nfev=again.nfev + run.nfev)
+    return part, replace(run, states=run.states[np.searchsorted(t_eval, part.t_eval[inside])])
+
+
+def _lsoda(segment: Segment, error: float) -> Run:
+    from scipy.integrate import odeint
+
+    left, right, lost = segment.left, segment.right, False
+
+    def watched(s: float, y: Array) -> list[float]:
+        # LSODA takes NaN for a number and may step over where it came from; DOP853 does not.
+        nonlocal lost
+        velocity = segment.rhs(s, y)
+        lost = lost or velocity[0] != velocity[0]
+        return velocity
+
+    first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            states, log = odeint(
+                getattr(segment.rhs, "bare", watched),
+                segment.start,
+                np.concatenate([[left], segment.t_eval, [right]]),
+                tfirst=True,
+                rtol=error,
+                atol=error,
+                full_output=True,
+                h0=first,
+                hmax=0.0 if np.isinf(segment.longest) else segment.longest,
+                mxstep=int(min(segment.max_nfev, 2**30)) + 1,
+            )
+    except LOST:
+        raise StopError(left, "the right-hand side is not finite") from None
+    nfev = int(log["nfe"][-1]) + 1
+    if lost or log["message"] != "Integration successful." or not np.isfinite(states).all():
+        raise StopError(left, "the right-hand side is not finite" if lost else log["message"])
+    if nfev > segment.max_nfev:
+        raise StopError(right, f"{nfev} evaluations spent")
+    return Run(states[1:-1], states[-1], nfev)
