@@ -73,12 +73,22 @@ def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, pr
     """
     watched = _watched(model, scene, times, engine, False)
     other = tol * APART if tol * APART <= LOOSEST else tol / APART
-    one, nfev = watched.run(tol)
+    run = _single(watched, tol, False)
     try:
-        two, spent = watched.run(other, True)
+        companion = _single(watched, other, True, run.nfev)
     except StopError:
-        two, spent = watched.run(max(tol / APART, TIGHTEST), True)
-    return _estimated(watched, two, one, nfev + spent, tol, promised)
+        companion = _single(watched, max(tol / APART, TIGHTEST), True, run.nfev)
+    return _estimated(watched, companion, run, promised)
+
+
+@dataclass(frozen=True, eq=False)
+class _Single:
+    """One integration: its tolerance, what it gives, whether its start is off by rounding, evaluations of it and before it."""
+
+    tol: float
+    seen: Observed
+    companion: bool
+    nfev: int
 
 
 def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: str, bounded: bool) -> Estimated:
@@ -89,36 +99,46 @@ def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: 
     Scene in natural units. Raises as `run_at`.
     """
     watched = _watched(model, scene, times, engine, bounded)
-    loose, nfev, companion = max(min(wanted * FIRST, LOOSEST), CLEARLY * TIGHTEST), 0, True
-    one: Observed | None = None
-    best: Estimated | None = None
-    stopped: IntegrationError | None = None
-    while True:
-        tight = _tighter(loose, engine)
-        try:
-            if one is None:
-                one, spent = watched.run(loose, companion)
-                nfev += spent
-            two, spent = watched.run(tight, not companion)
-            nfev += spent
-            found = _estimated(watched, one, two, nfev, tight, wanted)
-        except IntegrationError as refusal:
-            stopped = stopped or refusal
-            if best or bounded or loose > GIVEN_UP:
-                break
-            loose, one = loose * APART, None
-            continue
-        best = found if best is None or found.errors[-1] < best.errors[-1] else replace(best, nfev=nfev)
+    first = max(min(wanted * FIRST, LOOSEST), CLEARLY * TIGHTEST)
+    loose, tight, found = _loosest(watched, first, wanted)
+    best, t_end = found, float(watched.t[-1])
+    while tight.tol <= _tighter(first, engine) and tight.tol >= CLEARLY * TIGHTEST:
         error = float(found.errors[-1])
-        if error <= wanted or tight < CLEARLY * TIGHTEST or _hopeless(found, loose, float(watched.t[-1])):
+        if error <= wanted or _hopeless(found, loose.tol, t_end):
             break
-        if error * tight / loose <= wanted / 2:
-            loose, one, companion = tight, two, not companion
-        else:
-            loose, one = max(min(tight, loose * wanted / error / 2), CLEARLY * TIGHTEST), None
-    if best is None:
-        raise stopped or IntegrationError("no run")
+        in_proportion = error * tight.tol / loose.tol <= wanted / 2
+        tol = max(min(tight.tol, loose.tol * wanted / error / 2), CLEARLY * TIGHTEST)
+        try:
+            loose = tight if in_proportion else _single(watched, tol, True, tight.nfev)
+            tight = _single(watched, _tighter(loose.tol, engine), not loose.companion, max(tight.nfev, loose.nfev))
+            found = _estimated(watched, loose, tight, wanted)
+        except IntegrationError:
+            break
+        best = found if found.errors[-1] < best.errors[-1] else replace(best, nfev=found.nfev)
     return best
+
+
+def _single(watched: _Watched, tol: float, companion: bool, nfev: int = 0) -> _Single:
+    seen, spent = watched.run(tol, companion)
+    return _Single(tol, seen, companion, nfev + spent)
+
+
+def _loosest(watched: _Watched, tol: float, wanted: float) -> tuple[_Single, _Single, Estimated]:
+    """The first pair of runs that is not refused, from the companion's tolerance `tol` on to looser ones up to GIVEN_UP."""
+    loose: _Single | None = None
+    tight: _Single | None = None
+    nfev = 0
+    while True:
+        try:
+            loose = loose or _single(watched, tol, tight is None or not tight.companion, nfev)
+            tight = tight or _single(watched, _tighter(tol, watched.engine), not loose.companion, loose.nfev)
+            return loose, tight, _estimated(watched, loose, tight, wanted)
+        except IntegrationError:
+            if watched.bounded or tol > GIVEN_UP:
+                raise
+        # A run that was not refused is compared with a looser one.
+        nfev = max((run.nfev for run in (loose, tight) if run), default=nfev)
+        loose, tight, tol = None, loose, tol * APART if loose else tol * APART**2
 
 
 def _tighter(loose: float, engine: str) -> float:
@@ -127,9 +147,9 @@ def _tighter(loose: float, engine: str) -> float:
     return max(tight, CROSSOVER) if engine == "core" and loose >= CLEARLY * CROSSOVER else tight
 
 
-def _estimated(
-    watched: _Watched, loose: Observed, tight: Observed, nfev: int, tol: float, promised: float
-) -> Estimated:
+def _estimated(watched: _Watched, companion: _Single, run: _Single, promised: float) -> Estimated:
+    """The run, its error estimated by how far its companion is off; refused if it does not conserve what it must."""
+    loose, tight, tol, nfev = companion.seen, run.seen, run.tol, max(run.nfev, companion.nfev)
     t, apart = watched.t, np.linalg.norm(loose.axes - tight.axes, axis=-1).max(axis=0)
     errors = np.maximum.accumulate(apart) + ROUNDING * (1 + PACE * t / (2 * np.pi))
     error = float(errors[-1])

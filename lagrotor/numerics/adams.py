@@ -10,6 +10,7 @@ from lagrotor.numerics.segment import Array, Run, Segment, StopError
 
 _BLOCK = 100
 _SWEEPS = 25
+_PATIENCE = 5_000  # evaluations before they are weighed against the share of the run that is done
 _PIECE = 2_000  # steps, after which a longer one than had failed before is tried again
 
 
@@ -133,7 +134,7 @@ def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
 def adams(segment: Segment, error: float) -> Run:
     """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it.
 
-    Raises StopError with what was reached.
+    Raises StopError with what was reached, also where far more than its share of `max_nfev` is spent.
     """
     t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
@@ -160,7 +161,8 @@ def adams(segment: Segment, error: float) -> Run:
             end = piece.read(np.array([right]))[0] if reached >= right else end
             done, t, y = until, reached, piece.states[-1]
         h = min(h * min(piece.change, 2.0), longest)
-        if t < right and (nfev > segment.max_nfev or t + h == t):
+        share = (t - segment.left) / (right - segment.left)
+        if t < right and (nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev) or t + h == t):
             reason = "the step vanishes" if t + h == t else f"{nfev} evaluations spent"
             raise StopError(t, reason, _on_constraints(segment, found[:done], y, nfev))
     if not (np.isfinite(end).all() and np.isfinite(found).all()):
