@@ -38,7 +38,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
     try:
-        arguments = _parser().parse_args(argv)
+        parser, given = _parser(), sys.argv[1:] if argv is None else argv
+        if not given:
+            parser.print_help()
+            return 0
+        arguments = parser.parse_args(given)
         status = int(arguments.run(arguments))
         sys.stdout.flush()
         return status

@@ -33,7 +33,8 @@ def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more:
 def add_pair(parser: argparse.ArgumentParser) -> None:
     """The options of spins, rotors and bar."""
     group = parser.add_argument_group("rotors and bar")
-    _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s", required=True)
+    _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s")
+    group.add_argument("--scene", type=Path, metavar="FILE", help="the whole scene from a TOML file instead")
     for name, usual, says in (
         ("--rotor-mass", Rotor.mass, "mass of a rotor, kg"),
         ("--rotor-length", Rotor.length, "length of a rotor's axis, m"),
@@ -43,8 +44,7 @@ def add_pair(parser: argparse.ArgumentParser) -> None:
         ("--link-mass", Link.mass, "mass of the bar, kg"),
         ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
     ):
-        default = None if name.startswith("--link") else usual  # None: not given
-        group.add_argument(name, type=float, default=default, metavar="X", help=f"{says} (default: {usual:g})")
+        group.add_argument(name, type=float, metavar="X", help=f"{says} (default: {usual:g})")
     group.add_argument("--no-link", action="store_true", help="a pair without a bar")
 
 
@@ -65,7 +65,11 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
-    """The scene that the options describe. Raises InputError for one that makes no sense."""
+    """The scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
+    if given.scene:
+        return _scene_of_file(given, shock)
+    if given.spins is None:
+        raise InputError("--spins W1 W2 is missing: give the axial angular velocities in rad/s, or --scene FILE")
     start = {
         name: (tuple(values[:3]), tuple(values[3:]))
         for name in ("axes", "rates")
@@ -73,17 +77,38 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
     }
     return Scene(
         spins=tuple(given.spins),
-        rotor=Rotor(given.rotor_mass, given.rotor_length, given.I1, given.I3),
+        rotor=Rotor(**_given(given, ROTOR)),
         link=_link(given),
         shock=shock,
         **start,
     )
 
 
+# Field → the option's name in what was parsed.
+ROTOR = {"mass": "rotor_mass", "length": "rotor_length", "I1": "I1", "I3": "I3"}
+LINK = {"length": "link_length", "mass": "link_mass", "inertia": "link_inertia"}
+
+
+def _given(given: argparse.Namespace, options: dict[str, str]) -> dict[str, float]:
+    """The fields whose options were given."""
+    return {name: value for name, option in options.items() if (value := getattr(given, option)) is not None}
+
+
+def _scene_of_file(given: argparse.Namespace, shock: Shock | None) -> Scene:
+    """The scene of --scene FILE. Raises InputError where other options describe one too."""
+    from lagrotor.pair.scene_document import read_scene
+
+    named = {"--spins": given.spins, "--shock": shock, "--no-link": given.no_link or None}
+    named |= {f"--{option.replace('_', '-')}": getattr(given, option) for option in (*ROTOR.values(), *LINK.values())}
+    named |= {f"--{name}": vars(given).get(name) for name in ("axes", "rates")}
+    if both := [name for name, value in named.items() if value is not None]:
+        raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
+    return read_scene(given.scene)
+
+
 def _link(given: argparse.Namespace) -> Link | None:
     """The bar, if any. Raises InputError for one that is described and left out."""
-    parts = {"length": given.link_length, "mass": given.link_mass, "inertia": given.link_inertia}
-    bar = {name: value for name, value in parts.items() if value is not None}
+    bar = _given(given, LINK)
     if given.no_link and bar:
         raise InputError(f"--no-link and --link-{next(iter(bar))}: a pair without a bar has none; leave one out")
     return None if given.no_link else Link(**bar)
@@ -116,6 +141,8 @@ def check_file(path: Path) -> None:
 
 def check_folder(folder: Path) -> None:
     """Raises InputError unless files can be written into the folder."""
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--out: {folder} is a file: give a folder")
     if not folder.is_dir():
         raise InputError(f"--out: there is no folder {folder}: make it first")
     if not os.access(folder, os.W_OK):

@@ -4,8 +4,10 @@ Without --paper they are about the paper that lagrotor was written for.
 """
 
 import argparse
+import json
 from collections import Counter
 from collections.abc import Collection
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,6 +30,7 @@ def add_paper_commands(command: Command) -> None:
     _add_paper(added)
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
     added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
+    added.add_argument("--json", action="store_true", help="print what was found as a JSON object")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
     added.description = "Judge the paper's equations. For single ids only their own derivations run."
@@ -46,6 +49,7 @@ def add_paper_commands(command: Command) -> None:
     added.add_argument("keys", nargs="+", metavar="N", help="a figure's number, or letter and number, such as t6")
     _add_paper(added)
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
+    added.add_argument("--json", action="store_true", help="print a JSON list: files and measured numbers of each")
 
 
 def _add_paper(parser: argparse.ArgumentParser) -> None:
@@ -70,6 +74,9 @@ def reproduce_command(given: argparse.Namespace) -> int:
     paper = _paper(given)
     made = reproduce(paper, given.out, progress, given.jobs)
     page = given.out / "index.html"
+    if given.json:
+        print(json.dumps(asdict(made) | {"report": str(page)}, indent=1, ensure_ascii=False))
+        return _compared(made.changes, bool(paper.recorded))
     print(f"{sum(made.equations.values())} equations: {counted(made.equations) or 'none'}")
     if made.claims:
         print(f"{sum(made.claims.values())} claims tried: {counted(made.claims)}")
@@ -154,12 +161,19 @@ def figure_command(given: argparse.Namespace) -> int:
 
     check_folder(given.out)
     scripts = _paper(given).scripts
-    keys = check_keys(given.keys, scripts)
+    keys, drawn = check_keys(given.keys, scripts), []
     with progress(len(keys)) as step:
         for key in keys:
             step(f"figure {key}")
-            picture = draw(key, given.out, scripts)
-            print(picture.svg, picture.png, sep="\n")
+            drawn.append(draw(key, given.out, scripts))
+            if not given.json:
+                print(drawn[-1].svg, drawn[-1].png, sep="\n")
+    if given.json:
+        found = (
+            {"key": p.key, "title": p.title, "svg": str(p.svg), "png": str(p.png), "measured": p.measured}
+            for p in drawn
+        )
+        print(json.dumps(list(found), indent=1, ensure_ascii=False))
     return 0
 
 

@@ -1,4 +1,4 @@
-"""The commands that are given a scene: simulate, animate, rate. Everything is refused before work starts."""
+"""The commands that are given a scene: simulate, sweep, animate, rate. Everything is refused before work starts."""
 
 import argparse
 import json
@@ -16,21 +16,31 @@ from lagrotor.commands.options import (
     scene_of,
     shock_of,
 )
+from lagrotor.commands.sweep_command import add_sweep, sweep_command
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS
 from lagrotor.pair.examples import SCENES
+from lagrotor.pair.scene import Scene
 
 _MOST_SAMPLES = 10_000_000
 
 
 def add_scene_commands(command: Command) -> None:
-    """simulate, animate, rate."""
+    """simulate, sweep, animate, rate."""
     _add_simulate(
         command(
             "simulate",
             simulate_command,
             "run a rotor pair and keep or show its motion",
             "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
+        )
+    )
+    add_sweep(
+        command(
+            "sweep",
+            sweep_command,
+            "run a rotor pair many times with one of its numbers varied",
+            "lagrotor sweep --spins 10 -10 --vary paired --between 0.05 0.3 6",
         )
     )
     added = command(
@@ -47,6 +57,7 @@ def add_scene_commands(command: Command) -> None:
     )
     added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
     added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
+    added.add_argument("--json", action="store_true", help="print a JSON object with the file's name")
 
     added = command(
         "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
@@ -59,6 +70,9 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     add_pair(added)
     add_start(added)
     add_shock(added)
+    says = "start on the paired precession of this amplitude (opposite spins; no --axes, --rates)"
+    added.add_argument("--paired", type=float, metavar="R0", help=says)
+    added.add_argument("--write-scene", type=Path, metavar="FILE", help="write the scene as TOML too, for --scene")
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
     says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
@@ -94,7 +108,7 @@ def animate_command(given: argparse.Namespace) -> int:
         step("motion")
         run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
         run.animate(target, given.fps, step)
-    print(target)
+    print(json.dumps({"file": str(target)}) if given.json else target)
     return 0
 
 
@@ -109,7 +123,7 @@ def simulate_command(given: argparse.Namespace) -> int:
         from lagrotor.drawing.film import check_film
 
         check_film(given.out, given.t_end, 25.0)
-    scene = scene_of(given, shock_of(given))
+    scene = _started(scene_of(given, shock_of(given)), given)
 
     import numpy as np
 
@@ -138,6 +152,21 @@ def simulate_command(given: argparse.Namespace) -> int:
     else:
         print(_run_table(summary))
     return 0
+
+
+def _started(scene: Scene, given: argparse.Namespace) -> Scene:
+    """The scene on its paired precession where that is wanted, and written where that is. Raises InputError for two starts."""
+    if given.paired is not None:
+        if given.axes is not None or given.rates is not None:
+            raise InputError("--paired and --axes or --rates: each is a start; give one")
+        from lagrotor.models.orbits.precession import paired_scene
+
+        scene = paired_scene(scene, given.paired)
+    if given.write_scene:
+        from lagrotor.pair.scene_document import write_scene
+
+        write_scene(scene, given.write_scene)
+    return scene
 
 
 def _run_table(run: dict[str, Any]) -> str:

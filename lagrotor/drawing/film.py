@@ -53,6 +53,18 @@ def frame_times(begin: float, end: float, fps: float) -> Array:
     return np.minimum(begin + np.arange(int((end - begin) * fps * (1 + 1e-12)) + 1) / fps, end)
 
 
+class Film(type(Path())):  # type: ignore[misc]
+    """The file of a film; a notebook shows it."""
+
+    def _repr_html_(self) -> str:
+        from base64 import b64encode
+
+        data = b64encode(self.read_bytes()).decode()
+        if self.suffix == ".gif":
+            return f'<img src="data:image/gif;base64,{data}" alt="The motion">'
+        return f'<video controls loop src="data:video/mp4;base64,{data}"></video>'
+
+
 def animate(
     moving: "Motion", path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
 ) -> Path:
@@ -66,7 +78,7 @@ def animate(
     """
     target = Path(path)
     check_film(target, float(moving.t[-1] - moving.t[0]), fps)
-    return write_film(target, _announced(_frames(moving), len(moving.t), fps, step), len(moving.t), fps)
+    return Film(write_film(target, _announced(_frames(moving), len(moving.t), fps, step), len(moving.t), fps))
 
 
 def write_film(target: Path, frames: Iterator[Pixels], count: int, fps: float) -> Path:

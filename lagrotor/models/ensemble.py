@@ -19,6 +19,7 @@ from lagrotor.models.chunk_files import chunk_folder
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.simulate import check_times
 from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 
@@ -26,7 +27,7 @@ CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one eva
 
 
 @dataclass(frozen=True, eq=False)
-class Ensemble:
+class Ensemble(Shown):
     """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), evaluations (n,).
 
     models (n,): index into MODELS. "spheres" ran, one by one, those without a bar and those that met a singular position
@@ -39,6 +40,17 @@ class Ensemble:
     rates: Array
     evaluations: NDArray[np.int64]
     models: NDArray[np.int64]
+
+    def summary(self) -> dict[str, str]:
+        """How many runs, by which models, name → words."""
+        by_model = {name: int((self.models == i).sum()) for i, name in enumerate(MODELS)}
+        return {
+            "runs": str(len(self.scenes)),
+            "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
+            "models": ", ".join(f"{count} by {name}" for name, count in by_model.items() if count),
+            "evaluations": f"{int(self.evaluations.sum()):,}",
+            "failed": str(len(self.failed)),
+        }
 
     @property
     def failed(self) -> NDArray[np.int64]:

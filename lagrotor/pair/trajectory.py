@@ -3,16 +3,17 @@
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from html import escape
+from importlib import import_module
 from math import inf, nan
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "lin
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Shown):
     """A run of a scene by a model.
 
     t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s). error: the
@@ -134,9 +135,29 @@ class Trajectory:
             "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
         }
 
-    def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self.summary().items())
-        return f"<table><caption>Trajectory</caption>{rows}</table>"
+    def to_dataframe(self) -> Any:
+        """The run as a pandas DataFrame, t (s) its index: tips, axes, energy, bar's length, momenta, a column a component.
+
+        Raises InputError where pandas is not installed.
+        """
+        pandas = _installed("pandas")
+        table = {f"tip_{i + 1}_{x}": self.tips[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
+        table |= {f"r_{i + 1}_{x}": self.axes[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
+        table |= {"energy": self.energy, "link_length": self.link_length, **self.invariants}
+        return pandas.DataFrame(table, index=pandas.Index(self.t, name="t"))
+
+    def to_xarray(self) -> Any:
+        """The run as an xarray Dataset over rotor, t (s) and component, each variable with its unit.
+
+        Raises InputError where xarray is not installed.
+        """
+        xarray = _installed("xarray")
+        kinds = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
+        held = {name: getattr(self, name) for name in UNITS if name != "t"} | {"P": self.joint_line_momentum}
+        units = UNITS | {"P": UNITS["momenta"]}
+        variables = {name: (kinds[np.ndim(v)], v, {"units": units[name]}) for name, v in held.items()}
+        places = {"t": ("t", self.t, {"units": "s"}), "rotor": [1, 2], "component": list("xyz")}
+        return xarray.Dataset(variables, coords=places, attrs={"model": self.model, "why": self.why})
 
     def save(self, path: str | Path) -> Path:
         """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
@@ -190,6 +211,14 @@ class Trajectory:
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
         return Trajectory(scene, model, why, t, axes, rates, momenta, evaluations)
+
+
+def _installed(name: str) -> Any:
+    """An optional package; raises InputError with the way to it."""
+    try:
+        return import_module(name)
+    except ModuleNotFoundError:
+        raise InputError(f"{name} is not installed: pip install {name}") from None
 
 
 def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:

@@ -98,7 +98,10 @@ class ClosedForm:
             raise InputError(
                 f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
             )
-        given = [np.asarray(v, dtype=float) for v in values]
+        try:
+            given = [np.asarray(v, dtype=float) for v in values]
+        except (TypeError, ValueError) as error:
+            raise InputError(f"{self.name}: {error}: give numbers or arrays of them") from None
         shape = np.broadcast_shapes(*(array.shape for array in given))
         for argument, array in zip(self.arguments, given, strict=True):
             if not np.isfinite(array).all():

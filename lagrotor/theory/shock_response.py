@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.generated import generated
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.theory.natural_rate import natural_frequency_value
 
@@ -23,7 +24,7 @@ _WIDTHS_BEFORE = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class ShockResponse:
+class ShockResponse(Shown):
     """What a pulse leaves, to first order in it. Vectors are (x, y_1, y_2), (3,).
 
     shock: the pulse, whole. frequency: Omega_0 (rad/s). impulse: R times the impulse on the tip (N m s). displacement:
@@ -45,6 +46,22 @@ class ShockResponse:
     attenuation: float
     energy: float
     impulse_energy: float
+
+    def summary(self) -> dict[str, str]:
+        """What the pulse leaves, name → words; vectors are (x, y_1, y_2)."""
+
+        def three(vector: Array) -> str:
+            return ", ".join(f"{value:.6g}" for value in vector)
+
+        return {
+            "frequency [rad/s]": f"{self.frequency:.9g}",
+            "impulse [N m s]": three(self.impulse),
+            "displacement of the centre (x, y₁, y₂)": three(self.displacement),
+            "drift [1/s]": three(self.drift),
+            "swing [1/s]": three(self.swing),
+            "attenuation by the width": f"{self.attenuation:.6g}",
+            "energy gained [J]": f"{self.energy:.9g}",
+        }
 
     @property
     def cosine(self) -> Array:

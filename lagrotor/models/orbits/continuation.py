@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, QuarterPeriod
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class OrbitFamily:
+class OrbitFamily(Shown):
     """Orbits along the family: amplitudes r0 (n,), frequencies (rad/s) (n,), unknowns (n, 4), and why it stopped.
 
     `turns`: amplitudes at which the family turns back in r0 (largest r0 of the two branches that meet there).
@@ -29,6 +30,16 @@ class OrbitFamily:
     unknowns: Array
     turns: tuple[float, ...]
     reason: str
+
+    def summary(self) -> dict[str, str]:
+        """How many orbits, from where to where, name → words."""
+        return {
+            "orbits": str(len(self.amplitudes)),
+            "amplitudes": f"{self.amplitudes.min():.6g} to {self.amplitudes.max():.6g}",
+            "frequencies [rad/s]": f"{self.frequencies.min():.6g} to {self.frequencies.max():.6g}",
+            "turns back at": ", ".join(f"{turn:.6g}" for turn in self.turns) or "nowhere",
+            "ended": self.reason,
+        }
 
     def orbit(self, index: int) -> ExactOrbit:
         """The orbit number `index`, as a scene that starts on it, with its error."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import flow
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -23,7 +24,7 @@ _INTEGRATED = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
-class Floquet:
+class Floquet(Shown):
     """multipliers (6,), complex: four ones, mu, 1/mu. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
 
     growth: log |mu| per turn (0 on an elliptic orbit); turning: angle of mu per turn (rad) on an elliptic orbit.
@@ -39,6 +40,18 @@ class Floquet:
     frequency: float
     error: float
     monodromy: Array
+
+    def summary(self) -> dict[str, str]:
+        """Kind, multipliers and exponents, name → words."""
+        pair = ", ".join(f"{value:.8g}" for value in self.multipliers[4:])
+        per_turn = f"growth {self.growth:.6g}" if self.kind == "hyperbolic" else f"angle {self.turning:.6g} rad"
+        return {
+            "kind": self.kind,
+            "multipliers besides 1": pair,
+            "μ + 1/μ": f"{self.pair_sum:.12g}, known to {self.error:.1g}",
+            "per turn": f"{per_turn}, known to {self.exponent_error:.1g}",
+            "frequency [rad/s]": f"{self.frequency:.12g}",
+        }
 
     @property
     def exponent_error(self) -> float:

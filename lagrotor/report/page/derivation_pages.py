@@ -1,5 +1,6 @@
 """A derivation as part of the page: its prose, the steps that it proves, the verdicts where they are reached."""
 
+import re
 from base64 import b64encode
 from collections.abc import Mapping
 from html import escape
@@ -38,6 +39,7 @@ def written(text: str) -> str:
         from mdit_py_plugins.dollarmath import dollarmath_plugin
     except ModuleNotFoundError:
         return f"<pre>{escape(text)}</pre>"
+    text = re.sub(r"(?m)^(\$\$.*\$\$)$", r"\n\1\n", text)  # a displayed formula is a paragraph of its own
     renderer = MarkdownIt("commonmark").enable("table")
     renderer.use(dollarmath_plugin, renderer=_formula, allow_space=False)
     html: str = renderer.render(text)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError
+from lagrotor.numerics.shown import Shown
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
@@ -17,7 +18,7 @@ ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
 
 
 @dataclass(frozen=True, eq=False)
-class PrecessionOrbit:
+class PrecessionOrbit(Shown):
     """A paired precession with bounds of its errors. Called with times it gives both axes. At t = 0 they are parallel.
 
     frequency: angular, rad/s, negative where rotor 1 spins negatively. frequency_error: its bound, rad/s.
@@ -33,6 +34,16 @@ class PrecessionOrbit:
     error: float
     method: str
     harmonics: Array
+
+    def summary(self) -> dict[str, str]:
+        """The orbit, how it was found and how well it is known, name → words."""
+        return {
+            "amplitude": f"{self.r0:g}",
+            "frequency [rad/s]": f"{self.frequency:.12g}, known to {self.frequency_error:.1g}",
+            "error of an axis": f"{self.error:.1g} at most",
+            "method": self.method,
+            "momentum about the joint line [kg m²/s]": f"{self.momentum:.9g}",
+        }
 
     def __call__(self, t: ArrayLike) -> Array:
         """Axes at times t (…) in s: (2, …, 3). Raises DomainError for a time that is not finite."""

@@ -1,0 +1,61 @@
+"""The shell's scenes: the help alone, the paired start, a scene's file, a sweep, JSON everywhere."""
+
+import json
+
+import numpy as np
+import pytest
+
+from lagrotor import Scene, paired_scene, read_scene, simulate
+from lagrotor.commands.command_line import main
+
+PAIR = ["--spins", "10", "-10"]
+
+
+def test_a_bare_command_shows_its_help(capsys) -> None:
+    assert main([]) == 0
+    assert "usage: lagrotor" in capsys.readouterr().out
+
+
+def test_the_paired_start_is_the_periodic_orbit(capsys, tmp_path) -> None:
+    file = tmp_path / "scene.toml"
+    asked = ["simulate", *PAIR, "--paired", "0.204", "--t-end", "1", "--samples", "3", "--json"]
+    assert main([*asked, "--write-scene", str(file)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), np.linspace(0, 1, 3))
+    assert found["tip_1"] == pytest.approx(run.tips[0, -1].tolist(), abs=1e-9)
+    assert main(["simulate", "--scene", str(file), "--t-end", "1", "--samples", "3", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["tip_1"] == pytest.approx(found["tip_1"], abs=1e-12)
+    assert read_scene(file).spins == (10, -10)
+
+
+def test_a_sweep_is_the_runs_one_by_one(capsys, tmp_path) -> None:
+    varied = ["sweep", *PAIR, "--vary", "paired", "--between", "0.1", "0.3", "3", "--t-end", "1"]
+    assert main([*varied, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [row["paired"] for row in rows] == pytest.approx([0.1, 0.2, 0.3])
+    for row in rows:
+        run = simulate(paired_scene(Scene(spins=(10, -10)), row["paired"]), [0, 1], tol=1e-10)
+        assert row["tip_1"] == pytest.approx(run.tips[0, -1].tolist(), abs=1e-5)
+    assert main([*varied, "--out", str(tmp_path / "family.csv")]) == 0
+    table = np.loadtxt(tmp_path / "family.csv", delimiter=",", skiprows=1)
+    assert table.shape == (9, 8) and table[-1, 2:5] == pytest.approx(rows[-1]["tip_1"])
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["simulate"], "--spins W1 W2 is missing"),
+        (["simulate", "--scene", "FILE", "--I1", "2"], "--scene and --I1: the file has the whole scene"),
+        (["simulate", *PAIR, "--paired", "0.2", "--axes", "0", "0", "1", "0", "0", "1"], "each is a start; give one"),
+        (["sweep", *PAIR, "--vary", "link-mass", "--between", "0", "x", "3"], "give two numbers and a count"),
+        (["sweep", *PAIR, "--no-link", "--vary", "link-mass", "--between", "0", "1", "3"], "a pair without a bar has none"),
+        (["sweep", *PAIR, "--vary", "paired", "--between", "0", "1", "0"], "a count from 1 to"),
+        (["figure", "1", "--out", "FILE"], "is a file: give a folder"),
+    ],
+)  # fmt: skip
+def test_what_makes_no_sense_is_refused_in_a_line(capsys, tmp_path, words: list[str], reason: str) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text("spins = [10, -10]\n")
+    assert main([str(file) if word == "FILE" else word for word in words]) == 2
+    said = capsys.readouterr().err
+    assert reason in said and said.count("\n") == 1
