@@ -1,0 +1,62 @@
+"""The notebooks of the documentation run from top to bottom, and find what their words say."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import lagrotor
+
+FOLDER = Path(lagrotor.__file__).parent.parent / "docs" / "notebooks"
+pytestmark = pytest.mark.skipif(not FOLDER.is_dir(), reason="installed without the documentation")
+
+
+def ran(name: str) -> tuple[dict[str, Any], list[Any]]:
+    """The names that a notebook defines, and what each code cell ends in."""
+    cells = json.loads((FOLDER / f"{name}.ipynb").read_text(encoding="utf-8"))["cells"]
+    names: dict[str, Any] = {}
+    ends = []
+    for source in ("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"):
+        body, _, last = source.rpartition("\n") if "\n" in source else ("", "", source)
+        exec(body, names)
+        ends.append(eval(last.split("  #")[0], names))
+    return names, ends
+
+
+def test_my_own_pair() -> None:
+    names, ends = ran("my_own_pair")
+    assert ends[1] == pytest.approx(lagrotor.natural_rate(names["upright"]))
+    assert max(ends[3].values()) < 1e-7
+    assert ends[4].axes
+
+
+def test_the_paired_precession() -> None:
+    names, ends = ran("paired_precession")
+    assert ends[1] < 1e-7, "the run comes back"
+    assert 1e-5 < ends[2] < 0.204**3, "the series through the third order"
+    assert (np.diff(ends[3]) < 0).all(), "wider orbits turn more slowly"
+    assert ends[4].kind == "hyperbolic"
+
+
+def test_a_shock_and_what_cancels_it() -> None:
+    _, ends = ran("a_shock_and_what_cancels_it")
+    rate, force = ends[1]
+    assert rate == pytest.approx(-0.37, abs=0.02) and force == pytest.approx(-10.6, abs=0.05)
+    without, cancelled = ends[2].values()
+    assert abs(without) > 2.5 and abs(cancelled) < 0.1
+
+
+def test_one_equation_checked() -> None:
+    _, ends = ran("one_equation_checked")
+    assert ends[0] == "holds" and ends[1] == ("holds-to-order", 2)
+    assert ends[-1][0] == "refuted" and ends[-1][2].startswith("holds")
+
+
+def test_every_notebook_has_its_test_and_no_output() -> None:
+    stems = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
+    assert stems == ["a_shock_and_what_cancels_it", "my_own_pair", "one_equation_checked", "paired_precession"]
+    for stem in stems:
+        cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]
+        assert not any(cell.get("outputs") for cell in cells), f"{stem}: clear the outputs before it is committed"
