@@ -8,8 +8,8 @@
 # bars massless, except where $b$ is named.
 #
 # **Notation.** $u=(x,y)$ tilt of an axis; $a$ its inertia about the joint, $b$ the coupling by a heavy bar, $G$ the axial
-# momentum; $\kappa$ hinge stiffness less the weight's moment $gS$. Waves $u_n\propto e^{i(qn-\omega t)}$. With $Z$ a basis of
-# what the bars leave at $q$: $\det(-\omega^2Z^\dagger MZ-i\omega Z^\dagger CZ+Z^\dagger KZ)=0$.
+# momentum; $\kappa$ hinge stiffness less the weight's moment $gS$. Waves $u_n\propto e^{i(qn-\omega t)}$. With $Z$ a
+# basis of what the bars leave at $q$: $\det(-\omega^2Z^\dagger MZ-i\omega Z^\dagger CZ+Z^\dagger KZ)=0$.
 
 # %%
 from math import pi
@@ -118,10 +118,10 @@ prove(
 #
 # ## The zigzag
 #
-# Bars turned by $+\theta$ and $-\theta$ in turn: the mass has the same $\cos\theta$, the gyroscopic term changes its sign
-# with $\sin\theta$ from joint to joint. With spins $\pm G$ in turn the two signs cancel, and every zigzag has the band of the
-# ring, $q$ counted from rotor to rotor; $\theta=\pi/2$ is the staircase, $\omega=(G/a)\sin q$. With equal spins the bars
-# come in two kinds, $e$ and $o$, two freedoms a cell:
+# Bars turned by $+\theta$ and $-\theta$ in turn: the mass has the same $\cos\theta$, the gyroscopic term changes its
+# sign with $\sin\theta$ from joint to joint. With spins $\pm G$ in turn the two signs cancel, and every zigzag has the
+# band of the ring, $q$ counted from rotor to rotor; $\theta=\pi/2$ is the staircase, $\omega=(G/a)\sin q$. With equal
+# spins the bars come in two kinds, $e$ and $o$, two freedoms a cell:
 
 # %%
 M = a / s**2 * sp.Matrix([[2, -2 * c * sp.cos(q)], [-2 * c * sp.cos(q), 2]])
@@ -219,7 +219,8 @@ def orders(link: Link) -> tuple[list[float], list[float]]:
 light, heavy = orders(massless), orders(Link(mass=1.0, inertia=0.1))
 Remark(
     "Finite zigzags",
-    f"Of open zigzags of 16, 32 and 64 rotors at 30°, 51.6° and 90°, equal spins and in turn, every rate is the closed form's "
+    "Of open zigzags of 16, 32 and 64 rotors at 30°, 51.6° and 90°, equal spins and in turn, every rate is the "
+    "closed form's "
     f"within {worst:.0e}. A long wave goes out with one branch and comes back with the other; the lowest mode approaches "
     f"2π over that round trip with orders {light[1][0]:.2f} and {light[1][1]:.2f} in 1/N for massless bars (off by "
     f"{light[0][2]:.1e} at N = 64) and {heavy[1][0]:.2f} and {heavy[1][1]:.2f} for heavy ones ({heavy[0][2]:.1e}).",
@@ -256,11 +257,11 @@ prove(
 )
 
 # %% [markdown]
-# The two axes of a cell turn in opposite senses. Equal spins cancel: **a honeycomb of rigid bars and equal spins has one zero
-# band and nothing else.** Opposite spins add, $|u|^2=\tfrac23\sum|f_j|^2$ and the area is $2/\sqrt3$ times $f_1\times f_2$:
-# $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,(\sin\Delta_1+\sin\Delta_2+\sin\Delta_3)}
-# {3-\cos\Delta_1-\cos\Delta_2-\cos\Delta_3}$$
-# (one sense of each $q$), which is proportional to $q$ for long waves and to $\cos3\chi$ in their direction $\chi$.
+# The two axes of a cell turn in opposite senses. Equal spins cancel: **a honeycomb of rigid bars and equal spins has
+# one zero band and nothing else.** Opposite spins add, $|u|^2=\tfrac23\sum|f_j|^2$ and the area is $2/\sqrt3$ times
+# $f_1\times f_2$: $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,(\sin\Delta_1+\sin\Delta_2+\sin\Delta_3)}
+# {3-\cos\Delta_1-\cos\Delta_2-\cos\Delta_3}$$ (one sense of each $q$), which is proportional to $q$ for long waves and
+# to $\cos3\chi$ in their direction $\chi$.
 
 # %%
 draw = np.random.default_rng(0).uniform(-pi, pi, (200, 2))
@@ -301,8 +302,8 @@ Remark(
 # %% [markdown]
 # ## Weight and hinges
 #
-# With $\kappa$ on every axis the stiffness is $\kappa$ times the mass over $a$, and with $\beta(q)$ the rate without it times
-# $a$, $a\omega^2-\beta\omega-\kappa=0$ for each freedom.
+# With $\kappa$ on every axis the stiffness is $\kappa$ times the mass over $a$, and with $\beta(q)$ the rate without it
+# times $a$, $a\omega^2-\beta\omega-\kappa=0$ for each freedom.
 
 # %%
 beta = sp.Symbol("beta", real=True)
@@ -346,7 +347,8 @@ for bend, N in ((pi / 2, 3), (pi / 2, 9), (0.9, 9), (0.9, 17)):
 assert zigzag(0.9, spins=1.0, gravity=9.81).piece(4).critical_spin() == np.inf
 Remark(
     "Zigzags under weight",
-    f"Least axial momentum of equal spins, massless bars, rotors of 1 kg and 1 m: {'; '.join(stands_from)}. 8 rotors: none.",
+    f"Least axial momentum of equal spins, massless bars, rotors of 1 kg and 1 m: {'; '.join(stands_from)}. 8 "
+    "rotors: none.",
 )
 
 # %% [markdown]
@@ -418,6 +420,7 @@ assert off_run < 1e-3
 Remark(
     "The bands and the exact model",
     f"Ring of 12 with heavy bars: all 12 modes at q = 2πm/12 within {off_ring:.0e}. Its wave m = 3 with a tilt of {tilt:g} "
-    f"stays, in an exact run of 10 periods, within {off_run:.0e} of the tilt of the Bloch wave. Honeycomb: closed form within "
+    f"stays, in an exact run of 10 periods, within {off_run:.0e} of the tilt of the Bloch wave. Honeycomb: "
+    "closed form within "
     f"{off:.0e} at 200 wave numbers; row with hinges and heavy bars: {off_row:.0e}.",
 )

@@ -93,7 +93,7 @@ def figure() -> Figure:
     picture = Figure(figsize=(8.6, 4.6))
     growth, tilt = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, _, colour)), values in zip(SHOWN.items(), d["growth"], strict=True):
-        growth.plot(d["spins"], values, color=colour, label=name)
+        growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT, mfc="none", label="exact motion")
     growth.set(xlabel="spin in √(aκ)/I3 [1]", ylabel="growth in √(κ/a) [1]", title="Growth of what falls fastest")
     for values, name, ink in zip(

@@ -280,6 +280,21 @@ PAST = [
     ("m1", "a departure of the spins does as much at every order", lambda d: all(near(
         errors[d["departures"] > 0.015, 0], d["errors"][1, d["departures"] > 0.015, 0], 0.05) for errors in d["errors"]),
      ("errors", lambda errors: errors * np.array([1, 2, 3])[:, None, None])),
+    ("n1", "no spin holds the loaded pair, and each of the others is held",
+     lambda d: np.ptp(d["growth"][1]) < 1e-9 and not d["growth"][[0, 2, 3], -1].any(), ("growth", swapped)),
+    ("n1", "the exact motion grows as the roots say", lambda d: d["largest distance, measured growth"] < 1e-3,
+     ("measured", wider(1.02))),
+    ("n1", "3 % of spin are the difference between falling and standing",
+     lambda d: d["tilt"][0].max() > 10 * d["tilt"][1].max(), ("tilt", swapped)),
+    ("n2", "the peaks of structures are √2/γ, of equal and of opposite spins",
+     lambda d: d["largest relative distance of a peak"] < 0.02 and d["equal against opposite spins"] < 1e-9,
+     ("found", wider(1.05))),
+    ("n2", "spins at γ = 0.3 do better than a tuned mass of 2 %", lambda d: 1.5 * d["spun"].max() < d["tuned"].max(),
+     ("spun", wider(3))),
+    ("n4", "friction turns the pair by G r_0²/2c", lambda d: all(
+        abs(d[f"angle at rest over the law, c = {c:g}"] - 1) < 0.03 for c in d["RUBBED"]), ("angles", wider(1.05))),
+    ("n4", "a joint that rubs alike widens the precession, kept spins narrow it",
+     lambda d: np.abs(d["tilts"][0]).max() > 1.1 > 0.7 > np.abs(d["tilts"][1, -200:]).max(), ("tilts", swapped)),
 ]  # fmt: skip
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
@@ -291,6 +306,7 @@ PLOTS = {  # key → panels, entries of the legend
     **{"23": (2, 5), "24": (3, 3), "25": (5, 4), "26": (3, 2), "27": (5, 4), "28": (4, 4)},
     **{"t1": (2, 6), "t2": (3, 6), "t3": (2, 12), "t4": (3, 4), "t5": (2, 9)},
     **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12)},
+    **{"n1": (2, 7), "n2": (2, 8), "n4": (2, 6)},
 }
 UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²", "pJ", "SI"}
 

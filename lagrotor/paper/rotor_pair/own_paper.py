@@ -1,7 +1,7 @@
 """The paper *Dynamics of Axially Coupled Rotor Pairs*: what `audit` and the command line take where no other is named.
 
 Its derivations and figures lie beside the package: s… sections, c… claims, m… tables, t… theory past the paper, p… the table
-of it, b… speed against accuracy, g… the gallery of textbook systems.
+of it, n… from the pair to structures, b… speed against accuracy, g… the gallery of textbook systems.
 """
 
 from pathlib import Path

@@ -239,6 +239,7 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
             "figures",
             "tables",
             "past",
+            "structures",
             "speed",
             "stability",
         ),
