@@ -20,7 +20,13 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """reproduce, audit, claims, figure."""
+    """init, reproduce, audit, claims, figure."""
+    added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
+    added.description = "Begin a paper of your own: a folder with one worked equation, claim and figure."
+    added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder")
+    source = "take the displayed equations of a .tex or .md file, and of the print what sympy can read"
+    added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
+
     added = command(
         "reproduce",
         reproduce_command,
@@ -64,6 +70,20 @@ def _paper(given: argparse.Namespace) -> "Paper":
     from lagrotor.paper.papers import opened
 
     return opened(given.paper.resolve())
+
+
+def init_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.printed import can_read
+    from lagrotor.paper.start import begin
+
+    made = begin(given.folder, given.source)
+    print(
+        f"{made.folder}: {made.equations} equation{'s' * (made.equations != 1)}, of which the print of {made.read} is read"
+    )
+    if not can_read():
+        print("to have the print read from LaTeX: pip install 'lagrotor[latex]', and begin again")
+    print(f"go on with {made.folder / 'README.md'}, and with: lagrotor audit --paper {made.folder}")
+    return 0
 
 
 def reproduce_command(given: argparse.Namespace) -> int:

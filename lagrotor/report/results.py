@@ -43,10 +43,13 @@ def balance(report: Report) -> str:
     text = f"Of {len(report.verdicts)} equations {hold} hold: {counts.get('holds', 0)} exactly, "
     text += f"{counts.get('holds-if', 0)} under a condition that is named, "
     text += f"{counts.get('holds-to-order', 0)} to the order that is named. "
-    whole = 0 < corrected == len(fallen)
-    how = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
-    text += f"{len(fallen)} fall{how} that itself holds, "
-    text += f"and {reaching} take a result of the paper with them. The other {other} give a name or a measured number."
+    if fallen:
+        whole = corrected == len(fallen)
+        how = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
+        text += f"{len(fallen)} fall{how} that itself holds, and {reaching} take a result of the paper with them."
+    else:
+        text += "None falls."
+    text += f" The other {other} give a name or a measured number." if other else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 
 

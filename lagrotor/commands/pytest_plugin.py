@@ -1,0 +1,82 @@
+"""`pytest --lagrotor my-paper`: each verdict and each outcome on record is a test, and fails with the reason when it changes."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from lagrotor.paper.papers import Paper
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """--lagrotor DIR, as often as there are papers."""
+    says = "test that the verdicts on a paper are those on record"
+    parser.getgroup("lagrotor").addoption("--lagrotor", action="append", default=[], metavar="DIR", help=says)
+
+
+def pytest_collection_modifyitems(session: pytest.Session, items: list[pytest.Item]) -> None:
+    """A test for each verdict of each paper, after the others."""
+    for folder in session.config.getoption("--lagrotor"):
+        items += _OnePaper.from_parent(session, name=str(folder), path=Path(folder).resolve()).collect()
+
+
+class _OnePaper(pytest.Collector):
+    def collect(self) -> Iterator["OnRecord"]:
+        """The equations that are stated or on record, and the claims that are tested or on record."""
+        from lagrotor.errors import LagrotorError
+        from lagrotor.paper.papers import opened
+
+        try:
+            paper = opened(self.path)
+            known, recorded = {*paper.scripts.stating, *paper.claim_tests}, paper.recorded
+        except LagrotorError as error:
+            raise pytest.UsageError(str(error)) from None
+        ids = [i for i in (*paper.equations, *paper.claims) if i in known or i in recorded]
+        for identifier in (*ids, *(i for i in recorded if i not in ids)):
+            yield OnRecord.from_parent(self, name=identifier, paper=paper)
+
+
+class OnRecord(pytest.Item):
+    """One verdict, or the outcome of one claim, against the record."""
+
+    def __init__(self, *, paper: "Paper", **rest: Any) -> None:
+        super().__init__(**rest)
+        self.paper = paper
+
+    def runtest(self) -> None:
+        """Judge the equation, or test the claim."""
+        row = self.paper.recorded.get(self.name)
+        before = row.verdict if row else "nothing"
+        found, why = self._found()
+        if found != before:
+            raise ChangedError(f"{self.name}: recorded {before}, found {found}\n{why}")
+
+    def _found(self) -> tuple[str, str]:
+        """The verdict as it is now, and why."""
+        from lagrotor.paper.verdict_text import in_words
+
+        if self.name in self.paper.scripts.stating:
+            verdict = self.paper.audit(self.name)
+            return verdict.verdict, "\n".join((in_words(verdict, self.paper), *verdict.evidence))
+        if self.name in self.paper.claim_tests:
+            finding = self.paper.measured(self.name).finding
+            return finding.outcome, finding.explanation
+        return "nothing", "no derivation states it and no claim's test shows it"
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
+        """The reason alone; of an error of the package its message."""
+        from lagrotor.errors import LagrotorError
+
+        if isinstance(excinfo.value, ChangedError | LagrotorError):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """Where the equation is printed."""
+        return self.paper.folder / "equations.toml", None, f"{self.paper.folder.name} {self.name}"
+
+
+class ChangedError(AssertionError):
+    """A verdict that is not the one on record."""
