@@ -72,7 +72,7 @@ class _Reader:
 
     def __init__(self, text: str, found: Source) -> None:
         self.text, self.found = text, found
-        self.section, self.counts = "0", [0, 0, 0]
+        self.section, self.counts, self.bare = "0", [0, 0, 0], 0
         self.within = re.search(r"\\numberwithin\{equation\}\{section\}", text) is not None
         self.number, self.last, self.since = 0, "", 0
 
@@ -91,9 +91,12 @@ class _Reader:
         title, own = _plain(heading), re.match(r"(\d+(?:\.\d+)*)\.?\s+(.*)", _plain(heading))
         if own:
             self.section, title = own[1], own[2]
+        elif bare:
+            self.bare += 1
+            self.section = ".".join(str(count) for count in self.counts if count) + _letters(self.bare)
         else:
-            self.counts = [*self.counts[:level], self.counts[level] + (not bare), 0, 0][:3]
-            self.section = ".".join(map(str, self.counts[: level + 1])) + bare
+            self.counts = [*self.counts[:level], self.counts[level] + 1, 0, 0][:3]
+            self.section, self.bare = ".".join(map(str, self.counts[: level + 1])), 0
         if level == 0 and self.within:
             self.number = 0
         self.found.sections.setdefault(self.section, title)
@@ -153,4 +156,5 @@ def _braced(text: str, start: int) -> str:
 def _plain(text: str) -> str:
     """A heading or a name without commands and braces."""
     text = re.sub(r"\\(?:thanks|footnote|label)\s*\{[^{}]*\}", "", text)
-    return " ".join(re.sub(r"\\[A-Za-z]+\*?|[{}$*]|\\\\", " ", text).split())
+    text = re.sub(r"\\[A-Za-z]+\*?|[{}$*]|\\\\", " ", text)
+    return " ".join(re.sub(r"\\([&%_#])", r"\1", text).split())

@@ -1,0 +1,181 @@
+"""A paper of one's own from the shell: begun, audited, reported, tested by pytest; and one from a LaTeX file, end to end."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import lagrotor
+from lagrotor.commands.command_line import main
+from lagrotor.paper import Paper
+
+ROOT = Path(lagrotor.__file__).parent.parent
+
+
+@pytest.fixture(autouse=True)
+def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_new_paper_is_green_at_once(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["init", "my-paper"]) == 0
+    assert "1 equation, of which the print of 1 is read" in capsys.readouterr().out
+    for command in (["audit"], ["audit", "1.1", "--json"], ["claims"], ["figure", "1"]):
+        assert main([*command, "--paper", "my-paper"]) == 0, command
+    capsys.readouterr()
+    assert main(["reproduce", "--paper", "my-paper", "--jobs", "1"]) == 0
+    assert "1 equations: 1 holds to order\n1 claims tried: 1 confirmed\n1 figures" in capsys.readouterr().out
+    for name in ("index.html", "report.md", "report.tex", "errata.tex"):
+        text = (work / "report" / name).read_text(encoding="utf-8")
+        assert "my-paper" in text and "otor Pairs" not in re.sub(r"(?s)How to cite.*", "", text), name
+    assert 'id="model"' not in (work / "report" / "index.html").read_text(encoding="utf-8"), "it has none"
+    assert main(["reproduce", "--paper", "my-paper", "--jobs", "1"]) == 0
+    assert "all taken from the last run" in capsys.readouterr().out
+
+
+def test_a_changed_letter_or_print_makes_the_report_anew(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["init", "my-paper"]) == 0
+    assert main(["reproduce", "--paper", "my-paper", "--jobs", "1"]) == 0
+    equations = work / "my-paper" / "equations.toml"
+    equations.write_text(equations.read_text().replace('"-g/l*theta"', '"g/l*theta"'))
+    code = "import sys; from lagrotor.commands.command_line import main; sys.exit(main(sys.argv[1:]))"
+    done = shell(code, "reproduce", "--paper", "my-paper", "--jobs", "1")
+    assert done.returncode == 1 and "changed: 1.1: recorded holds-to-order, found refuted" in done.stderr
+
+
+def shell(code: str, *argv: str) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        [sys.executable, "-c", code, *argv], capture_output=True, text=True, env=environment, check=False
+    )
+
+
+@pytest.mark.parametrize(
+    ("argv", "says"),
+    [
+        (["audit", "--paper", "nowhere"], "is no paper: it has no paper.toml; `lagrotor init nowhere` makes one"),
+        (["init", "."], "choose a new or an empty folder"),
+        (["init", "a/b"], "is missing: make it first"),
+        (["init", "new", "--from", "paper.pdf"], "give a .tex or an .md file"),
+        (["init", "new", "--from", "paper.tex"], "No such file"),
+    ],
+)
+def test_bad_input_is_one_line(argv: list[str], says: str, work: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (work / "something").touch()
+    assert main(argv) == 2
+    err = capsys.readouterr().err
+    assert says in err and err.count("\n") == 1
+    assert [path.name for path in work.iterdir()] == ["something"]
+
+
+def test_a_script_that_fails_is_one_line_with_its_place(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["init", "my-paper"]) == 0
+    script = work / "my-paper" / "derivations" / "s1_motion.py"
+    script.write_text(script.read_text() + "\n1 / 0\n")
+    capsys.readouterr()
+    assert main(["audit", "--paper", "my-paper"]) == 2
+    line = capsys.readouterr().err.splitlines()[-1]
+    assert re.fullmatch(r"lagrotor: .*s1_motion\.py:35: ZeroDivisionError: division by zero", line), line
+
+
+def plugin(*argv: str) -> subprocess.CompletedProcess[str]:
+    """`pytest --lagrotor …` in a process of its own."""
+    command = [sys.executable, "-m", "pytest", "-p", "lagrotor.commands.pytest_plugin", "-p", "no:cacheprovider", *argv]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+
+
+def test_each_verdict_on_record_is_a_test_with_the_reason_when_it_changes(work: Path) -> None:
+    assert main(["init", "my-paper"]) == 0
+    done = plugin("--lagrotor", "my-paper", "-v")
+    assert done.returncode == 0 and "2 passed" in done.stdout, done.stdout + done.stderr
+    assert "my-paper::1.1 PASSED" in done.stdout and "my-paper::C01 PASSED" in done.stdout
+    equations = work / "my-paper" / "equations.toml"
+    equations.write_text(equations.read_text().replace('"-g/l*theta"', '"g/l*theta"'))
+    done = plugin("--lagrotor", "my-paper")
+    assert done.returncode == 1 and "1 failed, 1 passed" in done.stdout
+    assert "1.1: recorded holds-to-order, found refuted" in done.stdout
+    assert "first differs at order 1 in theta" in done.stdout and "Traceback" not in done.stdout
+    assert plugin("--lagrotor", "nowhere").returncode == 4
+
+
+def test_what_is_on_record_and_no_longer_there_fails(work: Path) -> None:
+    assert main(["init", "my-paper"]) == 0
+    (work / "my-paper" / "recorded.json").write_text('{"1.1": "holds-to-order", "1.2": "holds"}')
+    done = plugin("--lagrotor", "my-paper")
+    assert "2 failed, 1 passed" in done.stdout
+    assert "1.2: recorded holds, found nothing" in done.stdout
+    assert "C01: recorded nothing, found confirmed" in done.stdout
+
+
+CHAIN = r"""
+\documentclass{article}
+\title{Two coupled oscillators}
+\author{A. Student}
+\begin{document}
+\section{Motion}
+\begin{equation}\label{eq:lagrangian}
+  L = \frac{m}{2}\left(\dot{x}_1^2 + \dot{x}_2^2\right) - \frac{k}{2}\left(x_1^2 + x_2^2\right) - \frac{c}{2}(x_1 - x_2)^2
+\end{equation}
+\begin{align}
+  m\ddot{x}_1 &= -k x_1 + c(x_1 - x_2) \label{eq:first} \\
+  m\ddot{x}_2 &= -k x_2 + c(x_1 - x_2)
+\end{align}
+\section{Modes}
+\begin{equation} \omega_+^2 = \frac{k}{m} \end{equation}
+\begin{equation} \omega_-^2 = \frac{k + 2 c}{m} \end{equation}
+\[ \vec{F} = -\nabla V \]
+\end{document}
+"""
+MODES = """# %% [markdown]
+# # Two coupled oscillators
+
+# %%
+import sympy as sp
+from symbols import c, k, m, x_1, x_1_dot, x_2, x_2_dot
+
+from lagrotor.mechanics import System, coordinates
+from lagrotor.paper.stating import verdict
+
+q = coordinates("x_1 x_2")
+pair = System(q, m * (x_1_dot**2 + x_2_dot**2) / 2 - k * (x_1**2 + x_2**2) / 2 - c * (x_1 - x_2) ** 2 / 2)
+verdict("1", pair.L)
+forces = [m * a for a in sp.solve(list(pair.motion), list(q.a), dict=True)[0].values()]
+verdict("2", forces[0], correction=-k * x_1 - c * (x_1 - x_2), wrong="The sign of the coupling.")
+verdict("3", forces[1])
+same, opposite = (sp.cancel(-forces[0].subs(x_2, sign * x_1) / (m * x_1)) for sign in (1, -1))
+verdict("4", same)
+verdict("5", opposite)
+"""
+
+
+def test_a_latex_file_becomes_a_paper_that_is_judged(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("antlr4", reason="sympy's parser of LaTeX needs the extra `latex`")
+    (work / "chain.tex").write_text(CHAIN, encoding="utf-8")
+    assert main(["init", "chain", "--from", "chain.tex"]) == 0
+    assert "6 equations, of which the print of 5 is read" in capsys.readouterr().out
+    paper = Paper(work / "chain")
+    assert (paper.title, paper.about.authors) == ("Two coupled oscillators", ("A. Student",))
+    assert [(e.id, e.title) for e in paper.equations.values()][1] == ("2", "eq:first")
+    assert main(["audit", "--paper", "chain", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert [row["verdict"] for row in rows] == ["not-yet-judged"] * 6, "nothing is derived yet"
+
+    (work / "chain" / "derivations" / "s1_modes.py").write_text(MODES, encoding="utf-8")
+    audit = Paper(work / "chain").audit()
+    assert audit.counts == {"holds": 4, "refuted": 1, "not-yet-judged": 1}
+    assert (audit["2"].verdict, audit["2"].correction_verdict) == ("refuted", "holds")
+
+    code = "import sys; from lagrotor.commands.command_line import main; sys.exit(main(sys.argv[1:]))"
+    done = shell(code, "reproduce", "--paper", "chain", "--jobs", "1")
+    assert done.returncode == 0, done.stderr
+    assert "6 equations: 4 holds, 1 refuted, 1 not yet judged" in done.stdout
+    report = (work / "report" / "report.md").read_text(encoding="utf-8")
+    assert report.startswith("# Two coupled oscillators\n") and "## Not yet judged" in report
+    assert "1 more is not yet judged" in report
+    assert r"\emph{Two coupled oscillators}" in (work / "report" / "errata.tex").read_text(encoding="utf-8")
