@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
+from string import Formatter
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -118,5 +119,16 @@ def title_page(folder: Path) -> TitlePage:
     given = toml(file)
     for key, kind in (("opening", Opening), ("headline", Headline), ("part", Part)):
         if key in given:
-            given[key] = [row(kind, each, f"{file}: {key}") for each in given[key]]
+            given[key] = [_checked(row(kind, each, f"{file}: {key}"), f"{file}: {key}") for each in given[key]]
     return row(TitlePage, given, str(file))
+
+
+def _checked(found: Any, where: str) -> Any:
+    """The same; raises InputError where its text has a brace that is not closed."""
+    try:
+        list(Formatter().parse(getattr(found, "text", "")))
+    except ValueError as error:
+        raise InputError(
+            f"{where}: text: {error}: numbers stand in braces, {{C01[name]:.3f}}; a brace alone is {{{{"
+        ) from None
+    return found

@@ -96,6 +96,8 @@ class _Numbers(Formatter):
             verdict = self.verdicts[identifier]
             answer = verdict.correction_verdict if name == "correction" else verdict.verdict
             return word(answer or "undecided"), identifier
+        if identifier not in self.measured:
+            raise InputError(f"paper.toml: {{{field_name}}} is no equation, claim or figure of the report")
         measured = self.measured[identifier]
         if name not in measured:
             raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")

@@ -82,6 +82,7 @@ DOORS = {
     "no equations": ("equations.toml", "", "", r"equations\.toml: .*every paper has this file"),
     "no TOML": ("paper.toml", "results =", "results", r"paper\.toml: .*line \d"),
     "no title": ("paper.toml", 'title = "The simple pendulum"', "", r"paper\.toml: .*'title' is missing"),
+    "brace": ("paper.toml", "{1.1}", "{1.1", r"headline: text: .*numbers stand in braces"),
     "unknown key": ("equations.toml", "title =", "titel =", r"equation 1\.1: 'titel' means nothing here"),
     "unknown section": ("equations.toml", 'section = "1"', 'section = "7"', r"1\.1: section '7' is not"),
     "id twice": ("equations.toml", "[[equation]]", TWICE, r"equation 1\.1: the id is given twice"),
