@@ -295,6 +295,21 @@ PAST = [
         abs(d[f"angle at rest over the law, c = {c:g}"] - 1) < 0.03 for c in d["RUBBED"]), ("angles", wider(1.05))),
     ("n4", "a joint that rubs alike widens the precession, kept spins narrow it",
      lambda d: np.abs(d["tilts"][0]).max() > 1.1 > 0.7 > np.abs(d["tilts"][1, -200:]).max(), ("tilts", swapped)),
+    ("n3", "modes of finite structures lie on the bands", lambda d: near(d["ring_modes"], d["ring_bands"])
+     and d["modes of open zigzags, largest distance from the bands (rad/s)"] < 1e-9, ("ring_modes", wider(1.01))),
+    ("n3", "no wave of alternating spins is faster than G/a, and each angle reaches it",
+     lambda d: np.abs(d["alternating"].max(axis=1) - 8).max() < 1e-3 and d["alternating"].max() < 8 + 1e-9,
+     ("alternating", wider(1.01))),
+    ("n3", "weight fells the waves whose two rates have met", lambda d: (
+        (d["growth"] > 0) == (np.ptp(d["loaded"], axis=1) < 1e-6)).all(), ("growth", lambda growth: growth[::-1] + 1)),
+    ("n3", "the honeycomb of opposite spins has its closed form",
+     lambda d: d["honeycomb, largest distance from the closed form (rad/s)"] < 1e-9, ("honeycomb", wider(1.01))),
+    *[("n5", f"as many waves run one way along the borders as the number says: {name}", lambda d, name=name: (
+        d[f"{name}_border"] == d[f"{name}_numbers"][0] * np.array([1, -1])).all() and d[f"{name}_numbers"][0] == -1,
+       (f"{name}_border", swapped)) for name in ("springs", "bars")],
+    *[("n5", f"in the middle of the gap the waves are at a border: {name}", lambda d, name=name: (np.abs(
+        d[f"{name}_place"] - 0.5)[np.abs(d[f"{name}_rates"] - d[f"{name}_gap"].mean()) < 0.04] > 0.3).all(),
+       (f"{name}_place", wider(0.5))) for name in ("springs", "bars")],
 ]  # fmt: skip
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
@@ -306,7 +321,7 @@ PLOTS = {  # key → panels, entries of the legend
     **{"23": (2, 5), "24": (3, 3), "25": (5, 4), "26": (3, 2), "27": (5, 4), "28": (4, 4)},
     **{"t1": (2, 6), "t2": (3, 6), "t3": (2, 12), "t4": (3, 4), "t5": (2, 9)},
     **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12)},
-    **{"n1": (2, 7), "n2": (2, 8), "n4": (2, 6)},
+    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3)},
 }
 UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²", "pJ", "SI"}
 

@@ -1,0 +1,186 @@
+# %% [markdown]
+# # Bands with a Chern number
+#
+# **Objective.** Which patterns of rotors on hinges have bands with a Chern number, so that waves run one way along their
+# border: springs between the tips, and rigid bars.
+#
+# **Assumptions.** Small motion about upright axes that stand on hinges, no friction.
+#
+# **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ its hinge, $k$ the stiffness of a spring between
+# tips, lengths of axes 1; $\mu=\kappa+\tfrac32k-a\omega^2$. The numbers are found by the method of Fukui, Hatsugai and
+# Suzuki with the symplectic product of waves.
+
+# %%
+import numpy as np
+import sympy as sp
+
+from lagrotor import Rotor
+from lagrotor.errors import InputError
+from lagrotor.paper.notebook import Remark
+from lagrotor.paper.proof import prove
+from lagrotor.structures.waves.chern import chern_numbers
+from lagrotor.structures.waves.edge_waves import edge_waves
+from lagrotor.structures.waves.patterns import honeycomb, square_octagon
+
+a, k, G, omega = sp.symbols("a k G omega", positive=True)
+mu, mu_A, mu_B = sp.symbols("mu mu_A mu_B", real=True)
+i, root = sp.I, sp.sqrt(3)
+
+# %% [markdown]
+# ## The honeycomb of springs where its bands come nearest
+#
+# Three springs hold each tip, along $n_1,n_2,n_3$ at 120°, $k\sum nn^T=\tfrac32k$. At the corner $K$ of the zone the far
+# ends have the phases $1,\varepsilon,\varepsilon^2$ with $\varepsilon=e^{2\pi i/3}$:
+
+# %%
+directions = [sp.Matrix([0, 1]), sp.Matrix([-root / 2, -sp.Rational(1, 2)]), sp.Matrix([root / 2, -sp.Rational(1, 2)])]
+cube = -sp.Rational(1, 2) + i * root / 2
+phases = [sp.Integer(1), sp.conjugate(cube), cube]
+prove(
+    sum((n * n.T for n in directions), sp.zeros(2, 2)),
+    sp.Rational(3, 2) * sp.eye(2),
+    "the springs of one tip",
+    names=r"\sum nn^T",
+)
+
+# %%
+joined = -k * sum((n * n.T * phase for n, phase in zip(directions, phases, strict=True)), sp.zeros(2, 2))
+
+
+def corner(first: sp.Expr, second: sp.Expr, G_A: sp.Expr, G_B: sp.Expr) -> sp.Expr:
+    """det(K − ω² M − i ω C) at K."""
+    own = [sp.Matrix([[m, -i * omega * g], [i * omega * g, m]]) for m, g in ((first, G_A), (second, G_B))]
+    below = joined.applyfunc(sp.conjugate).T
+    return sp.Matrix(sp.BlockMatrix([[own[0], joined], [below, own[1]]])).det()
+
+
+quarter = sp.Rational(9, 4) * k**2
+prove(
+    corner(mu, mu, G, G),
+    (mu**2 - omega**2 * G**2) * (mu**2 - omega**2 * G**2 - quarter),
+    "equal spins at K",
+    names=r"\det D(K)",
+)
+
+# %% [markdown]
+# Of each axis one sense of circling is left alone by the springs at $K$, $\mu=\pm\omega G$, and the other senses are coupled
+# by $\tfrac32k$. The two precessions differ there: a gap at every spin and spring. With opposite spins
+
+# %%
+prove(
+    corner(mu, mu, G, -G),
+    (mu - omega * G) ** 2 * ((mu + omega * G) ** 2 - quarter),
+    "opposite spins at K",
+    names=r"\det D(K)",
+)
+
+# %% [markdown]
+# a double root remains: the bands touch, at any strength. Unequal hinges on A and B tell the two left alone apart:
+
+# %%
+unequal = (mu_A - omega * G) * (mu_B + omega * G) * ((mu_A + omega * G) * (mu_B - omega * G) - quarter)
+prove(corner(mu_A, mu_B, G, G), unequal, "unequal hinges at K", names=r"\det D(K)")
+
+# %% [markdown]
+# The gap closes where $\mu_A=\omega G$ and $(\mu_A+\omega G)(\mu_B-\omega G)=\tfrac94k^2$ together, that is where
+# $$\kappa_B-\kappa_A=\frac{9k^2}{8\omega G},\qquad a\omega^2+G\omega=\kappa_A+\tfrac32k .$$
+# There the numbers of the precessions change from those of the spins to zero. Those of the nutations, with $-G$ for $G$ in
+# the second equation and a faster $\omega$, change at a smaller difference.
+
+# %%
+spring, hinge, spin = 50.0, 200.0, 30.0
+J, momentum = Rotor().J, spin * Rotor().I3
+slow = (np.sqrt(momentum**2 + 4 * J * (hinge + 1.5 * spring)) - momentum) / (2 * J)
+edge = 9 * spring**2 / (8 * slow * momentum)
+
+
+def sprung(spins: object, second: float = hinge) -> tuple[int, ...]:
+    return chern_numbers(honeycomb(spring=spring, spins=spins, hinge=(hinge, second)), 18).numbers
+
+
+numbers = {
+    "spins of 30 rad/s": sprung(spin),
+    "of −30 rad/s": sprung(-spin),
+    "the second hinge 3 % below the edge": sprung(spin, hinge + 0.97 * edge),
+    "3 % above": sprung(spin, hinge + 1.03 * edge),
+    "spins of ±30 rad/s and hinges of 200 and 300 N m/rad": sprung((spin, -spin), 300.0),
+}
+first, reversed_, below, above, opposite = numbers.values()
+assert first == (-1, 1, -1, 1) and reversed_ == (1, -1, 1, -1) and below == (-1, 1, 0, 0)
+assert above == opposite == (0, 0, 0, 0)
+touching = chern_numbers(honeycomb(spring=spring, spins=(spin, -spin), hinge=hinge), 18).groups
+assert touching == ((0, 1), (2, 3))
+Remark(
+    "Chern numbers of gyroscopes on a honeycomb of springs",
+    f"Springs of {spring:g} N/m, hinges of {hinge:g} N m/rad, the two precessions first, then the two nutations: "
+    + "; ".join(f"{name}: {', '.join(map(str, found))}" for name, found in numbers.items())
+    + f". The edge is at a difference of {edge:.3f} N m/rad. ±1 that change with the sense of the spins are those of Nash et "
+    "al. (2015).",
+)
+
+# %% [markdown]
+# ## Rigid bars
+#
+# Bars leave, at each $q$, the null space of their rows. A Chern number needs as many freedoms at every $q$. At $q=0$ two
+# translations are among them, and if the bars carry a self-stress there, tensions that balance at every joint, one freedom
+# more appears for each. In a honeycomb equal tensions balance: it has one freedom a cell, two at $q=0$, and no number.
+
+# %%
+rows = sp.Matrix([[*n, *(-n)] for n in directions])
+prove(sp.ones(1, 3) * rows, sp.zeros(1, 4), "equal tensions of the honeycomb balance at q = 0", names="A^T t")
+
+# %% [markdown]
+# Squares joined into octagons have two freedoms a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance, until
+# one joint is moved out of its place along both axes:
+
+# %%
+square = [sp.Matrix([1, 0]), sp.Matrix([0, 1]), sp.Matrix([-1, 0]), sp.Matrix([0, -1])]
+spokes = [((0, 1), 1), ((1, 2), 1), ((2, 3), 1), ((3, 0), 1), ((0, 2), sp.sqrt(2)), ((1, 3), sp.sqrt(2))]
+
+
+def pull(joint: int) -> sp.Matrix:
+    total = sp.zeros(2, 1)
+    for index, ((p, r), tension) in enumerate(spokes):
+        along = square[r] - square[p] if index < 4 else -(square[r] - square[p])
+        along = along / sp.sqrt(along.dot(along))
+        total += tension * ((p == joint) - (r == joint)) * along
+    return total
+
+
+prove(
+    [sum((pull(joint)[axis] ** 2 for axis in (0, 1)), sp.Integer(0)) for joint in range(4)],
+    [0] * 4,
+    "the squares of what is left at the four joints",
+    names=tuple(f"|f_{joint + 1}|^2" for joint in range(4)),
+)
+
+
+# %%
+def refused(pattern: object) -> bool:
+    try:
+        chern_numbers(pattern, 6)
+    except InputError:
+        return True
+    return False
+
+
+rigid = (30.0, 10.0, 30.0, 10.0)
+moved = square_octagon((0.3, 0.3), spins=rigid, hinge=hinge)
+bars, turned = (
+    chern_numbers(moved),
+    chern_numbers(square_octagon((0.3, 0.3), spins=tuple(-w for w in rigid), hinge=hinge)),
+)
+assert bars.numbers == (-1, 1) and turned.numbers == (1, -1)
+assert refused(square_octagon(spins=rigid, hinge=hinge)) and refused(honeycomb(spins=(30.0, 10.0), hinge=hinge))
+grid = 2 * np.pi * np.stack(np.meshgrid(*[np.arange(24) / 24] * 2), -1).reshape(-1, 2)
+low, high = moved.dispersion(grid).gaps[1]
+along = edge_waves(moved, (low + high) / 2, 8, 61)
+assert (along.first, along.last) == (-1, 1)
+Remark(
+    "Rigid bars with a Chern number",
+    f"Squares and octagons of rigid bars, one joint of four moved by 0.3 m along both axes, spins of 30, 10, 30, 10 rad/s on "
+    f"hinges of {hinge:g} N m/rad: a gap from {low:.3f} to {high:.3f} rad/s between two bands of Chern numbers "
+    f"{bars.numbers[0]} and {bars.numbers[1]}, reversed with the spins. Along the border of a strip of 8 cells one wave runs "
+    "at a rate in the gap, against the first step on one side, along it on the other. The unmoved pattern and the honeycomb "
+    "carry a self-stress at q = 0 and have no number; the square net has no bands.",
+)

@@ -1,0 +1,141 @@
+# %% [markdown]
+# # Figure n3: waves in rows and nets
+#
+# Bands of zigzags and rings, with the modes of finite structures on them; with hinges and under weight; the honeycomb.
+
+# %%
+from functools import cache
+from math import pi
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor import Pattern, Rotor
+from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, zigzag
+
+SPIN, HINGE, ROTORS = 10.0, 50.0, 16
+RINGS = (12, 6, 4)  # corners: bars turned by 30°, 60°, 90°
+LOADED = 40.0  # rad/s, the spin under weight
+
+TITLE = "Bands of rotors joined by rigid bars"
+ALT = (
+    "Four panels of rate against wave number. Zigzags of alternating spins: a hump for each of three angles, steep at zero for "
+    "the straightest. Equal spins: curves that fall from one common height at zero to nothing at the end. Staircase on "
+    "hinges: two curves and a gap; under weight, two rates that meet and a growth where they have met. Honeycomb of opposite "
+    "spins from the centre of its zone to a corner and a side. Marks of finite structures lie on the curves."
+)
+
+
+# %%
+def positive(rates: np.ndarray) -> np.ndarray:
+    """Rates above zero, rising."""
+    return np.sort(rates[rates > 1e-9])
+
+
+def on_band(ring: Pattern, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rates of the band at q, and the modes of the closed ring in the same order."""
+    bands = ring.dispersion(q).rates[:, 0]
+    modes = np.empty_like(bands)
+    modes[np.argsort(bands)] = positive(ring.piece(round(2 * pi / ring.turn)).modes().rates)
+    return bands, modes
+
+
+@cache
+def data() -> dict[str, np.ndarray]:
+    """Wave numbers a rotor q (rad) and bands (rad/s) of alternating and equal spins at 30°, 60°, 90°; modes of rings and of
+    open zigzags; the staircase on hinges and under weight; the honeycomb along a path (share of it)."""
+    q = np.linspace(0.005, pi - 0.005, 200)
+    turns = [2 * pi / n for n in RINGS]
+    rings = [2 * pi * np.arange(1, (n + 1) // 2) / n for n in RINGS]
+    closed = [on_band(polygon_ring(n, spins=SPIN), at) for n, at in zip(RINGS, rings, strict=True)]
+    loaded = zigzag(pi / 2, spins=(LOADED, -LOADED), gravity=9.81).dispersion(2 * q)
+    corners = np.array([(0.02, 0.01), (2 * pi / 3, -2 * pi / 3), (pi, 0.0)])
+    share = np.linspace(0, 2, 301)
+    path = np.stack([np.interp(share, range(3), corners[:, k]) for k in (0, 1)], axis=1)
+    return {
+        "q": q,
+        "alternating": np.array([polygon_ring(n, spins=SPIN).dispersion(q).rates[:, 0] for n in RINGS]),
+        "equal": np.array([zigzag(turn, spins=SPIN).dispersion(2 * q).rates[:, 1] for turn in turns]),
+        "ring_q": np.concatenate(rings),
+        "ring_bands": np.concatenate([each for each, _ in closed]),
+        "ring_modes": np.concatenate([each for _, each in closed]),
+        "open_q": pi * np.arange(ROTORS // 2) / ROTORS,
+        "open_modes": np.array(
+            [positive(zigzag(turn, spins=SPIN).piece(ROTORS // 2).modes().rates)[::-1] for turn in turns]
+        ),
+        "hinged": polygon_ring(4, spins=SPIN, hinge=HINGE).dispersion(np.concatenate([q, -q])).rates.reshape(2, -1).T,
+        "loaded": loaded.rates[:, -2:],
+        "growth": loaded.growth.max(axis=1),
+        "share": share / 2,
+        "path": path,
+        "honeycomb": np.abs(
+            np.stack([honeycomb(spins=(sign * SPIN, -sign * SPIN)).dispersion(path).rates[:, 0] for sign in (1, -1)])
+        ).max(axis=0),
+    }
+
+
+def honeycomb_formula(path: np.ndarray) -> np.ndarray:
+    """|ω| (rad/s) of opposite spins in closed form."""
+    d = np.array([path[:, 0], -path[:, 1], path[:, 1] - path[:, 0]])
+    return np.abs(SPIN * Rotor().I3 / Rotor().J * np.sqrt(3) * np.sin(d).sum(0) / (3 - np.cos(d).sum(0)))
+
+
+# %%
+def measure() -> dict[str, float]:
+    """Distances of finite structures and closed forms from the bands; slopes; the wave number from which weight is held."""
+    d = data()
+    turns = np.array([2 * pi / n for n in RINGS])[:, None]
+    closed = np.sin(turns) * np.cos(d["open_q"]) / np.sqrt(1 - (np.cos(turns) * np.cos(d["open_q"])) ** 2)
+    return {
+        "modes of rings, largest distance from the bands (rad/s)": np.abs(d["ring_modes"] - d["ring_bands"]).max(),
+        "modes of open zigzags, largest distance from the bands (rad/s)": np.abs(
+            d["open_modes"] - SPIN * Rotor().I3 / Rotor().J * closed
+        ).max(),
+        "honeycomb, largest distance from the closed form (rad/s)": np.abs(
+            d["honeycomb"] - honeycomb_formula(d["path"])
+        ).max(),
+        "highest rate (rad/s)": d["alternating"].max(),
+        "weight is held from (rad)": d["q"][np.argmin(d["growth"] > 0)],
+    }
+
+
+*_, _top, _held = measure().values()
+CAPTION = (
+    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers a rotor. Curves: bands; marks: modes of "
+    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, on the bands to rounding. The highest rate is "
+    f"G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and under its weight with "
+    f"{LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π fall. Honeycomb of opposite spins, from q = 0 to "
+    "K and M; equal spins leave it at rate zero."
+)
+
+
+# %%
+def figure() -> Figure:
+    """Alternating spins, equal spins, hinges and weight, honeycomb."""
+    d = data()
+    picture = Figure(figsize=(8.6, 7.0))
+    panels = picture.subplots(2, 2)
+    (turning, even), (staircase, net) = panels
+    inks = (MODEL, CORRECTED, OKABE_ITO["orange"])
+    for n, ink, one, both, modes in zip(RINGS, inks, d["alternating"], d["equal"], d["open_modes"], strict=True):
+        turning.plot(d["q"], one, color=ink, label=f"bars turned by {360 / n:.0f}°")
+        even.plot(d["q"][d["q"] < pi / 2], both[d["q"] < pi / 2], color=ink)
+        even.plot(d["open_q"], modes, "o", color=EXACT, mfc="none", ms=4)
+    turning.plot(d["ring_q"], d["ring_modes"], "o", color=EXACT, mfc="none", ms=4, label="modes of finite structures")
+    for name, ink, label in (
+        ("hinged", OKABE_ITO["reddish purple"], "on hinges"),
+        ("loaded", PAPER, "under weight"),
+    ):
+        staircase.plot(d["q"], d[name], color=ink, lw=1.2, label=[label, None])
+    staircase.plot(d["q"], d["growth"], "--", color=PAPER, label="growth under weight (1/s)")
+    net.plot(d["share"], d["honeycomb"], color=OKABE_ITO["sky blue"], label="honeycomb, opposite spins")
+    for panel, title in zip(
+        panels.flat, ("Alternating spins, and rings", "Equal spins", "Staircase, alternating", "Honeycomb"), strict=True
+    ):
+        panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number a rotor [rad]")
+    net.set(xlabel="share of the path 0 – K – M [1]")
+    even.set_xlim(0, pi / 2)
+    picture.suptitle(TITLE)
+    picture.legend(loc="outside lower center", ncols=4)
+    return picture

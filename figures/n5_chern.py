@@ -1,0 +1,101 @@
+# %% [markdown]
+# # Figure n5: waves along a border
+#
+# Bands of a strip of a pattern, coloured by where each wave is: gyroscopes joined by springs on a honeycomb, and rigid bars
+# on squares and octagons.
+
+# %%
+from functools import cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor.drawing.style import MODEL, PAPER
+from lagrotor.structures.waves.chern import chern_numbers
+from lagrotor.structures.waves.edge_waves import edge_waves
+from lagrotor.structures.waves.patterns import honeycomb, square_octagon
+
+WIDTH, POINTS, NEAR = 10, 91, 0.2  # cells; wave numbers; share of the strip that counts as a border
+SPIN, HINGE, SPRING = 30.0, 200.0, 50.0
+PATTERNS = {
+    "springs": honeycomb(spring=SPRING, spins=SPIN, hinge=HINGE),
+    "bars": square_octagon((0.3, 0.3), spins=(SPIN, SPIN / 3, SPIN, SPIN / 3), hinge=HINGE),
+}
+
+TITLE = "Waves that run one way along a border"
+ALT = (
+    "Rates of a strip's waves against the wave number along it, for a honeycomb of springs and for squares and octagons of "
+    "rigid bars. Two clouds of curves, the waves of the bulk, leave a gap between them; two curves cross it, one falling, of "
+    "waves on the first border, and one rising, of waves on the last."
+)
+
+
+# %%
+@cache
+def data() -> dict[str, np.ndarray]:
+    """q (m,), rad; of each pattern: rates (m, n) of the strip, place (m, n) of its waves, gap (2,) of the bulk, numbers."""
+    grid = 2 * np.pi * np.stack(np.meshgrid(*[np.arange(24) / 24] * 2), -1).reshape(-1, 2)
+    found = {}
+    for name, pattern in PATTERNS.items():
+        bulk = pattern.dispersion(grid).rates
+        gap = np.array([bulk[:, 0].max(), bulk[:, 1].min()])
+        waves = edge_waves(pattern, float(gap.mean()), WIDTH, POINTS)
+        found |= {"q": waves.strip.q[:, 0], f"{name}_rates": waves.strip.rates, f"{name}_place": waves.place}
+        found |= {f"{name}_gap": gap, f"{name}_border": np.array([waves.first, waves.last])}
+        found[f"{name}_numbers"] = np.array(chern_numbers(pattern).numbers[:2])
+    return found
+
+
+def measure() -> dict[str, float]:
+    """The gaps (rad/s), the Chern numbers of the band below, and the waves along the first and the last border."""
+    d, found = data(), {}
+    for name in PATTERNS:
+        found |= {f"{name}, gap from (rad/s)": d[f"{name}_gap"][0], f"{name}, gap to (rad/s)": d[f"{name}_gap"][1]}
+        found[f"{name}, Chern number below"] = d[f"{name}_numbers"][0]
+        found |= {f"{name}, {one} border": n for one, n in zip(("first", "last"), d[f"{name}_border"], strict=True)}
+    return found
+
+
+def signed(number: float) -> str:
+    return f"{number:+.0f}".replace("-", "−")
+
+
+_low, _high, _number, _first, _last, _low_2, _high_2, _number_2, *_ = measure().values()
+CAPTION = (
+    f"Strips of {WIDTH} cells, rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: springs of {SPRING:g} N/m, spins "
+    f"of {SPIN:g} rad/s; the bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, the band below it the Chern number "
+    f"{signed(_number)}. Right: rigid bars, one joint of four moved by 0.3 m along both axes, spins of {SPIN:g} and "
+    f"{SPIN / 3:g} rad/s in turn; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, number {signed(_number_2)}. Dashed: the gaps. "
+    f"Coloured waves are within {100 * NEAR:.0f} % of the width from a border; across the gap the net count of rising curves is "
+    f"{signed(_first)} on the first and {signed(_last)} on the last."
+)
+
+
+# %%
+def figure() -> Figure:
+    """The bands of both strips about their gaps."""
+    d = data()
+    picture = Figure(figsize=(8.6, 4.8))
+    panels = picture.subplots(1, 2)
+    for panel, name, title in zip(
+        panels, PATTERNS, ("Honeycomb of springs", "Rigid bars, squares and octagons"), strict=True
+    ):
+        rates, place = d[f"{name}_rates"], d[f"{name}_place"]
+        at = np.broadcast_to(d["q"][:, None], rates.shape)
+        first, last = place < NEAR, place > 1 - NEAR
+        for kept, ink, label in (
+            (~first & ~last, "#999999", "bulk"),
+            (first, PAPER, "first border"),
+            (last, MODEL, "last border"),
+        ):
+            panel.plot(at[kept], rates[kept], ".", ms=3.5, color=ink, label=label)
+        low, high = d[f"{name}_gap"]
+        for edge in (low, high):
+            panel.axhline(edge, color="#222222", lw=0.8, ls="--")
+        spread = max(high - low, 0.25)
+        panel.set(xlabel="wave number along the strip [rad]", ylabel="rate [rad/s]", title=title, xlim=(0, 2 * np.pi))
+        panel.set_ylim(low - 3 * spread, high + 3 * spread)
+    picture.suptitle(TITLE)
+    entries = panels[0].get_legend_handles_labels()
+    picture.legend(*entries, loc="outside lower center", ncols=3, markerscale=3)
+    return picture
