@@ -206,6 +206,29 @@ stiff = sp.Limit((2 * lam**2 * (lam + k) + G_1**2 * s**2 * lam + G_2**2 * s**2 *
 prove(stiff, 2 * lam**2 + G_2**2 * s**2, "a stiff brace", names=r"\lim_{k\to\infty} P(s)/k")
 
 # %% [markdown]
+# A spring that acts on yaw alone, $k(y_1-y_2)^2/2$, leaves the two sways to fall. On $(x,y_1,y_2)$
+
+# %%
+L = sp.Symbol("lambda", real=True)
+
+
+def yaw_held(G_a: sp.Expr, G_b: sp.Expr) -> sp.Expr:
+    """The characteristic polynomial of the pair with a spring against yaw."""
+    rows = [[2 * L, G_a * s, G_b * s], [-G_a * s, L + k, -k], [-G_b * s, -k, L + k]]
+    return sp.expand(sp.Matrix(rows).det())
+
+
+prove(
+    [yaw_held(G_1, G_1), yaw_held(G_1, -G_1)],
+    (2 * (L + 2 * k) * (L**2 + G_1**2 * s**2), 2 * L * (L * (L + 2 * k) + G_1**2 * s**2)),
+    "equal and opposite spins with a spring against yaw",
+    names=("P_=(s)", r"P_\pm(s)"),
+)
+
+# %% [markdown]
+# With $2k>\kappa$ equal spins stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never, whatever
+# the spring: the factor $\lambda$ is toppling, on which they do not act.
+#
 # ## Friction
 #
 # In the complex tilt $x+iy$ of a pair of motions, friction $c$ makes of it $as^2+(c-i\beta)s-\kappa=0$. Without

@@ -114,6 +114,8 @@ class ExactMotion:
 
     def projected(self, y: Array) -> Array:
         """One Newton step onto the constraints and their rates in the metric of the masses: states (6 N,) or (6 N, n)."""
+        if y.ndim == 2 and not y.shape[1]:
+            return y
         if y.ndim == 2:
             return np.column_stack([self.projected(column) for column in y.T])
         N = len(self.c.R)

@@ -280,6 +280,8 @@ PAST = [
     ("m1", "a departure of the spins does as much at every order", lambda d: all(near(
         errors[d["departures"] > 0.015, 0], d["errors"][1, d["departures"] > 0.015, 0], 0.05) for errors in d["errors"]),
      ("errors", lambda errors: errors * np.array([1, 2, 3])[:, None, None])),
+    ("n0", "under weight, without a brace, an odd number of bars never stands",
+     lambda d: not d["stands"][(d["bars"] % 2 == 1) & d["weighed"] & (d["braces"] == 0)].any(), ("stands", np.invert)),
     ("n1", "no spin holds the loaded pair, and each of the others is held",
      lambda d: np.ptp(d["growth"][1]) < 1e-9 and not d["growth"][[0, 2, 3], -1].any(), ("growth", swapped)),
     ("n1", "the exact motion grows as the roots say", lambda d: d["largest distance, measured growth"] < 1e-3,
@@ -314,7 +316,7 @@ PAST = [
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
 
-DIAGRAMS = {"1": 1, "2": 1, "3": 1, "4": 1, "5": 1, "6": 1, "7": 4, "14": 1, "15": 1}  # key → panels, without axes
+DIAGRAMS = {"1": 1, "2": 1, "3": 1, "4": 1, "5": 1, "6": 1, "7": 4, "14": 1, "15": 1, "n0": 10}  # key → panels, without axes
 PLOTS = {  # key → panels, entries of the legend
     **{"8": (3, 2), "9": (2, 2), "10": (2, 2), "11": (3, 4), "12": (3, 4), "13": (3, 4), "16": (1, 0)},
     **{"17": (3, 6), "18": (2, 5), "19": (2, 5), "20": (2, 5), "21": (3, 3), "22": (3, 3)},

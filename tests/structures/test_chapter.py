@@ -31,6 +31,7 @@ MUTANTS = [
     ("n4_damped", "(2 * (a * s + c) ** 2 + G_1", "(2 * (a * s - c) ** 2 + G_1"),
     ("n4_damped", "gap = (y_1 - y_2) ** 2 / (2 * k)", "gap = (y_1 - y_2) ** 2 / k"),
     ("n4_damped", "velocity = sp.exp(-c * t / a", "velocity = sp.exp(-c * t / (2 * a)"),
+    ("n1_standing", "2 * (L + 2 * k) * (L**2 + G_1", "2 * (L + k) * (L**2 + G_1"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
 ]
 

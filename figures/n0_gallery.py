@@ -1,0 +1,65 @@
+# %% [markdown]
+# # Figure n0: ten structures
+#
+# The gallery from above: the sense and size of each spin, bars, braces, and from which multiple of its spins each stands.
+
+# %%
+from math import inf
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor.structures.gallery import GALLERY, example
+from lagrotor.structures.pictures import draw_plan
+
+TITLE = "Ten structures"
+ALT = (
+    "Ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon, a grid. Blue rotors spin one "
+    "way, red ones "
+    "the other, a ring around each shows how fast; over each plan stands whether it stands, and from which multiple of "
+    "its spins on."
+)
+
+
+# %%
+def data() -> dict[str, np.ndarray]:
+    """The factors on the spins from which on each stands, whether it does, how many freedoms and bars it has."""
+    found = [example(name).stands() for name in GALLERY]
+    return {
+        "factor": np.array([each.critical_spin for each in found]),
+        "stands": np.array([each.stands for each in found]),
+        "weighed": np.array([example(name).gravity > 0 for name in GALLERY]),
+        "bars": np.array([len(example(name).bars) for name in GALLERY]),
+        "braces": np.array([len(example(name).braces) for name in GALLERY]),
+    }
+
+
+# %%
+def measure() -> dict[str, float]:
+    """The factor of each that some spins hold."""
+    factors = zip(GALLERY, data()["factor"], strict=True)
+    return {f"least factor, {name}": float(factor) for name, factor in factors if 0 < factor < inf}
+
+
+CAPTION = (
+    "The gallery of `lagrotor structure`, from above; 2 kg on each tip but for the pair, which has no weight and drifts "
+    f"after a push. {int(data()['stands'].sum())} of {len(GALLERY)} stand; under weight without a brace none with an odd "
+    "number of bars does. Least factors on the spins shown: "
+    + ", ".join(f"{name.removeprefix('least factor, ')} {factor:.3f}" for name, factor in measure().items())
+    + "."
+)
+
+
+# %%
+def figure() -> Figure:
+    """A plan a structure."""
+    picture = Figure(figsize=(9.0, 4.8))
+    panels = picture.subplots(2, 5).ravel()
+    for panel, name, factor, stands in zip(panels, GALLERY, data()["factor"], data()["stands"], strict=True):
+        draw_plan(panel, example(name))
+        verdict = "stands" if stands else "drifts" if factor == 0 else "falls"
+        panel.set(title=f"{name}: {verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
+        panel.axis("off")
+        panel.set_aspect(1)
+    picture.suptitle(TITLE)
+    return picture
