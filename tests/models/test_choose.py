@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import pytest
@@ -79,10 +80,16 @@ def trials(seed: int, count: int) -> Iterator[Trial]:
             yield Trial(kind, scene, t, tol, exact)
 
 
+@cache
+def drawn(seed: int, count: int) -> tuple[Trial, ...]:
+    """The trials of a seed, once for every test that judges them."""
+    return tuple(trials(seed, count))
+
+
 def judge(seed: int, count: int, engine: str = "core") -> tuple[list[str], list[str], Counter[tuple[str, str]]]:
     """Trials whose chosen rung missed the tolerance, those that a cheaper rung would have met, and what was chosen."""
     missed, dear, chosen = [], [], Counter[tuple[str, str]]()
-    for trial in trials(seed, count):
+    for trial in drawn(seed, count):
         choice = choose(trial.scene, trial.t[-1], trial.tol, engine)
         run = simulate(trial.scene, trial.t, tol=trial.tol, engine=engine)
         error = float(np.linalg.norm(run.axes - trial.exact, axis=-1).max())
