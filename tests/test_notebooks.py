@@ -33,7 +33,7 @@ def test_my_own_pair() -> None:
 
 
 def test_the_paired_precession() -> None:
-    names, ends = ran("paired_precession")
+    _, ends = ran("paired_precession")
     assert ends[1] < 1e-7, "the run comes back"
     assert 1e-5 < ends[2] < 0.204**3, "the series through the third order"
     assert (np.diff(ends[3]) < 0).all(), "wider orbits turn more slowly"
