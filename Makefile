@@ -1,14 +1,23 @@
 # `make reproduce` writes the report into report/; `make test` runs the tests. Each makes .venv where there is none.
+# `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
 # `make test-lowest` runs the tests of what computes with the lowest versions that pyproject.toml declares, in .venv-lowest.
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test test-lowest
+.PHONY: reproduce test check docs test-lowest
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
 test: $(VENV)/.installed-test
 	$(VENV)/bin/python -m pytest
+
+check: $(VENV)/.installed-test
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+
+docs: $(VENV)/.installed-docs
+	$(VENV)/bin/mkdocs build --quiet
 
 LOWEST_ROOMS := algebra mechanics numerics pair theory models
 test-lowest: .venv-lowest/.installed
@@ -33,3 +42,7 @@ $(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
 $(VENV)/.installed-test: pyproject.toml | $(VENV)/bin/python
 	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
 	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-docs: pyproject.toml | $(VENV)/bin/python
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@

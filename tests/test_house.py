@@ -1,4 +1,4 @@
-"""The house as the README draws it: every import runs downward, no room and no module lies on a circle."""
+"""The house as CONTRIBUTING.md draws it: every import runs downward, no room and no module lies on a circle."""
 
 import ast
 from pathlib import Path
@@ -116,7 +116,7 @@ def test_a_face_hands_names_on_and_defines_nothing() -> None:
             assert all(isinstance(node, kinds) for node in ast.parse(path.read_text()).body), name
 
 
-def test_the_readme_draws_this_house() -> None:
-    drawing = (ROOT / "README.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
+def test_the_guide_draws_this_house() -> None:
+    drawing = (ROOT / "CONTRIBUTING.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
     drawn = [word.rstrip("/") for line in drawing.splitlines() for word in line[:25].split()]
     assert drawn == [room for room in FLOORS if room]

@@ -16,13 +16,9 @@ from lagrotor.report.page.page_pieces import code, prose
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
     "Ensemble": "lagrotor.models.ensemble",
-    "Trajectory": "lagrotor.pair.trajectory",
     "choose": "lagrotor.models.choose",
-    "sweep": "lagrotor.models.ensemble",
     "exact_orbit": "lagrotor.models.orbits.shooting",
     "ClosedForm": "lagrotor.theory.closed_form",
-    "corrected_trajectories": "lagrotor.theory.paired_precession.closed_forms",
-    "paired_frequency": "lagrotor.theory.paired_precession.closed_forms",
     "Frame": "lagrotor.mechanics",
     "System": "lagrotor.mechanics",
     "coordinates": "lagrotor.mechanics",
