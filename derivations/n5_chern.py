@@ -63,8 +63,8 @@ prove(
 )
 
 # %% [markdown]
-# Of each axis one sense of circling is left alone by the springs at $K$, $\mu=\pm\omega G$, and the other senses are coupled
-# by $\tfrac32k$. The two precessions differ there: a gap at every spin and spring. With opposite spins
+# Of each axis one sense of circling is left alone by the springs at $K$, $\mu=\pm\omega G$, and the other senses are
+# coupled by $\tfrac32k$. The two precessions differ there: a gap at every spin and spring. With opposite spins
 
 # %%
 prove(
@@ -114,7 +114,8 @@ Remark(
     "Chern numbers of gyroscopes on a honeycomb of springs",
     f"Springs of {spring:g} N/m, hinges of {hinge:g} N m/rad, the two precessions first, then the two nutations: "
     + "; ".join(f"{name}: {', '.join(map(str, found))}" for name, found in numbers.items())
-    + f". The edge is at a difference of {edge:.3f} N m/rad. ±1 that change with the sense of the spins are those of Nash et "
+    + f". The edge is at a difference of {edge:.3f} N m/rad. ±1 that change with the sense of the spins are those "
+    "of Nash et "
     "al. (2015).",
 )
 
@@ -130,8 +131,8 @@ rows = sp.Matrix([[*n, *(-n)] for n in directions])
 prove(sp.ones(1, 3) * rows, sp.zeros(1, 4), "equal tensions of the honeycomb balance at q = 0", names="A^T t")
 
 # %% [markdown]
-# Squares joined into octagons have two freedoms a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance, until
-# one joint is moved out of its place along both axes:
+# Squares joined into octagons have two freedoms a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance,
+# until one joint is moved out of its place along both axes:
 
 # %%
 square = [sp.Matrix([1, 0]), sp.Matrix([0, 1]), sp.Matrix([-1, 0]), sp.Matrix([0, -1])]
@@ -178,9 +179,12 @@ along = edge_waves(moved, (low + high) / 2, 8, 61)
 assert (along.first, along.last) == (-1, 1)
 Remark(
     "Rigid bars with a Chern number",
-    f"Squares and octagons of rigid bars, one joint of four moved by 0.3 m along both axes, spins of 30, 10, 30, 10 rad/s on "
+    "Squares and octagons of rigid bars, one joint of four moved by 0.3 m along both axes, spins of 30, 10, "
+    "30, 10 rad/s on "
     f"hinges of {hinge:g} N m/rad: a gap from {low:.3f} to {high:.3f} rad/s between two bands of Chern numbers "
-    f"{bars.numbers[0]} and {bars.numbers[1]}, reversed with the spins. Along the border of a strip of 8 cells one wave runs "
-    "at a rate in the gap, against the first step on one side, along it on the other. The unmoved pattern and the honeycomb "
+    f"{bars.numbers[0]} and {bars.numbers[1]}, reversed with the spins. Along the border of a strip of 8 cells "
+    "one wave runs "
+    "at a rate in the gap, against the first step on one side, along it on the other. The unmoved pattern and "
+    "the honeycomb "
     "carry a self-stress at q = 0 and have no number; the square net has no bands.",
 )

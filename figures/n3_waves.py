@@ -20,9 +20,11 @@ LOADED = 40.0  # rad/s, the spin under weight
 
 TITLE = "Bands of rotors joined by rigid bars"
 ALT = (
-    "Four panels of rate against wave number. Zigzags of alternating spins: a hump for each of three angles, steep at zero for "
+    "Four panels of rate against wave number. Zigzags of alternating spins: a hump for each of three angles, "
+    "steep at zero for "
     "the straightest. Equal spins: curves that fall from one common height at zero to nothing at the end. Staircase on "
-    "hinges: two curves and a gap; under weight, two rates that meet and a growth where they have met. Honeycomb of opposite "
+    "hinges: two curves and a gap; under weight, two rates that meet and a growth where they have met. "
+    "Honeycomb of opposite "
     "spins from the centre of its zone to a corner and a side. Marks of finite structures lie on the curves."
 )
 
@@ -103,9 +105,11 @@ def measure() -> dict[str, float]:
 *_, _top, _held = measure().values()
 CAPTION = (
     f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers a rotor. Curves: bands; marks: modes of "
-    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, on the bands to rounding. The highest rate is "
+    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, on the bands to rounding. The "
+    "highest rate is "
     f"G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and under its weight with "
-    f"{LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π fall. Honeycomb of opposite spins, from q = 0 to "
+    f"{LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π fall. Honeycomb of opposite spins, "
+    "from q = 0 to "
     "K and M; equal spins leave it at rate zero."
 )
 

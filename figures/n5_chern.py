@@ -25,7 +25,8 @@ PATTERNS = {
 TITLE = "Waves that run one way along a border"
 ALT = (
     "Rates of a strip's waves against the wave number along it, for a honeycomb of springs and for squares and octagons of "
-    "rigid bars. Two clouds of curves, the waves of the bulk, leave a gap between them; two curves cross it, one falling, of "
+    "rigid bars. Two clouds of curves, the waves of the bulk, leave a gap between them; two curves cross it, "
+    "one falling, of "
     "waves on the first border, and one rising, of waves on the last."
 )
 
@@ -62,11 +63,14 @@ def signed(number: float) -> str:
 
 _low, _high, _number, _first, _last, _low_2, _high_2, _number_2, *_ = measure().values()
 CAPTION = (
-    f"Strips of {WIDTH} cells, rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: springs of {SPRING:g} N/m, spins "
+    f"Strips of {WIDTH} cells, rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: springs of "
+    f"{SPRING:g} N/m, spins "
     f"of {SPIN:g} rad/s; the bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, the band below it the Chern number "
     f"{signed(_number)}. Right: rigid bars, one joint of four moved by 0.3 m along both axes, spins of {SPIN:g} and "
-    f"{SPIN / 3:g} rad/s in turn; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, number {signed(_number_2)}. Dashed: the gaps. "
-    f"Coloured waves are within {100 * NEAR:.0f} % of the width from a border; across the gap the net count of rising curves is "
+    f"{SPIN / 3:g} rad/s in turn; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, number {signed(_number_2)}. "
+    "Dashed: the gaps. "
+    f"Coloured waves are within {100 * NEAR:.0f} % of the width from a border; across the gap the net count of "
+    "rising curves is "
     f"{signed(_first)} on the first and {signed(_last)} on the last."
 )
 

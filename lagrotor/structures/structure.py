@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures import characteristic, response, simulation, small_motion, standing
+from lagrotor.structures import characteristic, response, small_motion, standing
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.closing import check_closure
+from lagrotor.structures.exact import simulating
+from lagrotor.structures.exact.closing import check_closure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,7 +40,7 @@ class Structure(Assembly):
         super().__post_init__()
         check_closure(self)
 
-    simulate = simulation.simulate
+    simulate = simulating.simulate
     modes = small_motion.modes
     stands = standing.stands
     critical_spin = standing.critical_spin

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
-from lagrotor.structures.exact_motion import exact_motion
-from lagrotor.structures.saddle import saddle
+from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures.exact.saddle import saddle
 
 SIZES = (64, 512, 4096)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
-from lagrotor.structures.saddle import Saddle, saddle
+from lagrotor.structures.exact.saddle import Saddle, saddle
 
 Drive = Callable[[float], Array]
 _NEXT, _AFTER = [1, 2, 0], [2, 0, 1]

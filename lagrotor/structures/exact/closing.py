@@ -5,7 +5,7 @@ import numpy as np
 from lagrotor.errors import ConstraintError, InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.exact_motion import ExactMotion, exact_motion
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
 
 _DENSE = 400  # unknowns up to which ranks are found by singular values
 _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero

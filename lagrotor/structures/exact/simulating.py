@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.closing import closed
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.exact_motion import Drive, ExactMotion, exact_motion
-from lagrotor.structures.run import StructureRun
+from lagrotor.structures.exact.closing import closed
+from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
+from lagrotor.structures.exact.structure_run import StructureRun
 
 _APART = 30.0  # the two runs' tolerances: the difference is the error of the looser one
 _FIRST = 1e-2  # of tol: the local error that the first run is given

@@ -9,7 +9,7 @@ import numpy as np
 
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
-from lagrotor.structures.exact_motion import exact_motion
+from lagrotor.structures.exact.exact_motion import exact_motion
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

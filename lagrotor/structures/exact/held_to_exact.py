@@ -6,7 +6,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.simulation import simulate
+from lagrotor.structures.exact.simulating import simulate
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
