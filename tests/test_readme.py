@@ -26,6 +26,7 @@ def blocks(language: str) -> list[str]:
 
 def test_the_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+    assert main(["init", "my-paper"]) == 0
     names: dict[str, object] = {}
     for block in blocks("python"):
         exec(block, names)
@@ -37,9 +38,10 @@ def test_the_shell_commands_are_understood(capsys: pytest.CaptureFixture[str], t
     monkeypatch.chdir(tmp_path)
     lines = "\n".join(blocks("sh")).replace("\\\n", " ").splitlines()
     commands = [line.split("#")[0].split()[1:] for line in lines if line.startswith("lagrotor")]
-    assert {c[0] for c in commands} >= {"audit", "claims", "figure", "rate", "simulate"}
+    assert {c[0] for c in commands} >= {"init", "audit", "claims", "figure", "rate", "simulate"}
+    (tmp_path / "paper.tex").write_text(r"\[ x = y \]", encoding="utf-8")
     for command in commands:
-        if command[0] in ("rate", "simulate"):
+        if command[0] in ("init", "rate", "simulate") or "my-paper" in command:
             assert main(command) == 0
         else:
             assert main([command[0], "--help"]) == 0
@@ -72,3 +74,26 @@ def test_importing_is_light() -> None:
 def test_pictures_are_there() -> None:
     for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text()):
         assert (ROOT / picture).is_file(), picture
+
+
+def test_the_heavy_top_is_as_it_is_said() -> None:
+    from lagrotor.paper import Paper
+
+    top = Paper(ROOT / "papers" / "heavy_top")
+    said = re.search(r"(\d+) equations, (\w+) of them misprinted on purpose and\s+found, and (\w+) claims", text())
+    assert said
+    refuted = [name for name, row in top.recorded.items() if row.verdict == "refuted"]
+    words = {"two": 2, "four": 4}
+    assert (len(top.equations), len(refuted), len(top.claims)) == (int(said[1]), words[said[2]], words[said[3]])
+
+
+def test_what_a_comment_says_of_a_verdict_is_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", "my-paper"]) == 0
+    said = []
+    for block in (block for block in blocks("python") if ".verdict  # " in block):
+        names: dict[str, object] = {}
+        exec(block, names)
+        rows = re.findall(r"^(.*\.verdict)  # '([a-z-]+)'", block, flags=re.M)
+        said += [(eval(line, names), verdict) for line, verdict in rows]
+    assert len(said) == 2 and all(found == verdict for found, verdict in said)

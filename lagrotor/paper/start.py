@@ -80,7 +80,7 @@ def _equation(equation: Displayed, read: Print | None) -> Iterator[str]:
 
 def _symbols(letters: Iterable[str]) -> str:
     head = '"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""'
-    rows = [head, "", "from lagrotor.mechanics.glossary import Glossary", "", "GLOSSARY = Glossary()"]
+    rows = [head, "", "from lagrotor.paper import Glossary", "", "GLOSSARY = Glossary()"]
     return "\n".join([*rows, *(f'{name} = GLOSSARY.letter("{name}", "?", "?", real=True)' for name in letters)]) + "\n"
 
 

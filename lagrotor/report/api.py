@@ -22,6 +22,7 @@ _BESIDE = {
     "Frame": "lagrotor.mechanics",
     "System": "lagrotor.mechanics",
     "coordinates": "lagrotor.mechanics",
+    "judge": "lagrotor.paper",
     "Run": "lagrotor.mechanics.running.simulation",
 }
 

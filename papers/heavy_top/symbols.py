@@ -1,7 +1,7 @@
 """The letters of the heavy symmetric top."""
 
 from lagrotor.mechanics import coordinates
-from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper import Glossary
 
 GLOSSARY = Glossary()
 letter = GLOSSARY.letter

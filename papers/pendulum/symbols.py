@@ -1,7 +1,7 @@
 """The letters of the paper with meanings and units: they stand in its printed lines, its derivations and its notation."""
 
 from lagrotor.mechanics import coordinates
-from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper import Glossary
 
 GLOSSARY = Glossary()
 g = GLOSSARY.letter("g", "acceleration of free fall", "m/s²", positive=True)

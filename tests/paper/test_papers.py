@@ -104,12 +104,18 @@ def test_a_folder_that_does_not_fit_together_is_refused_at_the_door(
 
 
 MOTION = "derivations/s1_motion.py"
+SOLVED = (PAPERS / "pendulum" / MOTION).read_text(encoding="utf-8").partition("(acceleration,) =")[0].count("\n") + 1
 LETTER = r"s1_motion\.py:\d+: .*equations\.toml: 1\.1: .*'L' is not defined"
 FAILURES = {
-    "fails": (MOTION, "(acceleration,) =", "(a, b) =", r"s1_motion\.py:32: ValueError"),
-    "no Python": (MOTION, "(acceleration,) =", "(acceleration,) = =", r"s1_motion\.py:32: invalid syntax"),
+    "fails": (MOTION, "(acceleration,) =", "(a, b) =", rf"s1_motion\.py:{SOLVED}: ValueError"),
+    "no Python": (MOTION, "(acceleration,) =", "(acceleration,) = =", rf"s1_motion\.py:{SOLVED}: invalid syntax"),
     "wrong proof": (MOTION, "theta_a + m", "theta_a - m", r"s1_motion\.py:\d+: prove: Lagrange's equation is nonzero"),
-    "unknown equation": (MOTION, 'verdict("1.1"', 'verdict("1.7"', r"s1_motion\.py:33: there is no equation '1\.7'"),
+    "unknown equation": (
+        MOTION,
+        'verdict("1.1"',
+        'verdict("1.7"',
+        rf"s1_motion\.py:{SOLVED + 1}: there is no equation '1\.7'",
+    ),
     "letter": ("equations.toml", '"-g/l*theta"', '"-g/L*theta"', LETTER),
     "symbols": ("symbols.py", "= Glossary()", "= Glossar()", r"symbols\.py: NameError"),
 }

@@ -10,7 +10,7 @@ import numpy as np
 from symbols import I_1, I_3, c, g, l, m
 from top import VALUES, top
 
-from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
 
 FAST, THETA_0 = 60.0, 0.5

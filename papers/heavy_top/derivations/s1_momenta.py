@@ -13,8 +13,7 @@ from symbols import I_1, c, p_phi, p_psi
 from top import top
 
 from lagrotor.mechanics import momenta
-from lagrotor.paper.proof import prove
-from lagrotor.paper.stating import verdict
+from lagrotor.paper import prove, verdict
 
 _, theta, _ = c.q
 phi_v, theta_v, psi_v = c.v

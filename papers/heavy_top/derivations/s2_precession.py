@@ -13,9 +13,7 @@ import sympy as sp
 from symbols import I_1, I_3, Omega, c, epsilon, g, l, m, omega_3, p_phi, p_psi, theta_0
 from top import top
 
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import prove
-from lagrotor.paper.stating import verdict
+from lagrotor.paper import Premise, prove, verdict
 
 _, theta, _ = c.q
 phi_v, theta_v, psi_v = c.v

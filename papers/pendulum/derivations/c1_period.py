@@ -11,7 +11,7 @@ import sympy as sp
 from symbols import c, g, l, m
 
 from lagrotor.mechanics import System
-from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper import ClaimTest, Finding, Part
 
 ALIKE = 0.01
 THE_SAME = "the period is that of small swings"

@@ -12,8 +12,7 @@ import sympy as sp
 from symbols import c, g, l, m
 
 from lagrotor.mechanics import System
-from lagrotor.paper.proof import prove
-from lagrotor.paper.stating import verdict
+from lagrotor.paper import prove, verdict
 
 (theta,), (theta_v,), (theta_a,) = c.q, c.v, c.a
 pendulum = System(c, m * l**2 * theta_v**2 / 2 + m * g * l * sp.cos(theta))
