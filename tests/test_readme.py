@@ -80,7 +80,9 @@ def test_the_heavy_top_is_as_it_is_said() -> None:
     from lagrotor.paper import Paper
 
     top = Paper(ROOT / "papers" / "heavy_top")
-    said = re.search(r"(\d+) equations, (\w+) of them misprinted on purpose and\s+found, and (\w+) claims", text())
+    said = re.search(
+        r"(\d+) equations, (\w+) of them misprinted on purpose and\s+found,\s+and\s+(\w+)\s+claims", text()
+    )
     assert said
     refuted = [name for name, row in top.recorded.items() if row.verdict == "refuted"]
     words = {"two": 2, "four": 4}
