@@ -1,7 +1,7 @@
 """Exact algebra: the decision of identities and truncated power series."""
 
 from lagrotor.algebra.identity import Decision, decide_equal, decide_zero, normal_form
-from lagrotor.algebra.series import LeadingTerm, agreement_order, leading_term, truncated_series
+from lagrotor.algebra.power_series import LeadingTerm, agreement_order, leading_term, truncated_series
 
 __all__ = [
     "Decision",

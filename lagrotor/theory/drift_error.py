@@ -6,8 +6,8 @@ the next orders are, for the rate of turning and for the rate of the mean x,
     ( |G| q⁴ (c_1/k + c_2/k³) + |P| q² (c_3 + c_4/k²) ) / (a + b),
     ( |G| q⁵ (c_1 + c_2/k⁴) + |P| q³ (c_3 + c_4/k²) ) / (a + b),
 
-with empirical factors c (`theory.calibrated`). In the time T the mean x grows to X = |X'| T. That lowers the inertia about
-the joint line by the factor 1 − X², and turning at alpha' carries X back into the twist, by
+with empirical factors c (`theory.calibrated_factors`). In the time T the mean x grows to X = |X'| T. That lowers the inertia
+about the joint line by the factor 1 − X², and turning at alpha' carries X back into the twist, by
 alpha' (|P| + S) X T / (2 |G|) (derivations/t6_shock_drift.py); both change the rates. So what a run gives depends on how
 long one averages.
 """
@@ -17,7 +17,7 @@ from math import sqrt
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.calibrated import CANCELLING, FARTHEST_TURN, FIFTH_ORDER, FOURTH_ORDER, LARGEST_SWING
+from lagrotor.theory.calibrated_factors import CANCELLING, FARTHEST_TURN, FIFTH_ORDER, FOURTH_ORDER, LARGEST_SWING
 from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 from lagrotor.theory.shock_response import shock_response
 

@@ -6,7 +6,7 @@ from math import hypot, sqrt
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.theory.calibrated import FREQUENCY_SHIFT, LARGEST_SWING
+from lagrotor.theory.calibrated_factors import FREQUENCY_SHIFT, LARGEST_SWING
 
 
 @generated(((),))
@@ -51,7 +51,7 @@ def natural_rate(scene: Scene) -> float:
 def natural_rate_error(scene: Scene, amplitude: float) -> float:
     """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
 
-    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated`); one rotor
+    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated_factors`); one rotor
     alone precesses at Omega_0 / cos theta exactly. The swing of opposite spins that turns about the joint line at nu is
     shifted by −(a + b) nu/(k G) of Omega_0 besides. Raises DomainError unless 0 <= r <= 0.4.
     """

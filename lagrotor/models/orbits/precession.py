@@ -11,7 +11,7 @@ from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
-from lagrotor.theory.paired_precession.harmonics import Array
+from lagrotor.theory.paired_precession.orbit_harmonics import Array
 from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit, amplitude_of, series_orbit
 
 ORDERS = (5, 9, 13)  # beyond which shooting takes less time

@@ -10,7 +10,7 @@ from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.pair.symbols import Phi, k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
-from lagrotor.theory.paired_precession.harmonics import joint_line_momentum
+from lagrotor.theory.paired_precession.orbit_harmonics import joint_line_momentum
 from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, check_order, paired_series
 

@@ -27,7 +27,7 @@ from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, lindstedt_
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
-from lagrotor.theory.paired_precession.harmonics import Array, axes_of
+from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of
 
 # The remainder of a series is estimated as a geometric series; calibrated by tests/models/test_orbit_errors.py on random
 # bars and amplitudes. LARGEST_RATIO: of consecutive pairs of orders, beyond which no estimate is given. OF_AXES: the

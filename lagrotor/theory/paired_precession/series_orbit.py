@@ -11,7 +11,7 @@ from lagrotor.numerics.shown import Shown
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
-from lagrotor.theory.paired_precession.harmonics import Array, axes_of, joint_line_momentum, speed_of, start_of
+from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, joint_line_momentum, speed_of, start_of
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
@@ -24,7 +24,7 @@ class PrecessionOrbit(Shown):
     frequency: angular, rad/s, negative where rotor 1 spins negatively. frequency_error: its bound, rad/s.
     error: bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over
     a whole turn (of a tip: in units of R).
-    method: how it was found. harmonics: of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.harmonics.
+    method: how it was found. harmonics: of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
     """
 
     scene: Scene
