@@ -40,4 +40,4 @@ def dop853(segment: Segment, error: float) -> Run:
             solver.y = project(solver.y)
             solver.f = np.asarray(segment.rhs(solver.t, solver.y))
             solver.nfev += 1
-    return Run(project(found.T).T if project else found, solver.y, solver.nfev)
+    return Run(project(found.T).T if project and len(found) else found, solver.y, solver.nfev)

@@ -19,6 +19,8 @@ MUTANTS = [
     ("n2_shaken", "tuning = 1 - gamma**2 / 2", "tuning = 1 - gamma**2"),
     ("n2_shaken", "(3 + sign * gamma / sp.sqrt(2))", "(3 - sign * gamma / sp.sqrt(2))"),
     ("n2_shaken", '4 / gamma**2 - 1, "the least', '4 / gamma**2 + 1, "the least'),
+    ("n4_damped", "decay = c * (A + D) / (2 * A * D)", "decay = c * (A + D) / (A * D)"),
+    ("n4_damped", "-G_0 * r_0**2 / (k * (a - b)) * (G_0 / G - 1)", "G_0 * r_0**2 / (k * (a - b)) * (G_0 / G - 1)"),
     ("n5_chern", "(mu**2 - omega**2 * G**2 - quarter)", "(mu**2 - omega**2 * G**2 + quarter)"),
     ("n5_chern", "((mu + omega * G) ** 2 - quarter)", "((mu - omega * G) ** 2 - quarter)"),
     ("n5_chern", "edge = 9 * spring**2", "edge = 8 * spring**2"),
