@@ -276,8 +276,8 @@ halved = {(link.mass, narrow): worn_out(link, narrow) for link in (Link(), Link(
 assert all(abs(found / closed - 1) < 0.02 and change < 1e-7 for found, closed, change in halved.values())
 Remark(
     "Spin-down topples too",
-    "Exact runs until the spins of ±40 rad/s have halved in 3.5 s, c = 0; minus the mean angle of a turn then about the joint line, "
-    "closed form, rad: "
+    "Exact runs until the spins of ±40 rad/s have halved in 3.5 s, c = 0; minus the mean angle of a turn then about the "
+    "joint line, closed form, rad: "
     + "; ".join(
         f"bar of {mass:g} kg, amplitude {narrow:g}: {-found:.4f}, {-closed:.4f}"
         for (mass, narrow), (found, closed, _) in halved.items()
