@@ -14,7 +14,7 @@ SQUARES = sp.sin(x) ** 2 + sp.cos(x) ** 2
 def test_a_step_that_holds_shows_both_sides() -> None:
     step = prove(sp.tan(x) * sp.cos(x), sp.sin(x), "a quotient")
     assert step.tex.count("&=") == 1
-    assert r"\tan{\left(x \right)}" in step._repr_latex_()
+    assert r"\tan x" in step._repr_latex_()
     assert step.domain == (sp.cos(x),)
 
 
