@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import hypot, isfinite
+from operator import index
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -98,10 +99,14 @@ class Assembly:
         return i, j, length
 
     def _brace(self, k: int, given: Any) -> Brace:
-        brace = given if isinstance(given, Brace) else Brace(*_row(given))
         where = f"braces[{k}]"
+        try:
+            brace = given if isinstance(given, Brace) else Brace(*_row(given))
+        except TypeError:
+            raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
-        to = self._tip(brace.to, where) if isinstance(brace.to, int) else _numbers(brace.to, 3, f"{where} to", "m")
+        ground = isinstance(brace.to, Iterable)
+        to = _numbers(brace.to, 3, f"{where} to", "m") if ground else self._tip(brace.to, where)
         stiffness = _not_negative(brace.stiffness, f"{where} stiffness", "N/m")
         damping = _not_negative(brace.damping, f"{where} damping", "N s/m")
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
@@ -110,11 +115,15 @@ class Assembly:
         return Brace(tip, to, stiffness, damping)
 
     def _tip(self, value: Any, where: str) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < len(self.joints):
+        try:
+            number = -1 if isinstance(value, bool) else index(value)
+        except TypeError:
+            number = -1
+        if not 0 <= number < len(self.joints):
             raise InputError(
                 f"Structure: {where}: {value!r} is no rotor: they are numbered 0 to {len(self.joints) - 1}"
             )
-        return value
+        return number
 
     def upright_tip(self, i: int) -> Point:
         """Where the tip of rotor i is when its axis is upright, m."""

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex, coefficients
+from lagrotor.structures.coefficients import Complex, coefficients, finite
 from lagrotor.structures.small_motion import small_motion
 
 
@@ -27,7 +27,9 @@ def response(
     amplitudes have phases. Raises InputError for what makes no sense, and at the very rate of a resonance without damping.
     """
     c, linear = coefficients(s), small_motion(s)
-    N, w = len(c.R), np.atleast_1d(np.asarray(rates, dtype=float))
+    N, w = len(c.R), np.atleast_1d(finite("response: rates", rates))
+    if w.ndim != 1:
+        raise InputError(f"response: rates must be a row of numbers in rad/s, not of shape {w.shape}")
     F = np.zeros((N, 2), dtype=complex)
     if force is not None:
         F += c.R[:, None] * _forces(force, at, N)
@@ -56,7 +58,7 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
 
 
 def _amplitudes(name: str, given: ArrayLike, shape: tuple[int, ...]) -> Complex:
-    found = np.asarray(given, dtype=complex)
-    if found.shape != shape or not np.isfinite(found).all():
-        raise InputError(f"response: {name} must be finite amplitudes of shape {shape}, not {found.shape}")
+    found = finite(f"response: {name}", given, complex)
+    if found.shape != shape:
+        raise InputError(f"response: {name} must be amplitudes of shape {shape}, not {found.shape}")
     return found

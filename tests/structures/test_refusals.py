@@ -1,5 +1,6 @@
 """Structures that make no sense are refused at the door, with the reason and the way out."""
 
+import numpy as np
 import pytest
 
 from lagrotor import Brace, Link, Rotor, Structure
@@ -15,6 +16,11 @@ BAD = [
     (PAIR | {"bars": [(0, 1, 3.5)]}, "cannot close"),
     (PAIR | {"bars": [(0, 2)]}, "no rotor"),
     (PAIR | {"bars": [(0, 1, 0)]}, "must be apart"),
+    (PAIR | {"bars": [(0.0, 1)]}, "no rotor"),
+    (PAIR | {"bars": 3}, "must be a list"),
+    (PAIR | {"braces": [(0,)]}, "must be .tip, to"),
+    (PAIR | {"braces": [(0, "b", 1.0)]}, "must be a list"),
+    (PAIR | {"spins": "fast"}, "not a number"),
     (PAIR | {"load": [0, -1]}, r"load\[1\] = -1 kg is below zero"),
     (PAIR | {"hinge": -1}, "below zero"),
     (PAIR | {"friction": float("nan")}, "finite"),
@@ -46,6 +52,34 @@ def test_its_neighbours_are_not() -> None:
     Structure(**PAIR, rotor=[Rotor(), Rotor(length=1.5)], load=2, hinge=[0, 1], braces=[(0, (0, 1, 0), 3.0, 1.0)])
     s = Structure(joints=[(0, 0), (1, 0), (0, 1)], bars=[(0, 1, 1.1), (1, 2, 1.3), (0, 2, 1.2)], spins=2)
     assert not s.natural and s.spins == (2, 2, 2)
+
+
+def test_numbers_may_be_numpys() -> None:
+    s = Structure(
+        joints=np.array([[0, 0], [1, 0]]), bars=np.array([[0, 1]]), spins=np.array([1, 2]), load=np.float64(2)
+    )
+    assert s == Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[1, 2], load=2)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda s: s.simulate("soon"),
+        lambda s: s.simulate(None),
+        lambda s: s.simulate([0, 1], tilt="a"),
+        lambda s: s.simulate([0, 1], drive=lambda t: "x"),
+        lambda s: s.simulate([0, 1], tol=0),
+        lambda s: s.response("x", (1, 0), 0),
+        lambda s: s.response(float("nan"), (1, 0), 0),
+        lambda s: s.response([[1.0, 2.0]], (1, 0), 0),
+        lambda s: s.response(1.0, "a", 0),
+        lambda s: s.response(0.0, (1, 0), 0),
+        lambda s: s.simulate([0, 1]).animate("film.txt"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_of_a_structure_too(ask) -> None:
+    with pytest.raises(InputError):
+        ask(Structure(**PAIR))
 
 
 def test_a_long_chain_is_checked_sparsely() -> None:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array
+from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
 from lagrotor.structures.exact.structure_run import StructureRun
@@ -99,12 +99,9 @@ def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None)
 def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
     if given is None:
         return np.zeros((N, 2))
-    try:
-        found = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"simulate: {name} = {given!r} must be numbers (N, 2) or (N, 3)") from None
-    if found.shape not in ((N, 2), (N, 3)) or not np.isfinite(found).all():
-        raise InputError(f"simulate: {name} must be finite numbers ({N}, 2) or ({N}, 3), not of shape {found.shape}")
+    found = finite(f"simulate: {name}", given)
+    if found.shape not in ((N, 2), (N, 3)):
+        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {found.shape}")
     if found.size == 3 * N and name == "tilt" and not (np.linalg.norm(found, axis=1) > 0).all():
         raise InputError("simulate: tilt holds a vector of length zero")
     return found
@@ -113,14 +110,14 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
 def _checked(drive: Drive | None, name: str, shape: tuple[int, ...]) -> Drive | None:
     if drive is None:
         return None
-    found = np.asarray(drive(0.0), dtype=float) if callable(drive) else np.zeros(0)
+    found = finite(f"simulate: {name}", drive(0.0)) if callable(drive) else np.zeros(0)
     if found.shape != shape:
         raise InputError(f"simulate: {name} must be a function t → array of shape {shape}, not {found.shape}")
     return drive
 
 
 def _times(t: ArrayLike) -> Array:
-    times = np.atleast_1d(np.asarray(t, dtype=float))
-    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or times[0] < 0 or (np.diff(times) <= 0).any():
+    times = np.atleast_1d(finite("simulate: t", t))
+    if times.ndim != 1 or not len(times) or times[0] < 0 or (np.diff(times) <= 0).any():
         raise InputError("simulate: t must be an increasing row of finite times in s, from 0 on")
     return times
