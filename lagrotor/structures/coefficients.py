@@ -26,7 +26,7 @@ Complex = NDArray[np.complex128]
 def finite(where: str, given: ArrayLike, kind: type = float) -> NDArray[Any]:
     """What is given as an array of numbers. Raises InputError where it is none, or not finite."""
     try:
-        found = np.asarray(given, dtype=kind)
+        found: NDArray[Any] = np.asarray(given, dtype=kind)
     except (TypeError, ValueError):
         raise InputError(f"{where} = {given!r} must be numbers") from None
     if not np.isfinite(found).all():
