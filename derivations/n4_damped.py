@@ -234,9 +234,9 @@ Remark(
 # %% [markdown]
 # ## Which invariant
 #
-# The torque that slows a spin is along its axis: it does no work on the tilt, as the spin itself does none. With $c=0$ the
-# energy of the tilt is constant while $G$ falls, at any amplitude and any speed of the spin-down; the action $E/\Omega$, the
-# adiabatic invariant of a Lagrangian that depends on time, is not, and grows as $1/G$.
+# The torque that slows a spin is along its axis: it does no work on the tilt, as the spin itself does none. With $c=0$
+# the energy of the tilt is constant while $G$ falls, at any amplitude and any speed of the spin-down; the action
+# $E/\Omega$, the adiabatic invariant of a Lagrangian that depends on time, is not, and grows as $1/G$.
 #
 # It does carry momentum about the joint line, $P'=\sum G_i'x_i$. With $r=r_0G_0/G$ the mean of $P$ is
 # $2A\bar\alpha'+Gr^2A/(kD)$ and that of $P'$ is $G'r^2A/(kD)$; from $G_0$ to $G$ what is left for $2A\bar\alpha'$ is

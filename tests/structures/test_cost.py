@@ -76,3 +76,25 @@ def test_a_long_chain_moves() -> None:
     assert np.abs(run.axes[0, 1, :2]).max() > 1e-5
     assert np.abs(run.axes[900:, 1, :2]).max() < 1e-12
     assert np.ptp(run.bar_length) < 1e-12
+
+
+def spent(s: Structure) -> float:
+    """CPU time of one evaluation, the least of five."""
+    from time import process_time
+
+    motion = exact_motion(s)
+    y = np.concatenate([motion.c.upright.ravel(), np.zeros(3 * len(s.joints))])
+    times = []
+    for _ in range(5):
+        began = process_time()
+        for _ in range(20):
+            motion.rhs(0.0, y)
+        times.append(process_time() - began)
+    return min(times)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", [chain, ring])
+def test_the_time_of_an_evaluation_grows_at_most_2_2_times_a_doubling(shape) -> None:
+    """Over two doublings, up to 4,096 rotors, in one run: a ratio, not seconds."""
+    assert spent(shape(4096, Link())) < 2.2**2 * spent(shape(1024, Link()))
