@@ -106,9 +106,14 @@ def reached(path: Path, paper: Paper) -> tuple[Path, ...]:
         found |= new
         left += new
     folders = {file.parent for file in found if file.parent != _PACKAGE} | {paper.folder}
-    beside = {f for folder in folders for f in folder.iterdir() if f.is_file() and f.suffix not in _NO_SOURCE}
+    beside = {file for folder in folders for file in _data_in(folder)}
     letters = {file for file in [paper.folder / "symbols.py"] if file.is_file()}
     return tuple(sorted(found | letters | {file for file in beside if file.name not in _NO_DATA}))
+
+
+@cache
+def _data_in(folder: Path) -> tuple[Path, ...]:
+    return tuple(file for file in folder.iterdir() if file.is_file() and file.suffix not in _NO_SOURCE)
 
 
 @cache
@@ -129,6 +134,7 @@ def digest_of(files: Iterable[Path], paper: Paper) -> str:
     return digest(*(part for file in sorted((_place(f, paper), _file_digest(f)) for f in files) for part in file))
 
 
+@cache
 def _place(file: Path, paper: Paper) -> str:
     """A file's place, the same in a checkout and in an installed package."""
     for kind in ("derivations", "figures"):

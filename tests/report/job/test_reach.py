@@ -30,6 +30,8 @@ def clear() -> None:
         reach.named,
         reach.reached,
         reach._file_digest,
+        reach._data_in,
+        reach._place,
     ):
         cached.cache_clear()
 
