@@ -260,8 +260,25 @@ prove(
 # The two axes of a cell turn in opposite senses. Equal spins cancel: **a honeycomb of rigid bars and equal spins has
 # one zero band and nothing else.** Opposite spins add, $|u|^2=\tfrac23\sum|f_j|^2$ and the area is $2/\sqrt3$ times
 # $f_1\times f_2$: $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,(\sin\Delta_1+\sin\Delta_2+\sin\Delta_3)}
-# {3-\cos\Delta_1-\cos\Delta_2-\cos\Delta_3}$$ (one sense of each $q$), which is proportional to $q$ for long waves and
-# to $\cos3\chi$ in their direction $\chi$.
+# {3-\cos\Delta_1-\cos\Delta_2-\cos\Delta_3}$$ (one sense of each $q$). For long waves,
+# $\Delta=\epsilon(d_1,d_2,-d_1-d_2)$,
+
+# %%
+epsilon = sp.Symbol("epsilon", positive=True)
+d_1, d_2 = sp.symbols("d_1 d_2", real=True)
+long = [epsilon * part for part in (d_1, d_2, -d_1 - d_2)]
+prove(
+    [sum(map(sp.sin, long)), 3 - sum(map(sp.cos, long))],
+    [epsilon**3 * d_1 * d_2 * (d_1 + d_2) / 2, epsilon**2 * (d_1**2 + d_1 * d_2 + d_2**2)],
+    "the two sums for long waves",
+    small=epsilon,
+    order=3,
+    names=(r"\sum\sin\Delta_j", r"3-\sum\cos\Delta_j"),
+)
+
+# %% [markdown]
+# so that they have a speed, which depends on their direction: $\frac{G_A-G_B}{4a}\cos3\chi$ lengths of a bar a second,
+# with $\chi$ from the line across a bar.
 
 # %%
 draw = np.random.default_rng(0).uniform(-pi, pi, (200, 2))

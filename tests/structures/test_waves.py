@@ -211,3 +211,28 @@ def test_a_ring_under_weight_has_every_root_of_the_structure(n) -> None:
     for rate, growth in zip(*(getattr(ring.piece(n).modes(), name) for name in ("rates", "growth")), strict=True):
         root = abs(growth) + 1j * rate
         assert min(np.abs(every - root).min(), np.abs(every - root.conjugate()).min()) < 1e-9 * (1 + abs(root))
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(4, 40), st.floats(0, 2), st.floats(0, 1))
+def test_heavy_bars_slow_the_ring_as_in_closed_form(count: int, mass: float, inertia: float) -> None:
+    link = Link(mass=mass, inertia=inertia if mass else 0.0)
+    theta, a, b = 2 * np.pi / count, J + 2 * (link.mass / 4 + link.inertia), link.mass / 4 - link.inertia
+    c, q = np.cos(theta), Q[Q > 0]
+    below = a * (1 - c * np.cos(q)) + 2 * b * (np.sin(q) ** 2 - c**2 + c * np.cos(q))
+    found = polygon_ring(count, spins=10.0, link=link).dispersion(q).rates[:, 0]
+    assert np.abs(found - 10 * np.sin(theta) * np.sin(q) / below).max() < 1e-4
+
+
+def test_long_waves_of_the_honeycomb_run_at_a_speed_that_depends_on_their_direction_alone() -> None:
+    pattern = honeycomb(spins=(10.0, -10.0))
+    for direction in ([1.0, 0.3], [1.0, -0.5], [1.0, 0.9]):
+        d = np.array([direction[0], -direction[1], direction[1] - direction[0]])
+        slope = -np.sqrt(3) * 10 / J * d.prod() / (d**2).sum()
+        k = np.linalg.solve(np.array(pattern.steps), direction)
+        speed = slope / np.linalg.norm(k)
+        chi = np.arctan2(k[1], k[0])
+        assert speed == pytest.approx(10 / J / 2 * np.cos(3 * chi), rel=1e-12)
+        assert np.max(long_wave_speeds(pattern, np.sign(speed) * np.array(direction))) == pytest.approx(
+            abs(speed), rel=1e-6
+        )
