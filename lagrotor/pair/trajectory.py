@@ -162,13 +162,15 @@ class Trajectory(Shown):
     def save(self, path: str | Path) -> Path:
         """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
 
-        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model, version and a digest of it
-        all. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError for another ending.
+        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model, error, horizon, version and
+        a digest of it all. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError
+        for another ending.
         """
         target = Path(path)
         if target.suffix == ".npz":
             arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
-            about = {"scene": asdict(self.scene), "model": self.model, "why": self.why, "evaluations": self.evaluations}
+            names = ("model", "why", "evaluations", "error", "horizon")
+            about = {"scene": asdict(self.scene)} | {name: getattr(self, name) for name in names}
             return write_arrays(target, about, arrays)
         if target.suffix == ".csv":
             return write_text(target, self._columns())
@@ -203,14 +205,19 @@ class Trajectory(Shown):
             given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
             t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
             scene, model, why, evaluations = Scene(**given), about["model"], about["why"], about["evaluations"]
-        except (KeyError, TypeError, AttributeError, ValueError) as error:
-            raise InputError(f"load: {path} is no run saved as .npz ({error}): give a file that `save` wrote") from None
+            error, horizon = about["error"], about["horizon"]
+        except (KeyError, TypeError, AttributeError, ValueError) as refusal:
+            raise InputError(
+                f"load: {path} is no run saved as .npz ({refusal}): give a file that `save` wrote"
+            ) from None
         wrong = _wrong(t, axes, rates, momenta)
         if not (isinstance(model, str) and isinstance(why, str) and type(evaluations) is int and evaluations >= 0):
             wrong = "its model or its number of evaluations is none"
+        if any(type(number) is not float or number < 0 for number in (error, horizon)):  # NaN: not known
+            wrong = "its error or its horizon is no number"
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
-        return Trajectory(scene, model, why, t, axes, rates, momenta, evaluations)
+        return Trajectory(scene, model, why, t, axes, rates, momenta, evaluations, error, horizon)
 
 
 def _installed(name: str) -> Any:

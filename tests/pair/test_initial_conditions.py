@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene
-from lagrotor.errors import InputError
+from lagrotor.errors import ConstraintError, InputError
+from lagrotor.mechanics import constraints
 
 AXES, RATES = [[0.3, 0.2, 0.9], [0.1, -0.3, 0.9]], [[0.1, 0.5, 0.0], [0.0, 0.1, 0.2]]
 ROTOR, BAR = Rotor(mass=2.0, length=0.6, I1=0.3, I3=0.1), Link(length=0.9, mass=0.5, inertia=0.04)
@@ -48,3 +49,25 @@ def test_the_rates_are_the_nearest_in_the_mass_metric() -> None:
 def test_other_shapes_and_numbers_are_refused(rates: object) -> None:
     with pytest.raises(InputError, match="consistent_scene: axes"):
         consistent_scene((3, 4), AXES, rates)  # type: ignore[arg-type]
+
+
+def beside_the_dead_point(rng: np.random.Generator) -> list[list[float]]:
+    """Two axes within 10⁻³ of e_x, where the rows of the constraints are nearly dependent."""
+    return [[1.0, *(10 ** rng.uniform(-4.5, -3) * rng.normal(size=2))] for _ in range(2)]
+
+
+def test_a_residual_of_rounding_refuses_no_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(3)
+    starts = [beside_the_dead_point(rng) for _ in range(60)]
+    for axes in starts:
+        r1, r2 = np.array(consistent_scene((3, 4), axes).axes)
+        assert np.abs([r1 @ r1 - 1, r2 @ r2 - 1, 1 + (r2 - r1)[0] - r1 @ r2]).max() < 1e-15
+    # Twin: held to 10⁻¹⁴ in the axes whatever rounding leaves, some of them are refused.
+    monkeypatch.setattr(constraints, "_ROUNDING", 0.0)
+    refused = 0
+    for axes in starts:
+        try:
+            consistent_scene((3, 4), axes)
+        except ConstraintError:
+            refused += 1
+    assert refused > 0

@@ -5,6 +5,7 @@ import random
 import struct
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -171,6 +172,12 @@ def test_a_saved_run_is_read_back_with_its_scene(run: Trajectory, tmp_path: Path
     again = Trajectory.load(run.save(tmp_path / "run.npz"))
     assert (again.scene, again.model, again.why, again.evaluations) == (run.scene, run.model, run.why, run.evaluations)
     assert (again.axes == run.axes).all() and (again.energy == run.energy).all()
+    assert (again.error, again.horizon) == (run.error, run.horizon) and 0 < run.error < 1e-6
+    parted = replace(run, error=0.3, horizon=1.25)
+    again = Trajectory.load(parted.save(tmp_path / "parted.npz"))
+    assert (again.error, again.horizon) == (0.3, 1.25)
+    unknown = Trajectory.load(replace(run, error=np.nan, horizon=np.nan).save(tmp_path / "unknown.npz"))
+    assert np.isnan([unknown.error, unknown.horizon]).all()
     shocked = Scene((3, 1), link=None, shock=Shock((1, 0, 0), 0.1, 0.05))
     assert Trajectory.load(simulate(shocked, [0.0, 1.0]).save(tmp_path / "two.npz")).scene == shocked
 
@@ -210,6 +217,9 @@ def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Tra
         (lambda about, held: held.update(axes=held["axes"] * 1.01), "no unit vectors"),
         (lambda about, held: about.update(evaluations=-1), "number of evaluations"),
         (lambda about, held: about.update(model=None), "its model"),
+        (lambda about, held: about.update(error=-1.0), "its error"),
+        (lambda about, held: about.update(horizon="late"), "its horizon"),
+        (lambda about, held: about.pop("error"), "no run saved"),
         (lambda about, held: about.update(scene=[1, 2]), "no run saved"),
         (lambda about, held: about["scene"].update(spins=[1]), "no run saved"),
         (lambda about, held: about["scene"]["rotor"].update(mass="heavy"), "no run saved"),
