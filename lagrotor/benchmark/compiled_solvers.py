@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.calibrated import LSODA_LEAST
+from lagrotor.benchmark.chart_constants import LSODA_LEAST
 from lagrotor.benchmark.method import Method, Runner, tips
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.calibrated import LONGEST_RUN, SAMPLE
+from lagrotor.benchmark.chart_constants import LONGEST_RUN, SAMPLE
 from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Runner
 from lagrotor.benchmark.reference import reference
 from lagrotor.errors import LagrotorError

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.calibrated import LONGEST_QUICK_RUN, LONGEST_RUN
+from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
 from lagrotor.benchmark.compiled_solvers import CANDIDATES
 from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare, Runner
 from lagrotor.benchmark.peers import PEERS
 from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, seconds_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
-from lagrotor.models.closed_form import closed_form
+from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import paper_system, run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS

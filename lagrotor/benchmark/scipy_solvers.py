@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.calibrated import LSODA_LEAST
+from lagrotor.benchmark.chart_constants import LSODA_LEAST
 from lagrotor.benchmark.method import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import inf, pi
 
 from lagrotor.errors import LagrotorError
-from lagrotor.models.calibrated import LINEAR_MARGIN, SHORT
-from lagrotor.models.closed_form import closed_form
+from lagrotor.models.closed_form_model import closed_form
+from lagrotor.models.estimate_constants import LINEAR_MARGIN, SHORT
 from lagrotor.models.integrated import check_range
 from lagrotor.models.linear import linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
-from lagrotor.models.calibrated import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, LOST, ROUNDING
 from lagrotor.models.conserved import PulseNodes, conservation_defect, pulse_nodes
+from lagrotor.models.estimate_constants import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, LOST, ROUNDING
 from lagrotor.models.integrated import integrated
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import PACE
-from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.pair.scene import Scene
 
 _SAMPLES = 65  # times at which a run is watched besides those it is read at

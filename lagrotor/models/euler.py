@@ -25,8 +25,8 @@ Kind = tuple[bool, int]  # massive bar, shocked rotor (0: none)
 
 
 def program(massive: bool, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.euler_program`."""
-    from lagrotor.models import euler_program
+    """The program of one kind; see `lagrotor.models.programs.euler_program`."""
+    from lagrotor.models.programs import euler_program
 
     return euler_program.program(massive, body)
 
@@ -40,7 +40,7 @@ def _rhs(massive: bool, body: int, bounded: bool) -> str:
 
 @generated(((False,), (True,)))
 def _projected(massive: bool) -> str:
-    from lagrotor.models.euler_program import projection
+    from lagrotor.models.programs.euler_program import projection
     from lagrotor.numerics.codegen import program_source
 
     return program_source(projection(massive), "numpy")
@@ -48,7 +48,7 @@ def _projected(massive: bool) -> str:
 
 @generated(((),))
 def _axes() -> str:
-    from lagrotor.models.euler_program import observation
+    from lagrotor.models.programs.euler_program import observation
     from lagrotor.numerics.codegen import program_source
 
     return program_source(observation(), "numpy")

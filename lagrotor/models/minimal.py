@@ -17,7 +17,7 @@ from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
-    from lagrotor.models.minimal_program import Ratio
+    from lagrotor.models.programs.minimal_program import Ratio
     from lagrotor.numerics.codegen import Program
 
 Kind = tuple[bool, "Ratio", int]  # massive bar, ell against R, shocked rotor (0: none)
@@ -26,8 +26,8 @@ KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
 
 
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.minimal_program`."""
-    from lagrotor.models import minimal_program
+    """The program of one kind; see `lagrotor.models.programs.minimal_program`."""
+    from lagrotor.models.programs import minimal_program
 
     return minimal_program.program(massive, ratio, body)
 
@@ -49,7 +49,7 @@ def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
 
 @generated((ratio,) for ratio in RATIOS)
 def _axes(ratio: Ratio) -> str:
-    from lagrotor.models.minimal_program import observation
+    from lagrotor.models.programs.minimal_program import observation
     from lagrotor.numerics.codegen import program_source
 
     return program_source(observation(ratio), "numpy")
@@ -104,7 +104,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 def observe_fast(scene: Scene, states: Array) -> Observed:
     """What the model observes, by the fast extra."""
-    from lagrotor.models.minimal_program import observation
+    from lagrotor.models.programs.minimal_program import observation
     from lagrotor.numerics.taylor import compile_taylor
 
     value, ratio = _ratio(scene)

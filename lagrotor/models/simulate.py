@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorWarning
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.models.calibrated import LINEAR_MARGIN, gathered_error
 from lagrotor.models.choose import choose
-from lagrotor.models.closed_form import closed_form
+from lagrotor.models.closed_form_model import closed_form
+from lagrotor.models.estimate_constants import LINEAR_MARGIN, gathered_error
 from lagrotor.models.estimated import Estimated, run_at, run_within
 from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, constant_momenta
@@ -22,7 +22,8 @@ from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 
-MODELS: dict[str, Model] = {model.name: model for model in (minimal.MODEL, spheres.MODEL, euler.MODEL)}
+LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
+MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,19 +136,16 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
         direct = DIRECT[choice.model](scene, times, tol, False)
         return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tol)
     units, why = _in_units(scene, times), choice.reason
-    if choice.model == "minimal":
+    for model in LADDER[[model.name for model in LADDER].index(choice.model) :]:
+        last, runs_by = model is LADDER[-1], engine if _fast_runs(model, scene) else "core"
         try:
-            found = run_within(MODELS["minimal"], units.scene, times * units.rate, tol, engine, True)
-            return _trajectory(scene, "minimal", why, times, found, units, tol, tol)
+            found = run_within(model, units.scene, times * units.rate, tol, runs_by, not last)
+            return _trajectory(scene, model.name, why, times, found, units, tol, tol)
         except IntegrationError as refusal:
+            if last:
+                raise _in_seconds(refusal, units) from None
             why = f"regular everywhere; {_in_seconds(refusal, units)}"
-    model = MODELS["spheres"]
-    try:
-        slow = "fast" if engine == "fast" and _fast_runs(model, scene) else "core"
-        found = run_within(model, units.scene, times * units.rate, tol, slow, False)
-    except StopError as stopped:
-        raise _in_seconds(stopped, units) from None
-    return _trajectory(scene, "spheres", why, times, found, units, tol, tol)
+    raise AssertionError("the last model returns or raises")
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:

@@ -28,8 +28,8 @@ KINDS: tuple[Kind, ...] = tuple(
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.spheres_program`."""
-    from lagrotor.models import spheres_program
+    """The program of one kind; see `lagrotor.models.programs.spheres_program`."""
+    from lagrotor.models.programs import spheres_program
 
     return spheres_program.program(massive, bar, body)
 
@@ -43,7 +43,7 @@ def _rhs(massive: bool, bar: bool, body: int, bounded: bool) -> str:
 
 @generated(kind[:2] for kind in KINDS if kind[2] == 0)
 def _projected(massive: bool, bar: bool) -> str:
-    from lagrotor.models.spheres_program import projection
+    from lagrotor.models.programs.spheres_program import projection
     from lagrotor.numerics.codegen import program_source
 
     return program_source(projection(massive, bar), "numpy")

@@ -7,11 +7,11 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.adams import adams
-from lagrotor.numerics.calibrated import CROSSOVER, DETOUR
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHandSide, Run, Segment, StopError
+from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
 
@@ -129,7 +129,7 @@ def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
 
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Run:
     if tol >= CROSSOVER:
-        return lsoda(segment, min(tol / 200, 1e-6 if pulsed else np.inf))
+        return lsoda(segment, min(tol / LSODA_SAFETY, 1e-6 if pulsed else np.inf))
     # Where equal steps do not pay, Adams is given up soon.
     return adams(replace(segment, max_nfev=min(segment.max_nfev, 5_000 + 0.15 * segment.max_nfev)), tol)
 

@@ -11,7 +11,7 @@ import pytest
 
 from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
-from lagrotor.benchmark.calibrated import SAMPLE, TABLE
+from lagrotor.benchmark.chart_constants import SAMPLE, TABLE
 from lagrotor.benchmark.method import Case, Method
 from lagrotor.benchmark.runner import Failure, Point, benchmark, front, listed, seconds_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS

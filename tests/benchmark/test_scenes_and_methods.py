@@ -17,7 +17,7 @@ from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing.style import paper_style
 from lagrotor.errors import InputError
-from lagrotor.models.closed_form import closed_form
+from lagrotor.models.closed_form_model import closed_form
 from lagrotor.pictures.speed_chart import speed_chart as draw
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())

@@ -9,7 +9,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import DomainError
 from lagrotor.models import minimal
-from lagrotor.models.closed_form import closed_form
+from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.integrated import integrated
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.theory.paired_precession.series_orbit import series_orbit

@@ -11,7 +11,7 @@ from numpy.polynomial import Chebyshev
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError
-from lagrotor.models.calibrated import LINEAR_MARGIN
+from lagrotor.models.estimate_constants import LINEAR_MARGIN
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.spring_link.run import paper_system, run_solver
 from lagrotor.pair.trajectory import Trajectory

@@ -10,7 +10,7 @@ from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.integrated import integrated
-from lagrotor.models.minimal_program import observation, program
+from lagrotor.models.programs.minimal_program import observation, program
 from lagrotor.numerics import taylor
 from lagrotor.pair.examples import SHOCK_PAIRED
 

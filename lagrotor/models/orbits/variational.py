@@ -18,7 +18,7 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     import sympy as sp
 
-    from lagrotor.models.minimal_program import Ratio
+    from lagrotor.models.programs.minimal_program import Ratio
     from lagrotor.numerics.codegen import Program
 
 Array = NDArray[np.float64]

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, paper_system, run_steps
-from lagrotor.numerics.harmonics import best_harmonics
+from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS

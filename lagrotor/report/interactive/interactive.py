@@ -13,8 +13,8 @@ from pathlib import Path
 import sympy as sp
 
 from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.models import minimal_program as elimination
-from lagrotor.models.minimal_program import Ratio
+from lagrotor.models.programs import minimal_program as elimination
+from lagrotor.models.programs.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage, javascript
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from lagrotor.pair.scene import Rotor

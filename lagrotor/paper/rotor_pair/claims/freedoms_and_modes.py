@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.harmonics import harmonics_at
+from lagrotor.numerics.harmonic_fit import harmonics_at
 from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.symbols import G_1, G_2, a, b, k

@@ -7,7 +7,7 @@ import numpy as np
 
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import paper_system, run_steps
-from lagrotor.numerics.harmonics import best_harmonics
+from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.pair.examples import HEAVY, LIGHT, STEP
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part

@@ -6,7 +6,7 @@ import numpy as np
 
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.numerics.harmonics import best_harmonics
+from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, LagrotorError
 from lagrotor.models.model import Array, Observed, constant_momenta
-from lagrotor.models.periodic_orbit import parting, periodic_orbit
+from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.theory.natural_rate import natural_rate
 

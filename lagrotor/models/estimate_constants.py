@@ -1,17 +1,8 @@
 """Constants of the models that were found by trial: what each was calibrated on, and the test that holds it."""
 
 from math import pi
-from typing import NamedTuple
 
-
-class Calibrated(NamedTuple):
-    """A constant, what it is, what it was calibrated on, and the test that fails when it is wrong."""
-
-    value: float
-    what: str
-    calibrated_on: str
-    test: str
-
+from lagrotor.numerics.solver_constants import Calibrated
 
 _WIDE = "300 wide scenes of up to 100 turns against 80-bit integrations, core and fast"
 _TRIAL = "test_wide_scenes.py::test_no_miss_is_silent"
