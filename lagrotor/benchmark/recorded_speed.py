@@ -27,6 +27,8 @@ _PACKAGES = (
     "mujoco",
     "pin",
     "drake",
+    "symbrim",
+    "Cython",
     "CyRK",
     "numba",
 )
@@ -59,8 +61,8 @@ def renew_speed() -> None:
     with ProcessPoolExecutor() as executor:
         rates = throughput(8192, executor)
     data = {
-        "machine": {"processor": _processor(), "cores": os.cpu_count(), "Python": platform.python_version()},
-        "versions": {name: version(name) for name in _PACKAGES if _installed(name)},
+        "machine": machine(),
+        "versions": versions(),
         "at_error": {f"{e:g}": {name: seconds_at(points, e) for name, points in best.items()} for e in _ERRORS},
         "least_error": {name: min((p.error for p in points), default=None) for name, points in best.items()},
         "set_up": found.setup,
@@ -68,6 +70,16 @@ def renew_speed() -> None:
         "throughput": [asdict(rate) for rate in rates],
     }
     write_text(RECORDED, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+
+
+def machine() -> dict[str, Any]:
+    """Processor, cores and Python of this machine."""
+    return {"processor": _processor(), "cores": os.cpu_count(), "Python": platform.python_version()}
+
+
+def versions() -> dict[str, str]:
+    """Of the packages that are compared and installed."""
+    return {name: version(name) for name in _PACKAGES if _installed(name)}
 
 
 def _installed(name: str) -> bool:

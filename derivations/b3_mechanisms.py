@@ -1,0 +1,57 @@
+# %% [markdown]
+# # Other tools on growing mechanisms
+#
+# **Objective.** What a mechanism costs with this tool and with others: until it is ready, for one right-hand side, for a run.
+#
+# **Assumptions.** Rods of $l = 0.7$ m with $m = 1.3$ kg at their ends in a plane, relative angles; gyroscopes of
+# $I_1 = 0.3$, $I_3 = 0.2$ kg m² on each other's tips. Each tool is used as its documentation recommends, in a process of its
+# own; its right-hand side is equal to the others' to $10^{-9}$ before it is timed. One machine, recorded by
+# `python -m lagrotor.benchmark.mechanisms --record`; the counts of operations are the same everywhere.
+#
+# **Notation.** $n$ the number of rods or gyroscopes; ready: from the description of the mechanism to its right-hand side,
+# compiling included; rhs: one evaluation from Python.
+
+# %%
+from lagrotor.benchmark.mechanisms.comparison import ERROR
+from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
+from lagrotor.benchmark.mechanisms.tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.paper.tables import Table
+
+found = recorded_mechanisms()
+machine = found.machine
+where = f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
+versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
+
+# %% [markdown]
+# ## What is wanted, and what was measured
+
+# %%
+tables = [
+    Table(
+        "Mechanisms: wanted and measured",
+        WANTED_HEAD,
+        tuple(wanted(found.measured, found.decided, found.operations)),
+        f"Multiples of processor time, from one run of {where}. Operations grow by the same number with each link more; the "
+        "first costs less, as the ground does not move, so that twice as many take more than twice the operations.",
+    ),
+    Table(
+        "Mechanisms: tools, and what each needs",
+        HEAD,
+        tuple(rows(found.measured)),
+        f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of {ERROR:g} rad at eleven "
+        "times, by scipy's DOP853 or LSODA or the tool's own integrator, whichever is quickest.",
+    ),
+    Table(
+        "Mechanisms: do two formulations agree?",
+        DECIDED_HEAD,
+        tuple(decided_rows(found.decided)),
+        "The same steps with the exact decision and with sympy's simplify in its place, from the same run.",
+    ),
+]
+tables[0]
+
+# %%
+tables[1]
+
+# %%
+tables[2]

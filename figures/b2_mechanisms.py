@@ -1,0 +1,86 @@
+# %% [markdown]
+# # Figure b2: other tools on growing mechanisms
+#
+# The points of derivations/b3_mechanisms.py: time to be ready and time of a right-hand side, n rods and n gyroscopes.
+
+# %%
+from functools import cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
+from lagrotor.drawing.style import OKABE_ITO
+
+LOOKS = {
+    "lagrotor": ("blue", "o"),
+    "lagrotor, fast": ("sky blue", "s"),
+    "KanesMethod": ("vermillion", "^"),
+    "LagrangesMethod": ("orange", "v"),
+    "PyDy, Cython": ("reddish purple", "D"),
+    "MuJoCo": ("bluish green", "X"),
+    "Pinocchio": ("black", "P"),
+    "Drake": ("olive", "p"),
+}
+WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [s]"}
+
+TITLE = "Other tools on growing mechanisms"
+ALT = (
+    "Four panels in logarithms over the number of links: above the time to be ready, below the time of one right-hand side; left "
+    "rods in relative angles, right gyroscopes. The lines of lagrotor rise in proportion to the number; those of sympy's "
+    "methods rise faster, lie higher, and end where their time did not suffice; the compiled engines are ready at once."
+)
+
+
+# %%
+@cache
+def data() -> dict[str, np.ndarray]:
+    """Numbers of links, and seconds (tools, numbers) for each mechanism and measure, NaN where there is none."""
+    measured = recorded_mechanisms().measured
+    found: dict[str, np.ndarray] = {}
+    for kind in ("rods", "gyroscopes"):
+        numbers = sorted({x.n for x in measured if x.kind == kind})
+        found[f"n of {kind}"] = np.array(numbers)
+        for what in WHAT:
+            seconds = {(x.tool, x.n): getattr(x, what) for x in measured if x.kind == kind}
+            rows = [[seconds.get((name, n)) or np.nan for n in numbers] for name in LOOKS]
+            found[f"{what} of {kind}"] = np.array(rows)
+    return found
+
+
+def measure() -> dict[str, float]:
+    """How the time to be ready and that of a right-hand side grow from the smallest to the largest, by one link."""
+    d, found = data(), dict[str, float]()
+    for kind in ("rods", "gyroscopes"):
+        n = d[f"n of {kind}"]
+        for what in WHAT:
+            row = d[f"{what} of {kind}"][0]
+            found[f"power of n, {what}, {kind}"] = float(np.log(row[-1] / row[0]) / np.log(n[-1] / n[0]))
+    return found
+
+
+CAPTION = (
+    "Processor time on one machine, each tool in its own process, its right-hand side equal to the others' to 1e-9. "
+    f"Between the smallest and the largest mechanism lagrotor's time to be ready grows as n to the power "
+    f"{measure()['power of n, ready, rods']:.2f} for rods and {measure()['power of n, ready, gyroscopes']:.2f} for gyroscopes. "
+    "A line ends where a tool took longer than it was given. Engines know their mechanisms as data and derive nothing."
+)
+
+
+# %%
+def figure() -> Figure:
+    """A row for each measure, a column for each mechanism."""
+    d = data()
+    picture = Figure(figsize=(9.0, 7.0))
+    panels = picture.subplots(2, 2)
+    for row, (what, label) in zip(panels, WHAT.items(), strict=True):
+        for panel, kind in zip(row, ("rods", "gyroscopes"), strict=True):
+            for (name, (colour, marker)), seconds in zip(LOOKS.items(), d[f"{what} of {kind}"], strict=True):
+                line = {"color": OKABE_ITO[colour], "marker": marker, "markersize": 5, "linewidth": 1.0}
+                panel.loglog(d[f"n of {kind}"], seconds, label=name, **line)
+            panel.set(xlabel=f"{kind} [1]", ylabel=label, title=kind)
+            panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
+            panel.minorticks_off()
+    picture.suptitle(TITLE)
+    picture.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return picture

@@ -1,0 +1,178 @@
+"""Tools on growing mechanisms: time to be ready, time of a right-hand side, time to an error; one process for each.
+
+A tool's right-hand side is first compared with lagrotor's at some states; only what is equal is timed. Runs end at the first
+setting whose error is at most ERROR, the largest of a coordinate (rad) at eleven times of one second; the reference is
+scipy's DOP853 at 10⁻¹³ on the right-hand side that all agree on.
+"""
+
+import multiprocessing
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from importlib.util import find_spec
+from statistics import median
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, start
+from lagrotor.benchmark.mechanisms.engine_tools import ENGINES
+from lagrotor.benchmark.mechanisms.own_tools import OWN
+from lagrotor.benchmark.mechanisms.sympy_tools import SYMPY
+from lagrotor.benchmark.mechanisms.tool import Ready, Rhs, Tool
+from lagrotor.benchmark.method import TOLERANCES
+
+Array = NDArray[np.float64]
+TOOLS: dict[str, Tool] = OWN | SYMPY | ENGINES
+SIZES: dict[Kind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}
+TIMES = np.linspace(0, 1, 11)
+ERROR = 1e-8
+SAME = 1e-9  # relative difference of right-hand sides up to which they are equal
+_LONGEST = 90.0  # s, for one tool on one mechanism; beyond, larger ones are left out
+_SAMPLES, _SAMPLE = 15, 5e-3
+_CLOCK = time.process_time
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One tool on one mechanism, processor time in s; a reason in place of what was not measured.
+
+    difference: of its right-hand side from lagrotor's, relative. by: what ran it to the error.
+    """
+
+    kind: Kind
+    n: int
+    tool: str
+    ready: float | None = None
+    rhs: float | None = None
+    difference: float | None = None
+    run: float | None = None
+    by: str = ""
+    reason: str = ""
+
+
+def compare(
+    sizes: Mapping[Kind, Sequence[int]] = SIZES,
+    tools: Mapping[str, Tool] = TOOLS,
+    step: Callable[[str], None] = lambda text: None,
+) -> list[Measured]:
+    """Every tool on every mechanism, from small to large; a tool that took too long is not given a larger one."""
+    found: list[Measured] = []
+    for kind, numbers in sizes.items():
+        for name, tool in tools.items():
+            missing = [module for module in (tool.module, *tool.others) if find_spec(module) is None]
+            if missing:
+                way = f"{', '.join(missing)} not installed: pip install 'lagrotor[{tool.extra}]'"
+                found.append(Measured(kind, min(numbers), name, reason=way))
+                continue
+            for n in sorted(numbers):
+                step(f"{name}, {n} {kind}")
+                found.append(_apart(tool, Measured(kind, n, name)))
+                if found[-1].reason:
+                    break
+    return found
+
+
+def _apart(tool: Tool, case: Measured) -> Measured:
+    """Measured in a new process, which is ended when it takes too long."""
+    context = multiprocessing.get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=_send, args=(sender, tool, case), daemon=True)
+    process.start()
+    sender.close()
+    try:
+        found = receiver.recv() if receiver.poll(_LONGEST) else replace(case, reason=f"over {_LONGEST:g} s")
+    except EOFError:
+        found = replace(case, reason="its process ended")
+    process.kill()
+    process.join()
+    return found
+
+
+def _send(sender: Any, tool: Tool, case: Measured) -> None:
+    try:
+        sender.send(measure(tool, case))
+    except Exception as error:  # whatever another tool raises is its result
+        sender.send(replace(case, reason=f"{type(error).__name__}: {str(error)[:200]}"))
+
+
+def measure(tool: Tool, case: Measured) -> Measured:
+    """Ready, compared, timed, run. What is imported or compiled once for a process is so by a smaller mechanism."""
+    kind, n = case.kind, case.n
+    tool.prepare(kind, 2 if kind == "rods" else 1)
+    ready, seconds = _prepared(tool, kind, n)
+    ours = chain(kind, n).rhs(VALUES)
+    difference = max(_difference(ready.rhs, ours, y) for y in _states(kind, n))
+    if not difference < SAME:
+        return replace(case, difference=difference, reason=f"its right-hand side differs by {difference:.1e}")
+    y = next(_states(kind, n))
+    rhs = _time_of(lambda: ready.rhs(0.0, y))
+    return replace(case, ready=seconds, difference=difference, rhs=rhs, **_run(ready, kind, n))
+
+
+def _prepared(tool: Tool, kind: Kind, n: int) -> tuple[Ready, float]:
+    """Ready, and the least time of that: of one where it takes seconds, of five with empty caches where it does not."""
+    from sympy.core.cache import clear_cache
+
+    times: list[float] = []
+    while len(times) < 5 and sum(times) < 2:
+        clear_cache()
+        before = _CLOCK()
+        ready = tool.prepare(kind, n)
+        times.append(_CLOCK() - before)
+    return ready, min(times)
+
+
+def _states(kind: Kind, n: int) -> Any:
+    random = np.random.default_rng(1)
+    return (random.uniform(-0.5, 0.5, 2 * JOINTS[kind] * n) for _ in range(3))
+
+
+def _difference(rhs: Rhs, ours: Rhs, y: Array) -> float:
+    theirs, own = np.asarray(rhs(0.0, y), float), np.asarray(ours(0.0, y), float)
+    return float(np.abs(theirs - own).max() / np.abs(own).max())
+
+
+def _time_of(call: Callable[[], Any]) -> float:
+    """Median processor time of one call, s, over samples of at least _SAMPLE."""
+    number, seconds = 1, _sample(call, 1)
+    while seconds < _SAMPLE:
+        number *= 2
+        seconds = _sample(call, number)
+    return median(_sample(call, number) for _ in range(_SAMPLES if seconds < 20 * _SAMPLE else 3)) / number
+
+
+def _sample(call: Callable[[], Any], number: int) -> float:
+    before = _CLOCK()
+    for _ in range(number):
+        call()
+    return _CLOCK() - before
+
+
+def _run(ready: Ready, kind: Kind, n: int) -> dict[str, Any]:
+    """The least time of a run with at most ERROR: by the tool's own way, or by scipy's DOP853 or LSODA."""
+    begin = start(kind, n)
+    truth = _scipy(chain(kind, n).rhs(VALUES), begin, "DOP853", 1e-13)
+    ways: list[tuple[str, Callable[[float], Array], tuple[float, ...]]] = [
+        (name, partial(_scipy, ready.rhs, begin, name), TOLERANCES[3:]) for name in ("DOP853", "LSODA")
+    ]
+    if ready.run:
+        ways.append(("its own", partial(ready.run, begin, TIMES), ready.settings))
+    best: dict[str, Any] = {"run": None, "by": f"no setting reaches {ERROR:g}"}
+    for name, run, settings in ways:
+        enough = next((setting for setting in settings if np.abs(run(setting) - truth).max() <= ERROR), None)
+        if enough is not None:
+            seconds = _time_of(partial(run, enough))
+            if best["run"] is None or seconds < best["run"]:
+                best = {"run": seconds, "by": f"{name} at {enough:g}"}
+    return best
+
+
+def _scipy(rhs: Rhs, begin: Array, name: str, tol: float) -> Array:
+    """Coordinates (n, N) by one of scipy's solvers."""
+    from scipy.integrate import solve_ivp
+
+    found = solve_ivp(rhs, (0, TIMES[-1]), begin, name, TIMES, rtol=tol, atol=tol)
+    return np.asarray(found.y.T[:, : len(begin) // 2])

@@ -1,0 +1,107 @@
+"""Whether two formulations agree: `System.same_as`, and the same steps with sympy's simplify in place of the decision.
+
+The Lagrangians are compared; where these differ, as they may by a total time derivative, the equations of motion; where
+these differ, as they may by a factor, the accelerations. simplify is a tool here that is measured; nothing rests on its answer.
+"""
+
+import multiprocessing
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.benchmark.mechanisms.chains import I1, I3, chain, g, l, m
+from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
+
+LONGEST = 60.0  # s, given to simplify
+
+
+@dataclass(frozen=True)
+class Decided:
+    """Processor time in s of same_as and of simplify, and their answers; where simplify did not end, the time it was given."""
+
+    pair: str
+    ours: float
+    answer: str
+    theirs: float
+    their_answer: str
+
+    @property
+    def times(self) -> float:
+        """How many times longer simplify takes."""
+        return self.theirs / self.ours
+
+
+def _absolute(n: int) -> System:
+    """n rods in the angles to the vertical, written in the relative ones."""
+    c = coordinates([f"theta_{i}" for i in range(n)])
+    L, x, z = sp.S.Zero, sp.S.Zero, sp.S.Zero
+    for q, v in zip(c.q, c.v, strict=True):
+        x, z = x - l * sp.cos(q) * v, z + l * sp.sin(q) * v
+        L += m * (x**2 + z**2) / 2
+    L += sum(m * g * l * (n - i) * sp.cos(q) for i, q in enumerate(c.q))
+    relative = chain("rods", n).c
+    return System(c, L).in_coordinates(relative, {q: sum(relative.q[: i + 1]) for i, q in enumerate(c.q)})
+
+
+def _top(factor: sp.Expr) -> tuple[System, System]:
+    """A heavy top from a body, and the Lagrangian of the textbooks with a factor at its gravity."""
+    c = coordinates("phi theta psi")
+    (_, theta, _), (phi_v, theta_v, psi_v) = c.q, c.v
+    body = Frame(c).turned("zxz", c.q).body(m, (I1, I1, I3), (0, 0, l))
+    L = (I1 + m * l**2) * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2
+    L += I3 * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2 - factor * m * g * l * sp.cos(theta)
+    return System(c, body.kinetic - body.potential((0, 0, -g))), System(c, L)
+
+
+PAIRS: dict[str, Callable[[], tuple[System, System]]] = {
+    "double pendulum, relative and absolute angles": lambda: (chain("rods", 2), _absolute(2)),
+    "triple pendulum, relative and absolute angles": lambda: (chain("rods", 3), _absolute(3)),
+    "four rods, relative and absolute angles": lambda: (chain("rods", 4), _absolute(4)),
+    "heavy top, from a body and the textbook's": lambda: _top(sp.S.One),
+    "heavy top, another weight": lambda: _top(sp.Integer(2)),
+}
+
+
+def decide_pairs() -> list[Decided]:
+    """Each pair by both."""
+    found = []
+    for name, make in PAIRS.items():
+        left, right = make()
+        assert left.motion.shape == right.motion.shape  # made before the clock starts
+        before = time.process_time()
+        answer = left.same_as(right).answer
+        ours = time.process_time() - before
+        theirs, their_answer = _by_simplify(name)
+        found.append(Decided(name, ours, answer, theirs, their_answer))
+    return found
+
+
+def _by_simplify(name: str) -> tuple[float, str]:
+    context = multiprocessing.get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=_simplify, args=(sender, name), daemon=True)
+    process.start()
+    receiver.recv()  # it has its equations
+    found = receiver.recv() if receiver.poll(LONGEST) else (LONGEST, "did not end")
+    process.kill()
+    process.join()
+    return found
+
+
+def _simplify(sender: Any, name: str) -> None:
+    left, right = PAIRS[name]()
+    motions = left.motion, right.motion
+    sender.send(None)
+    before = time.process_time()
+    agree = _vanishes([left.L - right.L]) or _vanishes(motions[0] - motions[1])
+    if not agree:
+        first, second = (constrained_accelerations(system)[0] for system in (left, right))
+        agree = _vanishes(first - second)
+    sender.send((time.process_time() - before, "zero" if agree else "nonzero"))
+
+
+def _vanishes(difference: Iterable[sp.Expr]) -> bool:
+    return all(sp.simplify(e) == 0 for e in difference)

@@ -1,0 +1,97 @@
+"""What was measured on the mechanisms, as tables, and beside what is wanted."""
+
+from collections.abc import Sequence
+
+from lagrotor.benchmark.mechanisms.chains import Kind
+from lagrotor.benchmark.mechanisms.comparison import ERROR, SIZES, Measured
+from lagrotor.benchmark.mechanisms.deciding import Decided
+
+Row = tuple[str, ...]
+HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", f"run to {ERROR:g} (ms)", "by", "rhs differs by")
+DECIDED_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
+WANTED_HEAD = ("what", "wanted", "measured")
+_AT: dict[Kind, int] = {"rods": 6, "gyroscopes": 3}
+_METHODS = ("KanesMethod", "LagrangesMethod")
+
+
+def rows(found: Sequence[Measured]) -> list[Row]:
+    """One row a tool and mechanism; a tool that was left out has its reason."""
+    return [
+        (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
+        for x in sorted(found, key=lambda x: (list(SIZES).index(x.kind), x.n))
+    ]
+
+
+def decided_rows(found: Sequence[Decided]) -> list[Row]:
+    """One row a pair of formulations."""
+    return [
+        (x.pair, _number(x.ours, 1e3), x.answer, _number(x.theirs, 1e3), x.their_answer, f"{_at_least(x)}{x.times:.0f}")
+        for x in found
+    ]
+
+
+def wanted(found: Sequence[Measured], decided: Sequence[Decided], operations: dict[Kind, list[int]]) -> list[Row]:
+    """What is wanted of the tool, and what was measured; — where a tool was not there.
+
+    operations: of one evaluation on each of SIZES.
+    """
+    made = {(x.kind, x.n, x.tool): x for x in found}
+    table, nothing = list[Row](), Measured("rods", 0, "")
+    for kind, n in _AT.items():
+        own, fast, pydy = (
+            made.get((kind, n, name), nothing) for name in ("lagrotor", "lagrotor, fast", "PyDy, Cython")
+        )
+        others = [made.get((kind, n, name), nothing) for name in _METHODS]
+        ready, rhs = _least([x.ready for x in others]), _least([x.rhs for x in others])
+        where = f"{n} {kind}"
+        table += [
+            (
+                f"ready, {where}, over the faster of Kane's and Lagrange's method",
+                "15",
+                _ratio(ready, own.ready),
+            ),
+            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own.rhs)),
+            (
+                f"right-hand side with the fast extra, {where}, over PyDy",
+                "3",
+                _ratio(pydy.rhs, fast.rhs),
+            ),
+        ]
+    for kind, numbers in SIZES.items():
+        times = [x.ready for n in numbers if (x := made.get((kind, n, "lagrotor"))) and x.ready]
+        for what, values in (("operations", operations[kind]), ("time to be ready", times)):
+            doubled = [
+                f"{b / a:.2f}"
+                for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)
+                if n == 2 * m
+            ]
+            table.append(
+                (f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}", "at most 2.3", ", ".join(doubled))
+            )
+    agree = [x for x in decided if x.answer == "zero"]
+    if agree:
+        least = min(agree, key=lambda x: x.times)
+        table.append(
+            (f"deciding that two formulations agree, over simplify ({least.pair})", "20", f"{least.times:.0f}")
+        )
+    return table
+
+
+def _least(values: Sequence[float | None]) -> float | None:
+    return min((v for v in values if v), default=None)
+
+
+def _ratio(theirs: float | None, ours: float | None) -> str:
+    return f"{theirs / ours:.1f}" if theirs and ours else "—"
+
+
+def _number(value: float | None, unit: float) -> str:
+    return "—" if value is None else f"{value * unit:.3g}"
+
+
+def _off(x: Measured) -> str:
+    return "—" if x.difference is None else f"{x.difference:.0e}"
+
+
+def _at_least(x: Decided) -> str:
+    return "over " if x.their_answer not in ("zero", "nonzero") else ""

@@ -1,0 +1,32 @@
+"""A tool on a mechanism: how it is made ready, its right-hand side, and its runs."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.benchmark.mechanisms.chains import Kind
+
+Array = NDArray[np.float64]
+Rhs = Callable[[float, Array], "Array | list[float]"]  # (t, (q, v)) → (v, a)
+Run = Callable[[Array, Array, float], Array]  # (start, times from 0, setting) → coordinates (n, N)
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A tool's right-hand side, and its own way to run where it has one; otherwise scipy's DOP853 and LSODA run it."""
+
+    rhs: Rhs
+    run: Run | None = None
+    settings: tuple[float, ...] = ()  # of its own runs, from coarse to fine: tolerances, or steps in s
+
+
+@dataclass(frozen=True)
+class Tool:
+    """prepare(kind, n) makes it ready; module: what has to be importable; extra: the optional dependency that installs it."""
+
+    prepare: Callable[[Kind, int], Ready]
+    module: str = "sympy"
+    extra: str = ""
+    others: tuple[str, ...] = ()  # modules needed besides

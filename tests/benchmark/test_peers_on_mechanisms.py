@@ -1,0 +1,120 @@
+"""Other tools on growing mechanisms: the same right-hand side, reasons in place of what was not measured, tables. No times."""
+
+from dataclasses import replace
+from functools import partial
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from lagrotor.benchmark.mechanisms import comparison, deciding
+from lagrotor.benchmark.mechanisms import recorded_mechanisms as record
+from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, g
+from lagrotor.benchmark.mechanisms.comparison import SAME, SIZES, TIMES, TOOLS, Measured
+from lagrotor.benchmark.mechanisms.deciding import PAIRS, Decided
+from lagrotor.benchmark.mechanisms.own_tools import OWN
+from lagrotor.benchmark.mechanisms.tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.mechanisms.tool import Ready, Tool
+from lagrotor.errors import LagrotorError
+
+CASES: tuple[tuple[Kind, int], ...] = (("rods", 2), ("gyroscopes", 1))
+
+
+def prepared(name: str, kind: Kind, n: int) -> Ready:
+    for module in (TOOLS[name].module, *TOOLS[name].others):
+        pytest.importorskip(module, reason=f"{name} is in the extra {TOOLS[name].extra}")
+    return TOOLS[name].prepare(kind, n)
+
+
+@pytest.mark.parametrize("name", [name for name in TOOLS if name != "lagrotor"])
+@pytest.mark.parametrize(("kind", "n"), CASES)
+def test_every_tool_has_the_same_right_hand_side(name: str, kind: Kind, n: int) -> None:
+    ready = prepared(name, kind, n)
+    y = np.random.default_rng(2).uniform(-0.5, 0.5, 2 * n * JOINTS[kind])
+    ours = np.asarray(chain(kind, n).rhs(VALUES)(0.0, y))
+    np.testing.assert_allclose(ready.rhs(0.0, y), ours, rtol=SAME, atol=SAME * np.abs(ours).max())
+    # Twin: another gravity is seen.
+    heavier = np.asarray(chain(kind, n).rhs(VALUES | {g: 1.001 * VALUES[g]})(0.0, y))
+    assert np.abs(heavier - ours).max() > 1e3 * SAME * np.abs(ours).max()
+
+
+@pytest.mark.parametrize("name", ["lagrotor", "lagrotor, fast", "MuJoCo", "Drake"])
+def test_a_tools_own_run_converges_to_the_reference(name: str) -> None:
+    ready = prepared(name, "rods", 2)
+    begin = comparison.start("rods", 2)
+    truth = comparison._scipy(chain("rods", 2).rhs(VALUES), begin, "DOP853", 1e-13)
+    assert ready.run is not None
+    errors = [np.abs(ready.run(begin, TIMES, setting) - truth).max() for setting in ready.settings[::5]]
+    assert errors[-1] < 1e-7 and errors[-1] < errors[0] / 10
+
+
+def test_a_tool_is_measured_and_one_with_another_motion_is_not_timed() -> None:
+    found = comparison.measure(OWN["lagrotor"], Measured("rods", 2, "lagrotor"))
+    assert found.difference == 0 and found.ready and found.rhs and found.run and found.by and not found.reason
+    falling = Tool(lambda kind, n: Ready(lambda t, y: -np.asarray(chain(kind, n).rhs(VALUES)(t, y))))
+    other = comparison.measure(falling, Measured("rods", 2, "falling"))
+    assert "differs by 2.0e+00" in other.reason and other.ready is other.rhs is other.run is None
+
+
+def test_what_is_not_installed_raises_or_takes_too_long_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    missing, broken = Tool(OWN["lagrotor"].prepare, "no_such_module", "peers"), Tool(partial(divmod))
+    found = comparison.compare({"rods": (2, 3)}, {"missing": missing, "broken": broken})
+    assert [x.tool for x in found] == ["missing", "broken"]  # no larger one after a failure
+    assert found[0].reason == "no_such_module not installed: pip install 'lagrotor[peers]'"
+    assert found[1].reason.startswith("TypeError: unsupported operand")
+    monkeypatch.setattr(comparison, "_LONGEST", 0.01)
+    (slow,) = comparison.compare({"rods": (3,)}, {"slow": OWN["lagrotor"]})
+    assert slow.reason == "over 0.01 s" and slow.ready is None
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_two_formulations_are_decided(name: str) -> None:
+    left, right = PAIRS[name]()
+    assert left.same_as(right).answer == ("nonzero" if "another" in name else "zero")
+
+
+def test_simplify_is_given_its_time_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert deciding._by_simplify("heavy top, from a body and the textbook's")[1] == "zero"
+    monkeypatch.setattr(deciding, "LONGEST", 0.01)
+    assert deciding._by_simplify("triple pendulum, relative and absolute angles") == (0.01, "did not end")
+
+
+def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
+    own = Measured("rods", 6, "lagrotor", 0.01, 1e-6, 0.0, 1e-3, "its own at 1e-06")
+    kane = replace(own, tool="KanesMethod", ready=0.2, rhs=5e-6)
+    slow = Measured("rods", 6, "LagrangesMethod", reason="over 90 s")
+    decided = [Decided("a pair", 0.01, "zero", 3.0, "zero"), Decided("another", 0.01, "zero", 60.0, "did not end")]
+    assert rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1e-06", "0e+00")
+    assert rows([slow])[0] == ("6 rods", "LagrangesMethod", "—", "—", "—", "over 90 s", "—")
+    assert [row[-1] for row in decided_rows(decided)] == ["300", "over 6000"]
+    table = wanted([own, kane, slow], decided, {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]})
+    assert [row[1:] for row in table[:3]] == [("15", "20.0"), ("4", "5.0"), ("3", "—")]
+    assert table[6][1:] == ("at most 2.3", "2.00, 2.05, 2.20") and table[-1][1:] == ("20", "300")
+    assert all(len(row) == len(WANTED_HEAD) for row in table) and all(len(row) == len(HEAD) for row in rows([own]))
+
+
+def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:
+    found = record.recorded_mechanisms()
+    assert found.operations == record.counted()
+    assert {x.tool for x in found.measured} == set(TOOLS)
+    assert {(x.kind, x.n) for x in found.measured if x.tool == "lagrotor"} == {(k, n) for k in SIZES for n in SIZES[k]}
+    assert all(x.reason or (x.difference is not None and x.difference < SAME) for x in found.measured)
+    assert [x.pair for x in found.decided] == list(PAIRS)
+    assert found.machine["processor"] and {"sympy", "heyoka", "mujoco", "drake", "pin"} <= found.versions.keys()
+
+
+def test_a_broken_record_is_said(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = tmp_path / "recorded.json"
+    monkeypatch.setattr(record, "RECORDED", broken)
+    for text in (None, "{", '{"measured": [{"speed": 1}], "decided": []}'):
+        if text is not None:
+            broken.write_text(text)
+        with pytest.raises(LagrotorError, match="renew it"):
+            record.recorded_mechanisms()
+
+
+@pytest.mark.skipif(not all(map(find_spec, ("pydy", "mujoco", "pydrake"))), reason="needs the extras peers and engines")
+@pytest.mark.slow
+def test_the_whole_comparison_runs() -> None:
+    found = comparison.compare({"rods": (2,)})
+    assert not [x for x in found if x.reason]
