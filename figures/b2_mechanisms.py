@@ -76,7 +76,7 @@ def figure() -> Figure:
     for row, (what, label) in zip(panels, WHAT.items(), strict=True):
         for panel, kind in zip(row, ("rods", "gyroscopes"), strict=True):
             for (name, (colour, marker)), seconds in zip(LOOKS.items(), d[f"{what} of {kind}"], strict=True):
-                line = {"color": OKABE_ITO[colour], "marker": marker, "markersize": 5, "linewidth": 1.0}
+                line = {"color": OKABE_ITO.get(colour, colour), "marker": marker, "markersize": 5, "linewidth": 1.0}
                 panel.loglog(d[f"n of {kind}"], seconds, label=name, **line)
             panel.set(xlabel=f"{kind} [1]", ylabel=label, title=kind)
             panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
