@@ -260,8 +260,7 @@ prove(
 # The two axes of a cell turn in opposite senses. Equal spins cancel: **a honeycomb of rigid bars and equal spins has
 # one zero band and nothing else.** Opposite spins add, $|u|^2=\tfrac23\sum|f_j|^2$ and the area is $2/\sqrt3$ times
 # $f_1\times f_2$:
-# $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,(\sin\Delta_1+\sin\Delta_2+\sin\Delta_3)}
-# {3-\cos\Delta_1-\cos\Delta_2-\cos\Delta_3}$$
+# $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,\sum\sin\Delta_j}{3-\sum\cos\Delta_j}$$
 # (one sense of each $q$). For long waves,
 # $\Delta=\epsilon(d_1,d_2,-d_1-d_2)$,
 
