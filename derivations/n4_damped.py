@@ -226,9 +226,9 @@ assert abs(found_radius / expected - 1) < 0.01
 assert found_radius > 1
 Remark(
     "The precession widens as the rotors spin down",
-    f"A joint that rubs alike in every direction, {friction:g} N m s/rad, I3 = 1 and a = 1.25 kg m²: after "
+    f"A joint that rubs alike in every direction, {friction:g} N m s/rad, I_3 = 1 and a = 1.25 kg m²: after "
     f"{until:g} s the exact paired "
-    f"precession has {found_radius:.4f} of its radius, e^((1/I3 − 1/a) c t) is {expected:.4f}.",
+    f"precession has {found_radius:.4f} of its radius, exp((1/I_3 − 1/a) c t) is {expected:.4f}.",
 )
 
 # %% [markdown]

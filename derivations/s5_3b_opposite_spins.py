@@ -129,7 +129,7 @@ verdict(
 # %% [markdown]
 # ## The rate at an inclination
 #
-# Equal spins: one rotor with $a + b$ for $J$ (derived in s5_3a), the factor $1/\cos\theta$ included.
+# Equal spins: one rotor with $a + b$ for $J$ (derived with 5.24), the factor $1/\cos\theta$ included.
 
 # %%
 equal_rate = in_parameters(I3 * omega / (a + b))

@@ -71,7 +71,7 @@ def meanings(entry: Equation) -> dict[sp.Expr, sp.Expr]:
     """What the text around an equation says of its letters, as the catalogue has it."""
     found: dict[str, sp.Expr] = {}
     for letter, meaning in entry.letters.items():
-        found[letter] = read(meaning, PAPER.names(entry.section) | found, entry.id)
+        found[letter] = read(meaning, {**PAPER.letters(entry.section).names, **found}, entry.id)
     return {NAMES[letter]: meaning for letter, meaning in found.items() if letter in NAMES}
 
 

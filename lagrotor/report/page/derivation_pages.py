@@ -39,7 +39,7 @@ def written(text: str) -> str:
         from mdit_py_plugins.dollarmath import dollarmath_plugin
     except ModuleNotFoundError:
         return f"<pre>{escape(text)}</pre>"
-    text = re.sub(r"(?m)^(\$\$.*\$\$)$", r"\n\1\n", text)  # a displayed formula is a paragraph of its own
+    text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
     renderer = MarkdownIt("commonmark").enable("table")
     renderer.use(dollarmath_plugin, renderer=_formula, allow_space=False)
     html: str = renderer.render(text)

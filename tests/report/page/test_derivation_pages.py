@@ -6,7 +6,7 @@ from base64 import b64decode
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.page.derivation_pages import derivation_html, title
+from lagrotor.report.page.derivation_pages import derivation_html, title, written
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 
@@ -24,3 +24,12 @@ def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
 
 def test_a_script_without_a_run_has_no_picture() -> None:
     assert not re.findall(PICTURE, derivation_html(PAPER.scripts.executed("derivations", "s6_conclusion"), {}))
+
+
+@pytest.mark.parametrize(
+    "text", ["obeys\n$$a = b,$$\nof $x$.", "so\n$$a = 1,\\qquad\nb = 2.$$\nand $x$", "in a line: $$a =\n3$$ (of $x$)"]
+)
+def test_a_displayed_formula_is_one_wherever_it_stands(text: str) -> None:
+    pytest.importorskip("mdit_py_plugins.dollarmath", reason="markdown-it reads the prose")
+    html = written(text)
+    assert "$" not in html and html.count('display="block"') >= 1 and "<math><" in html
