@@ -12,7 +12,7 @@ from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorW
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.choose import choose
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.estimate_constants import LINEAR_MARGIN, gathered_error
+from lagrotor.models.estimate_constants import gathered_error, linear_bound
 from lagrotor.models.estimated import Estimated, run_at, run_within
 from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, constant_momenta
@@ -45,7 +45,7 @@ def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
 def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     seen = linear_run(scene, times)
     try:
-        return Direct(seen, LINEAR_MARGIN * linear_error(scene, float(times[-1])), "asked for")
+        return Direct(seen, linear_bound(linear_error(scene, float(times[-1]))), "asked for")
     except DomainError:  # more turns than the estimate sums over
         return Direct(seen, nan, "asked for")
 

@@ -10,11 +10,13 @@ from scipy.linalg import expm
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
-from lagrotor.errors import DomainError, SingularError
+from lagrotor.errors import DomainError, LagrotorError, SingularError
+from lagrotor.models.estimate_constants import linear_bound
 from lagrotor.models.linear import linear_error, linear_run, modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.theory.impulse_response import impulse_matrices
+from tests.models.test_choose import random_scene
 
 ROTOR, BAR = Rotor(1.3, 0.9, 0.7, 1.1), Link(0.8, 0.3, 0.05)
 UP = np.array([[0, 0, 1.0], [0, 0, 1.0]])
@@ -125,3 +127,29 @@ def test_what_makes_no_sense_is_refused() -> None:
         np.isfinite(MODEL.start(started(0.3))).all()
         and np.isfinite(linear_run(started(0.3), np.array([0.0])).axes).all()
     )
+
+
+def errors_over_the_leading_order(seed: int, count: int) -> list[tuple[float, float]]:
+    """(estimate to leading order, true error) of the linear model on random scenes with an estimate of 1e-8 to 0.1."""
+    rng, found = np.random.default_rng(seed), []
+    while len(found) < count:
+        t = np.linspace(0, rng.uniform(0.5, 20), 100)
+        try:
+            scene = random_scene(rng, ("displaced", "shocked", "turning")[rng.integers(3)])
+            estimate = linear_error(scene, t[-1])
+            if not 1e-8 < estimate < 0.1:
+                continue
+            exact = simulate(scene, t, "minimal", 1e-11)
+            error = float(np.linalg.norm(linear_run(scene, t).axes - exact.axes, axis=-1).max())
+        except LagrotorError:
+            continue
+        if exact.error < error / 20:
+            found.append((estimate, error))
+    return found
+
+
+@pytest.mark.parametrize("count", [150, pytest.param(2000, marks=pytest.mark.slow)])
+def test_the_safety_factor_covers_what_the_leading_order_leaves_out(count: int) -> None:
+    found = errors_over_the_leading_order(23, count)
+    assert all(error <= linear_bound(estimate) for estimate, error in found)
+    assert sum(error > estimate for estimate, error in found) > count / 20  # twin: without it
