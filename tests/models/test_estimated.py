@@ -9,7 +9,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.models import estimated, minimal
+from lagrotor.models import estimated, euler, minimal
 from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.conserved import conservation_defect, pulse_nodes
 from lagrotor.models.estimate_constants import TABLE
@@ -115,6 +115,20 @@ def test_a_bar_almost_as_long_as_the_axes_loses_no_digit_at_the_fold(gap: float)
     run = simulate(scene, times, tol=1e-9)
     exact = simulate(scene, times, "spheres", 1e-13)
     assert np.abs(run.axes - exact.axes).max() < max(1e-9, 3 * exact.error)
+    # Twin: through the fold by Mercator coordinates, outside the range in which they are well conditioned.
+    units = natural_units(scene)
+    through = integrated(minimal.MODEL, units.scene, times * units.rate, 1e-9)
+    assert np.abs(through.seen.axes - exact.axes).max() > 1e-5
+
+
+@pytest.mark.parametrize("turns", [20, pytest.param(1000, marks=pytest.mark.slow)])
+def test_euler_angles_keep_the_bar_for_long(turns: int) -> None:
+    scene = paired_scene(Scene((10, -10), link=Link(1.0, 0.3, 0.02)), 0.204)
+    times = np.linspace(0, 0.8545 * turns, 101)
+    assert np.abs(simulate(scene, times, "euler", 1e-9).link_length - 1).max() < 1e-14
+    units = natural_units(scene)  # twin: not brought back onto the bar, they lose it
+    loose = integrated(replace(euler.MODEL, projection=None), units.scene, times * units.rate, 1e-9).seen.axes
+    assert np.abs(np.linalg.norm([1, 0, 0] + loose[1] - loose[0], axis=-1) - 1).max() > 1e-12
 
 
 def test_ten_thousand_turns_of_the_paired_precession() -> None:
