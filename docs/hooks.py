@@ -2,6 +2,7 @@
 
 import ast
 import json
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,8 @@ def on_files(files: "Files", config: Any) -> "Files":
         "gallery.md": gallery(),
         "contributing.md": (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"),
         "changelog.md": (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"),
+        "own_paper.md": (ROOT / "papers/pendulum/README.md").read_text(encoding="utf-8"),
+        "heavy_top.md": heavy_top(),
     }
     pages |= reference()
     pages |= {f"tutorials/{path.stem}.md": tutorial(path) for path in sorted((ROOT / "docs/notebooks").glob("*.ipynb"))}
@@ -27,6 +30,19 @@ def on_files(files: "Files", config: Any) -> "Files":
     for picture in ("pair.gif", "fig19_corrected_trajectories.png"):
         files.append(File.generated(config, f"figures/{picture}", abs_src_path=str(ROOT / "figures" / picture)))
     return files
+
+
+def heavy_top() -> str:
+    """The second paper: what it is, its equations as printed with the verdicts on record, and a derivation."""
+    folder = ROOT / "papers/heavy_top"
+    rows = tomllib.loads((folder / "equations.toml").read_text(encoding="utf-8"))["equation"]
+    recorded = json.loads((folder / "recorded.json").read_text(encoding="utf-8"))
+    verdicts = {i: row if isinstance(row, str) else row["verdict"] for i, row in recorded.items()}
+    lines = [f"| {row['id']} | {row['title']} | `{row['latex']}` | {verdicts[row['id']]} |" for row in rows]
+    table = "\n".join(["| | equation | as printed | verdict |", "|---|---|---|---|", *lines])
+    script = (folder / "derivations/s2_precession.py").read_text(encoding="utf-8")
+    read = (folder / "README.md").read_text(encoding="utf-8")
+    return f"{read}\n## Verdicts\n\n{table}\n\n## Where they come from\n\n```python\n{script}```\n"
 
 
 def tutorial(path: Path) -> str:

@@ -34,6 +34,13 @@ def test_the_reference_has_every_public_name_with_its_docstring(hooks: ModuleTyp
     assert "#### Trajectory.to_dataframe" in pages["reference/pair.md"]
 
 
+def test_the_second_paper_is_shown_with_its_verdicts(hooks: ModuleType) -> None:
+    page = hooks.heavy_top()
+    assert page.count("| refuted |") == 2 and page.count("| holds |") == 8
+    assert r"| 4.1 | threshold of sleep | `\omega_{\min}^2 = \frac{4 m g l I_1}{I_3}` | refuted |" in page
+    assert page.count("```") % 2 == 0 and "weak_gravity = Premise(" in page
+
+
 def test_tutorials_are_the_notebooks_and_the_gallery_the_scripts(hooks: ModuleType) -> None:
     text = hooks.tutorial(ROOT / "docs/notebooks/paired_precession.ipynb")
     assert text.startswith("# The paired precession") and text.count("```python") == text.count("```") / 2

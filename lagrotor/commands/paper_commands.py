@@ -158,6 +158,8 @@ def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.report.content import word
 
     paper = _paper(given)
+    if not paper.claims:
+        return say(f"{paper.title} has no claims.toml: there is nothing to test", 0)
     wanted = frozenset(_known(identifier, paper.claims) for identifier in given.ids) or frozenset(paper.claims)
     with progress(len(wanted)) as step:
         results = paper.evaluate(step, wanted)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 Row = TypeVar("Row", bound="Equation | Claim | Figure")
 _CLAIM = re.compile(r"C\d+")
+# The keys of a printed line.
+_LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 
 
 @dataclass(frozen=True)
@@ -158,6 +160,8 @@ class Catalogue:
     def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
         file = self.folder / f"{name}.toml"
         given = self._equations_toml if name == "equations" else toml(file)
+        if unknown := sorted(given.keys() - {key, "letters"}):
+            raise InputError(f"{file}: {unknown[0]!r} means nothing here: write [[{key}]]")
         found: dict[Any, Row] = {}
         for each in given.get(key, []):
             where = f"{file}: {key} {each.get('id', each.get('number', '?')) if isinstance(each, dict) else '?'}"
@@ -169,6 +173,18 @@ class Catalogue:
 
     def _problems(self) -> Iterator[str]:
         """What does not fit together, one sentence each."""
+        equations = self.folder / "equations.toml"
+        for entry in self.equations.values():
+            for line in entry.line:
+                unknown = sorted(line.keys() - set(_LINE))
+                yield from (
+                    f"{equations}: {entry.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
+                    for key in unknown
+                )
+                if "quantity" not in line:
+                    yield f"{equations}: {entry.id}: a line has no quantity: say in LaTeX what it is about"
+        for section in self._equations_toml.get("letters", {}).keys() - self.about.sections.keys():
+            yield f"{equations}: letters: section {section!r} is not among the sections of paper.toml"
         file, sections = self.folder / "paper.toml", self.about.sections
         for name, rows in (("equations", self.equations), ("claims", self.claims), ("figures", self.figures)):
             for entry in rows.values():
@@ -241,8 +257,6 @@ def _line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Lin
         number = read(digits, {}, where)
         return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
 
-    if "quantity" not in given:
-        raise InputError(f"{where}: a line has no quantity: say in LaTeX what it is about")
     scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
     return Line(
         quantity=given["quantity"],

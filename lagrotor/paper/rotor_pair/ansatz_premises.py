@@ -34,7 +34,6 @@ def _reaches(part: str, of: str) -> str:
     return f"{massless:.0f} % of {of} with a massless bar, {light:.0f} % with that of section 5.2.1, at r₀ = {PAPER_R0}"
 
 
-@cache
 def opposite_azimuths() -> Premise:
     """phi_1 = −phi_2 = phi, at every time."""
     (_, phi_1, _, _, phi_2, _), (_, phi_1_v, _, _, phi_2_v, _) = PAIR.q, PAIR.v
@@ -44,7 +43,6 @@ def opposite_azimuths() -> Premise:
     return Premise("the azimuths are opposite, φ₁′ = −φ₂′ = φ′", put, broken=broken)
 
 
-@cache
 def opposite_spin_angles() -> Premise:
     """psi_1 = −psi_2 = psi, at every time."""
     (_, _, psi_1, _, _, psi_2), (_, _, psi_1_v, _, _, psi_2_v) = PAIR.q, PAIR.v
@@ -54,7 +52,6 @@ def opposite_spin_angles() -> Premise:
     return Premise("the spin angles turn oppositely, ψ₁′ = −ψ₂′ = ψ′", put, broken=broken)
 
 
-@cache
 def one_inclination() -> Premise:
     """theta_1 = theta_2 = theta_0, constant."""
     theta_1, theta_2 = ANSATZ.q[:2]
@@ -64,7 +61,6 @@ def one_inclination() -> Premise:
     )
 
 
-@cache
 def no_bar_force() -> Premise:
     """The bar exerts nothing: lambda = 0."""
     broken = f"the swing of A reaches {_reaches('A', 'the part of A that the motion makes')}"

@@ -6,14 +6,10 @@ of it, n… from the pair to structures, b… speed against accuracy, g… the g
 
 from pathlib import Path
 
-from lagrotor.paper.audit import Audit
-from lagrotor.paper.ledger import Verdict
-from lagrotor.paper.papers import Progress, opened
+from lagrotor.paper.papers import opened
 from lagrotor.paper.scripts import beside
 
 PAPER = opened(Path(__file__).parent.resolve(), beside("derivations").parent)
 
-
-def audit(identifier: str | None = None, progress: Progress | None = None) -> Audit | Verdict:
-    """Judge every equation of the paper, or one, as `Paper.audit` does: `audit()["5.22"]`, `audit("5.22")`."""
-    return PAPER.audit(identifier, progress)
+# `audit()["5.22"]`, `audit("5.22")`.
+audit = PAPER.audit
