@@ -173,19 +173,8 @@ class Catalogue:
 
     def _problems(self) -> Iterator[str]:
         """What does not fit together, one sentence each."""
-        equations = self.folder / "equations.toml"
-        for entry in self.equations.values():
-            for line in entry.line:
-                unknown = sorted(line.keys() - set(_LINE))
-                yield from (
-                    f"{equations}: {entry.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
-                    for key in unknown
-                )
-                if "quantity" not in line:
-                    yield f"{equations}: {entry.id}: a line has no quantity: say in LaTeX what it is about"
-        for section in self._equations_toml.get("letters", {}).keys() - self.about.sections.keys():
-            yield f"{equations}: letters: section {section!r} is not among the sections of paper.toml"
         file, sections = self.folder / "paper.toml", self.about.sections
+        yield from self._problems_of_lines(self.folder / "equations.toml")
         for name, rows in (("equations", self.equations), ("claims", self.claims), ("figures", self.figures)):
             for entry in rows.values():
                 where = f"{self.folder / name}.toml: {entry.id}"
@@ -196,6 +185,17 @@ class Catalogue:
                 named = entry.refers.values() if isinstance(entry, Equation) else entry.equations
                 yield from (f"{where}: there is no equation {other}" for other in named if other not in self.equations)
         yield from (f"{file}: results: there is no equation {i}" for i in self.about.results if i not in self.equations)
+
+    def _problems_of_lines(self, file: Path) -> Iterator[str]:
+        """What is wrong with the printed lines and the letters of the sections."""
+        for each in self.equations.values():
+            for line in each.line:
+                for key in sorted(line.keys() - set(_LINE)):
+                    yield f"{file}: {each.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
+                if "quantity" not in line:
+                    yield f"{file}: {each.id}: a line has no quantity: say in LaTeX what it is about"
+        for section in self._equations_toml.get("letters", {}).keys() - self.about.sections.keys():
+            yield f"{file}: letters: section {section!r} is not among the sections of paper.toml"
 
     def equation(self, identifier: str) -> Equation:
         """One equation; refuses an id that the paper does not have."""
