@@ -53,13 +53,16 @@ CAPTION = (
 # %%
 def figure() -> Figure:
     """A plan a structure."""
-    picture = Figure(figsize=(9.0, 4.8))
+    picture = Figure(figsize=(9.0, 4.4))
     panels = picture.subplots(2, 5).ravel()
     for panel, name, factor, stands in zip(panels, GALLERY, data()["factor"], data()["stands"], strict=True):
         draw_plan(panel, example(name))
         verdict = "stands" if stands else "drifts" if factor == 0 else "falls"
         panel.set(title=f"{name}: {verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
         panel.axis("off")
-        panel.set_aspect(1)
+        ends = np.array([*example(name).joints, *(brace.to[:2] for brace in example(name).braces)])
+        middle, half = (ends.max(0) + ends.min(0)) / 2, 0.75 * max(np.ptp(ends, axis=0).max(), 1.0)
+        panel.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
+        panel.set_aspect(1, adjustable="box")
     picture.suptitle(TITLE)
     return picture
