@@ -21,16 +21,19 @@ def test_the_force_is_drawn_along_the_letter_given():
     t = np.linspace(0, 1, 5)
     data = {"t": t, "energy": t, "exact_energy": t[:3], "exact_t": t[:3], "force": t}
     data |= {"centre": np.outer(t, [1, 2, 3]), "exact_centre": np.zeros((3, 3))}
-    _, force, centre = shock_figure(data, "title", "y").axes
+    _, force, centre = shock_figure(data, "y").axes
     assert force.get_ylabel() == "force in y [N]"
-    assert [line.get_ydata()[-1] for line in centre.lines] == [1, 0, 2, 0, 3, 0]
-    assert [len(line.get_xdata()) for line in centre.lines] == [5, 3] * 3
+    *curves, end = centre.lines
+    assert [line.get_ydata()[-1] for line in curves] == [1, 0, 2, 0, 3, 0]
+    assert [len(line.get_xdata()) for line in curves] == [5, 3] * 3
+    assert end.get_xdata() == [0.5, 0.5]  # where the exact model ends
 
 
 def test_residuals_are_against_the_exact_model():
-    t, names = np.linspace(0, 1, 5), ("t", "force", "rate", "exact_amplitude", "springs_amplitude")
-    data = dict.fromkeys(names, t) | {"exact": t, "springs": 2 * t, "printed": 3 * t, "corrected": t}
-    *_, residual, heights = rate_figure(data | {"closed_form_rate": np.array([11.5])}, "title", 11.4).axes
+    t, names = np.linspace(1, 5, 5), ("t", "force", "rate", "exact_amplitude", "springs_amplitude")
+    x = t / 5
+    data = dict.fromkeys(names, t) | {"exact": x, "springs": 2 * x, "printed": 3 * x, "corrected": x}
+    *_, residual, heights = rate_figure(data | {"closed_form_rate": np.array([11.5])}, 11.4).axes
     assert [line.get_ydata()[-1] for line in residual.lines] == [2, 1, 0]  # printed, springs, corrected
     assert [line.get_xdata()[0] for line in heights.lines[2:]] == [11.4, 11.5]
     assert heights.get_xlim() == pytest.approx((6.4, 16.4))
