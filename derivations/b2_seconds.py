@@ -6,7 +6,7 @@
 #
 # **Assumptions.** Times differ from machine to machine and from run to run. These are the results of one machine, recorded in
 # one run by `python -m lagrotor.report.renew_record speed`: medians of processor time over samples of at least 10 ms, the
-# methods in turn. Errors and numbers of evaluations, the same everywhere, are in b1_chart.
+# methods in turn. Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
 
 # %%
 from lagrotor.benchmark.recorded_speed import recorded_speed

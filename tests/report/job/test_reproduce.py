@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -107,9 +108,12 @@ def test_other_versions_make_everything_anew(first: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_whole_report_is_the_same_twice_and_small(tmp_path: Path) -> None:
+def test_the_whole_report_is_the_same_twice_and_small(
+    tmp_path: Path, typed_formulas: Callable[[str], list[str]]
+) -> None:
     whole = SUBSET[: SUBSET.index("kept =")] + SUBSET[SUBSET.index("made =") :]
     for seed in (1, 2):
         run(tmp_path / f"report{seed}", seed, source=whole)
     assert held(tmp_path / "report1") == held(tmp_path / "report2")
     assert len(held(tmp_path / "report1")["index.html"]) <= LARGEST
+    assert typed_formulas((tmp_path / "report1" / "index.html").read_text(encoding="utf-8")) == []
