@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 Waves = NDArray[np.complex128]
 ORDERS = (3, 5, 7, 9, 11, 13, 15)
-FURTHER = (17, 19, 21)  # a second to derive: only where this model is asked for by name
+FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
 FARTHEST_APART = 1e-14  # of two axes that count as parallel: rounding; a twist grows in ways that depend on the bar
 FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
@@ -38,7 +38,7 @@ LONG = 300.0  # rad beyond which a period is integrated where the series does no
 LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 _ROUND = 4e-16  # relative, of an angle
-_SMALL = 0.1  # of an error, foreseen to first order
+_SMALL = 0.1  # of an error, known to first order
 # What exchanging the rotors, half a period later, does to an axis.
 _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
@@ -233,7 +233,7 @@ def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, b
     The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
     series' last terms, which are larger than those left out; both grow exponentially where the orbit is hyperbolic. Each
     order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
-    the `best` is asked for.
+    `best` says so.
     """
     width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural

@@ -142,7 +142,7 @@ def _loosest(watched: _Watched, tol: float, wanted: float) -> tuple[_Single, _Si
 
 
 def _tighter(loose: float, engine: str) -> float:
-    """The tolerance of the better run; not beyond where the core's solvers become dear, if it is clearly tighter there."""
+    """The tolerance of the better run; not beyond where the core's solvers become slow, if it is clearly tighter there."""
     tight = max(loose / APART, TIGHTEST)
     return max(tight, CROSSOVER) if engine == "core" and loose >= CLEARLY * CROSSOVER else tight
 

@@ -157,7 +157,9 @@ def linear_error(scene: Scene, t_end: float) -> float:
     linear, shock = modes(scene), scene.shock_until(t_end)
     points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))
     if points > _MOST:
-        raise DomainError(f"linear: {points // _A_TURN} turns are too many to foresee the error; use model='minimal'")
+        raise DomainError(
+            f"linear: {points // _A_TURN} turns are too many to estimate the error over; use model='minimal'"
+        )
     t = np.linspace(0.0, t_end, points)
     if shock is not None:
         about = shock.at + shock.width * np.linspace(-4, 4, 65)

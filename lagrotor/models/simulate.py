@@ -39,15 +39,15 @@ def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     answer = closed_form(scene, float(times[-1]), tol, best)
     seen = Observed(*answer.motion(times), constant_momenta(scene, len(times)))
     missed = ", more than tol" if answer.error > tol else ""
-    return Direct(seen, answer.error, f"asked for; {answer.reason}; estimated error {answer.error:.1e}{missed}")
+    return Direct(seen, answer.error, f"by name; {answer.reason}; estimated error {answer.error:.1e}{missed}")
 
 
 def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     seen = linear_run(scene, times)
     try:
-        return Direct(seen, linear_bound(linear_error(scene, float(times[-1]))), "asked for")
+        return Direct(seen, linear_bound(linear_error(scene, float(times[-1]))), "by name")
     except DomainError:  # more turns than the estimate sums over
-        return Direct(seen, nan, "asked for")
+        return Direct(seen, nan, "by name")
 
 
 # (scene, times, tol, whether to give the best there is, by name, or what `choose` took)
@@ -127,7 +127,7 @@ def _by_name(model: Model, scene: Scene, times: Array, tol: float, engine: str) 
         found = run_at(model, units.scene, times * units.rate, tol, engine, promised)
     except StopError as stopped:
         raise _in_seconds(stopped, units) from None
-    return _trajectory(scene, model.name, "asked for", times, found, units, promised, tol)
+    return _trajectory(scene, model.name, "by name", times, found, units, promised, tol)
 
 
 def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:

@@ -25,7 +25,7 @@ class Swarm:
     """n problems y' = rates(s, y) with s = t − at, y = start (d, n) at t = 0.
 
     rates: given the indices of those still on their way, their right-hand side. fastest (n,), rad/s: for the first step.
-    max_nfev (n,): evaluations after which one is given up. at, width (n,), s: pulses, within 6.5 widths of which no step
+    max_nfev (n,): evaluations after which one is stopped. at, width (n,), s: pulses, within 6.5 widths of which no step
     is longer than the width, and at whose edges a step ends; width 0 for none.
     """
 

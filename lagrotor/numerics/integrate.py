@@ -130,7 +130,7 @@ def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Run:
     if tol >= CROSSOVER:
         return lsoda(segment, min(tol / LSODA_SAFETY, 1e-6 if pulsed else np.inf))
-    # Where equal steps do not pay, Adams is given up soon.
+    # Where equal steps do not pay, Adams is left soon.
     return adams(replace(segment, max_nfev=min(segment.max_nfev, 5_000 + 0.15 * segment.max_nfev)), tol)
 
 

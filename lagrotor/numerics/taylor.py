@@ -1,7 +1,7 @@
 """The fast extra: heyoka's Taylor integrator, compiled from the same generated programs.
 
 heyoka takes its order from the tolerance that it is compiled for, and a step that leaves this tolerance times the largest
-component of the state. A component that stands still, of a size chosen at each run, sets the step apart from the order:
+component of the state. A constant dummy state, of a size chosen at each run, decouples the step size from the order:
 three orders serve every tolerance, each in the steps that pay. A cyclic coordinate, which may grow without end, is carried
 so small that it is never the largest. What is compiled is kept for the process, some tenths of a
 second a program and order. The read-out at any time is as exact as the run.
@@ -27,7 +27,7 @@ from lagrotor.numerics.segment import Projection, StopError
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
-_MOST_STEPS = 1_000_000  # between two edges, beyond which a run is taken to crawl
+_MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 _CARRIED = 2.0**-20  # of a cyclic coordinate: a millionth, that rounds nothing
 _BLOCK = 512  # points at once: for more, heyoka wakes threads, which do not pay
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
@@ -181,7 +181,7 @@ def _compiled(program: Program) -> Any:
 
 
 def _size(tol: float, order: int) -> float:
-    """Of the component that stands still: with it a step of this order leaves a tenth of `tol`."""
+    """Of the constant dummy state: with it a step of this order leaves a tenth of `tol`."""
     return tol / 10 / _compiled_for(order)
 
 
@@ -210,7 +210,7 @@ def _heyoka() -> Any:
 def _solver(program: Program, states: int, driven: bool, order: int, lanes: int, thread: int) -> Any:
     """The compiled integrator of a program whose first `states` arguments are the state; each thread has its own.
 
-    Its state has one component more, which stands still.
+    Its state has one component more, which is constant.
     """
     heyoka = _heyoka()
     names, parameters = program.arguments[:states], program.arguments[states:]

@@ -138,5 +138,5 @@ def test_asked_for_by_name_the_series_goes_on_to_order_21() -> None:
 
 def test_a_closed_form_asked_for_by_name_says_how_far_off_it_may_be() -> None:
     off = simulate(series_orbit(Scene((10, -10)), 0.204, 9).start, T, "closed_form", 1e-9)
-    assert off.why.startswith("asked for; on its paired precession") and off.why.endswith("more than tol")
+    assert off.why.startswith("by name; on its paired precession") and off.why.endswith("more than tol")
     assert "more than tol" not in simulate(paired_scene(Scene((10, -10)), 0.204), T, "closed_form", 1e-3).why

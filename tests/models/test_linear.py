@@ -120,7 +120,7 @@ def test_what_makes_no_sense_is_refused() -> None:
     far = ((0.9, 0, sqrt(1 - 0.81)),) * 2
     with pytest.raises(DomainError, match=r"at t = 0 s the motion is 84.*° from rest.*use model='minimal'"):
         simulate(Scene((10, -10), axes=far), [0, 1], "linear")
-    with pytest.raises(DomainError, match="turns are too many to foresee"):
+    with pytest.raises(DomainError, match="turns are too many to estimate"):
         linear_error(started(0.01), 1e5)
     # Just inside it still answers.
     assert (

@@ -58,7 +58,7 @@ def test_auto_takes_the_least_model_and_says_why() -> None:
     run = simulate(UPRIGHT, [0, 1])
     assert run.model == "closed_form"
     assert run.why == "at rest and left alone: nothing moves; error 0.0e+00"
-    assert simulate(UPRIGHT, [0, 1], "minimal").why == "asked for"
+    assert simulate(UPRIGHT, [0, 1], "minimal").why == "by name"
 
 
 @pytest.mark.parametrize(

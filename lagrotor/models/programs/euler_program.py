@@ -1,4 +1,4 @@
-"""The programs of rung 5, derived: right-hand side, projection and axes of two sets of Euler angles with a multiplier."""
+"""The programs of the model `euler`, derived: right-hand side, projection, axes of two sets of Euler angles and a multiplier."""
 
 import sympy as sp
 

@@ -1,4 +1,4 @@
-"""The right-hand side of rung 3 as a slim program: the bar eliminated, one multiplier, no more solved than must be.
+"""The right-hand side of the model `minimal` as a slim program: the bar eliminated, one multiplier, nothing else solved.
 
 Mercator coordinates of an axis, r = (tanh u, −sin alpha sech u, cos alpha sech u), and its tangent frame
 e = (sech u, sin alpha tanh u, −cos alpha tanh u), f = (0, −cos alpha, −sin alpha):

@@ -1,4 +1,4 @@
-"""The programs of rung 4, derived: right-hand side and projection of two unit vectors with multipliers.
+"""The programs of the model `spheres`, derived: right-hand side and projection of two unit vectors with multipliers.
 
     a r_i'' + b r_j'' = G_i r_i × r_i' + F_i + sum_c lam_c grad_i g_c
 
