@@ -1,5 +1,6 @@
 """The solver: its order, its pulses, and how it stops."""
 
+from dataclasses import replace
 from math import cos, erf, pi, sqrt
 
 import numpy as np
@@ -9,8 +10,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics import integrate as module
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
-from lagrotor.numerics.segment import Array, RightHandSide
+from lagrotor.numerics.segment import Array, RightHandSide, Run, Segment, StopError
+from lagrotor.numerics.solver_constants import DETOUR
 
 ENOUGH = 1e6
 START = np.array([1.0, 0.0])
@@ -221,3 +224,26 @@ def test_tolerances_out_of_reach_are_refused(tol: object) -> None:
 @pytest.mark.parametrize("tol", [1e-13, 1e-9, 0.1])
 def test_tolerances_within_reach_are_kept(tol: float) -> None:
     assert check_tolerance(tol) == tol
+
+
+@pytest.mark.parametrize("reached", [True, False])
+def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
+    monkeypatch: pytest.MonkeyPatch, reached: bool
+) -> None:
+    """From where it came, or from where it began and for four times as long if nothing is left of its run."""
+    begun, right = list[float](), module.lsoda
+
+    def stops(segment: Segment, error: float) -> Run:
+        begun.append(segment.left)
+        if segment.left > 3:
+            return right(segment, error)
+        until = segment.left + 1
+        part = replace(segment, right=until, t_eval=segment.t_eval[segment.t_eval <= until])
+        raise StopError(until, "no more steps", right(part, error) if reached else None)
+
+    monkeypatch.setattr(module, "lsoda", stops)
+    times = np.linspace(0, 20, 81)
+    problem = Problem(oscillate, START, ENOUGH, typical_rate=DETOUR)  # a first detour of one second
+    solution = integrate(problem, times, 1e-8)
+    assert solution.states[:, 0] == pytest.approx(np.cos(times), abs=1e-7)
+    assert begun[:2] == pytest.approx([0, 2] if reached else [0, 4]) and begun[-1] > 3
