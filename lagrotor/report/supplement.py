@@ -190,7 +190,7 @@ _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "notation": lambda report: [
         table(
             ("Symbol", "Meaning", "Unit"),
-            [(inline(s), prose(meaning), prose(unit)) for s, meaning, unit in notation(report)],
+            [(f"${inline(s)}$", prose(meaning), prose(unit)) for s, meaning, unit in notation(report)],
         )
     ],
     "errata": lambda report: [latex_block(e) for e in errata(report.verdicts, report.paper)],
