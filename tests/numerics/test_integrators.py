@@ -148,3 +148,19 @@ def test_a_projection_from_far_off_is_not_taken(monkeypatch: pytest.MonkeyPatch)
     problem = replace(problem_of(spheres.MODEL, pressed, 5.0), typical_rate=0.0, time_to_singular=None)
     axes = spheres.MODEL.observe(pressed, integrate(problem, times, 1e-6).states).axes
     assert np.abs(axes - simulate(pressed, times, "minimal", 1e-12).axes).max() > 0.1
+
+
+@pytest.mark.parametrize("engine", [lsoda, adams, dop853])
+def test_no_step_passes_a_singular_position(engine) -> None:
+    """A straight motion through it feels nothing: only the time that is left until then shortens the steps."""
+
+    def until_zero(y: Array) -> float:
+        return float(y[0]) if y[0] > 0 else np.inf
+
+    straight = Segment(
+        lambda s, y: [-1.0], np.ones(1), 0.0, 2.0, np.array([2.0]), max_nfev=20_000, project=lambda y: y, typical_rate=1
+    )
+    with pytest.raises(StopError) as stopped:
+        engine(replace(straight, time_to_singular=until_zero), 1e-9)
+    assert stopped.value.at == pytest.approx(1, abs=0.1) and stopped.value.at <= 1
+    assert engine(straight, 1e-9).end[0] == pytest.approx(-1)  # twin: what is not watched is passed
