@@ -116,7 +116,7 @@ verdict(
     "3.04",
     U_cm,
     correction=mean_velocity,
-    wrong="The weights m_i/M of the mean are missing.",
+    wrong="The weights of the mean, each mass over the sum of the masses, are missing.",
     uses=[centre_of_mass],
     evidence=[
         "The mean of the velocities is printed as their sum. A body of three equal particles in a common motion would move "

@@ -72,8 +72,9 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     title = rf"\section*{{Errata to \emph{{{prose(paper.title)}}}}}"
     summary = " ".join(prose(text) for text in _summary(listed, found, paper))
     items = "\n".join(map(latex_item, found)) or rf"\item {prose('None.')}"
-    sheet = [r"{\small\setlength{\parskip}{1pt}\raggedright", r"\begin{enumerate}", items, r"\end{enumerate}}"]
-    return "\n".join([head(f"Errata to {paper.title}") + title, summary, *sheet, END])
+    # Two pages: small print, and no more space between the items than a line of it.
+    sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
+    return "\n".join([head(f"Errata to {paper.title}") + title, *sheet, r"\end{enumerate}}", END])
 
 
 def _summary(verdicts: list[Verdict], found: list[Erratum], paper: Paper) -> Iterator[str]:
