@@ -45,7 +45,8 @@ def test_the_conclusion_is_what_the_points_say(made):
         spent = {p.method: p.nfev for p in sorted(points, key=lambda p: -p.nfev) if p.error <= error}
         assert min(spent, key=spent.get) == "minimal, Adams"
     floor = made["found"].floor
-    assert all(best(made, name) == floor for name in ("minimal", "spheres", "minimal, Adams"))
+    # To the error of the reference, which is itself known to a factor of two.
+    assert all(best(made, name) < 2 * floor for name in ("minimal", "spheres", "minimal, Adams"))
     assert all(best(made, name) > 5 * floor for name in made["SCIPY"] if name != "ode, DOP853")
     assert best(made, "minimal, DOP853") > 5 * floor
     again = [p.nfev for p in points if p.method == "ode, DOP853" and p.setting > 1e-12]
