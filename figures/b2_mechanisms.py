@@ -81,6 +81,5 @@ def figure() -> Figure:
             panel.set(xlabel=f"{kind} [1]", ylabel=label, title=kind)
             panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
             panel.minorticks_off()
-    picture.suptitle(TITLE)
     picture.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return picture

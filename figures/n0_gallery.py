@@ -64,5 +64,4 @@ def figure() -> Figure:
         middle, half = (ends.max(0) + ends.min(0)) / 2, 0.75 * max(np.ptp(ends, axis=0).max(), 1.0)
         panel.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
         panel.set_aspect(1, adjustable="box")
-    picture.suptitle(TITLE)
     return picture

@@ -78,7 +78,7 @@ def measure() -> dict[str, float]:
 
 _alone, _corner, _square, _off, _under, _over = measure().values()
 CAPTION = (
-    "Equal rotors, 2 kg on each tip, massless bars. From which spin on each stands, in units of √(aκ)/I3 (a "
+    "Equal rotors, 2 kg on each tip, massless bars. From which spin on each stands, in units of √(aκ)/I₃ (a "
     "the inertia about the "
     f"joint, κ the weight's moment): a rotor alone {_alone:.3f}, corner {_corner:.3f}, square with one spin opposite "
     f"{_square:.3f}; no pair at any. Exact runs are within {_off:.0e} √(κ/a) of the growth rates. The corner 3 % under its "
@@ -95,12 +95,11 @@ def figure() -> Figure:
     for (name, (_, _, colour)), values in zip(SHOWN.items(), d["growth"], strict=True):
         growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT, mfc="none", label="exact motion")
-    growth.set(xlabel="spin in √(aκ)/I3 [1]", ylabel="growth in √(κ/a) [1]", title="Growth of what falls fastest")
+    growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Growth of what falls fastest")
     for values, name, ink in zip(
         d["tilt"], ("3 % under", "3 % over"), (OKABE_ITO["reddish purple"], EXACT), strict=True
     ):
         tilt.semilogy(d["t"], values + 1e-6, color=ink, lw=1.2, label=f"corner, {name} its threshold")
     tilt.set(xlabel="time in √(a/κ) [1]", ylabel="|x| of the first axis [1]", title="The corner after a push")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

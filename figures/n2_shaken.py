@@ -112,6 +112,5 @@ def figure() -> Figure:
     transfer.plot(d["rates"], d["tuned"], color=PAPER)
     transfer.plot(d["rates"], d["spun"], color=MODEL, label=f"spins, γ = {SHOWN}")
     transfer.set(xlabel="rate in Ω [1]", ylabel="|X K/F| [1]", title="Transfer functions", ylim=(0.5, 200))
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

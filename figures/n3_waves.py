@@ -140,6 +140,5 @@ def figure() -> Figure:
         panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number a rotor [rad]")
     net.set(xlabel="share of the path 0 – K – M [1]")
     even.set_xlim(0, pi / 2)
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=4)
     return picture

@@ -77,7 +77,7 @@ CAPTION = (
     f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}: the pair comes to rest turned about the joint line by "
     f"{', '.join(f'{x:.3f}' for x in _found[:3])} of G r0²/2c (dashed) at c = "
     f"{', '.join(f'{c:g}' for c in RUBBED)} N m s/rad. Right: "
-    f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I3 − 1/a) c t) where the joint rubs the spins "
+    f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the joint rubs the spins "
     "too, as exp(−c t/a) "
     f"where they are kept up, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after 11.75 s."
 )
@@ -102,6 +102,5 @@ def figure() -> Figure:
         label = "law of the radius" if rate > 0 else None
         tilt.plot(d["t"], np.exp(rate * d["t"]), line, color=CORRECTED, lw=1.4, label=label)
     tilt.set(xlabel="time [s]", ylabel="tilt along the bar over the first [1]", title="Spin-down widens the precession")
-    picture.suptitle(TITLE)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -99,7 +99,6 @@ def figure() -> Figure:
         spread = max(high - low, 0.25)
         panel.set(xlabel="wave number along the strip [rad]", ylabel="rate [rad/s]", title=title, xlim=(0, 2 * np.pi))
         panel.set_ylim(low - 3 * spread, high + 3 * spread)
-    picture.suptitle(TITLE)
     entries = panels[0].get_legend_handles_labels()
     picture.legend(*entries, loc="outside lower center", ncols=3, markerscale=3)
     return picture

@@ -67,12 +67,41 @@ def from_latex(source: str) -> str:
     text = re.sub(
         r"\\(?:text|mathcal|mathrm)\s*\{([^{}]*)\}|\\(?:mathcal|mathrm)\s+(\w)", lambda m: m[1] or m[2], source
     )
-    text = re.sub(r"\\(?:vec|hat)\s*", "", text)
+    text = re.sub(r"\\(?:left|right)\s*(?=[(){}\[\]|.\\])\.?", "", text)
+    text = re.sub(r"([_^])\{(\w|\\\w+)\}", r"\1\2", text)
+    text = re.sub(r"(?<=[A-Za-z])(?=\\(?:vec|hat)\b)", " ", text)
+    text = re.sub(r"\\(?:vec|hat)\s*(?:\{([^{}]*)\})?", lambda m: m[1] or "", text)
+    text = _quotients(text)
     text = re.sub(r"\\(d?dot)\s*(?:\{\\?(\w+)\}|\\?(\w+?))(?:_\{?(\d+)\}?)?(?![A-Za-z])", _dotted, text)
     text = re.sub(r"\\([A-Za-z]+)", lambda m: _SIGNS.get(m[1]) or _LETTERS.get(m[1], m[1]), text)
     text = re.sub(r"_\{?(\d+)\}?", lambda m: m[1].translate(_LOW), text)
-    text = re.sub(r"\^\{?(\d+)\}?", lambda m: m[1].translate(_HIGH), text)
-    return " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).split())
+    text = re.sub(r" ?\^\{?(\d+)\}?", lambda m: m[1].translate(_HIGH), text).replace("^T", "ᵀ")
+    text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", text)
+    return " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).replace("( ", "(").replace(" )", ")").split()).replace(
+        " - ", " − "
+    )
+
+
+def _quotients(text: str) -> str:
+    r"""Quotients and roots of LaTeX on one line: \frac{a + b}{c} is (a + b)/c, \sqrt{x} is √x; the inmost first."""
+    for _ in range(text.count("{") + 1):
+        before = text
+        text = re.sub(
+            r"\\[dt]?frac\s*(?:\{([^{}]*)\}|(\d))\s*(?:\{([^{}]*)\}|(\d))",
+            lambda m: f"{_factor(m[1] or m[2])}/{_factor(m[3] or m[4])} ",
+            text,
+        )
+        text = re.sub(r"\\sqrt\s*(?:\{([^{}]*)\}|(\\?\w+))", lambda m: f"√{_factor(m[1] or m[2])}", text)
+        text = re.sub(r"([_^])\{([^{}]*)\}", lambda m: f"{m[1]}{_factor(m[2])}", text)
+        if text == before:
+            break
+    return text
+
+
+def _factor(text: str) -> str:
+    """In brackets unless it is one letter or number, indexed or raised."""
+    alone = re.fullmatch(r"\s*(?:\\?[\w.]+|\([^()]*\))(?:_\\?\w+)?(?:\^\w)?\s*", text)
+    return text.strip() if alone else f"({text.strip()})"
 
 
 def _dotted(match: re.Match[str]) -> str:

@@ -21,7 +21,7 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
         else ""
     )
     rows: list[tuple[str, str]] = []
-    rows += [("printed", line) for line in _lines(statement.relations)]
+    rows += [("printed", line) for line in _printed(entry)]
     rows += [("wrong", readable(statement.wrong))] if statement.wrong and verdict.verdict == "refuted" else []
     rows += [("right", line) for line in _lines(statement.correction)]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
@@ -38,12 +38,18 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     return "\n".join([head, *(f"  {name:<11}{text}" for name, text in rows)])
 
 
+def _printed(entry: Equation) -> list[str]:
+    """The lines of the catalogue, quantity = member = …, in plain text."""
+    return [" = ".join([from_latex(row["quantity"]), *map(readable, row.get("members", ()))]) for row in entry.line]
+
+
 def _lines(relations: Iterable[Relation]) -> list[str]:
     """quantity = expression for each relation, in plain text."""
     found = []
     for relation in relations:
         rest = f" + O({relation.small}**{relation.claimed + 1})" if relation.small is not None else ""
-        found.append(f"{from_latex(relation.quantity)} = {readable(str(relation.printed) + rest)}")
+        right = from_latex(relation.written) if relation.written else readable(str(relation.printed) + rest)
+        found.append(f"{from_latex(relation.quantity)} = {right}")
     return list(dict.fromkeys(found))
 
 

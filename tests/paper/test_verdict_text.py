@@ -1,0 +1,37 @@
+"""A verdict in a terminal: short lines in letters and signs, as printed and as it should read."""
+
+import pytest
+
+from lagrotor.paper.readable import from_latex
+from lagrotor.paper.rotor_pair.own_paper import PAPER, audit
+from lagrotor.paper.verdict_text import in_words
+
+
+@pytest.mark.parametrize(
+    ("source", "text"),
+    [
+        (r"\frac{a + b}{c}", "(a + b)/c"),
+        (r"\frac{\rho\,\vec{r}\times\vec{F}}{(1 + \rho) I_3\omega_1}", "(ρ r × F)/((1 + ρ) I₃ω₁)"),
+        (r"\frac{\frac{a}{b}}{2}", "(a/b)/2"),
+        (r"\frac{d}{dt}\vec X_r", "d/dt X_r"),
+        (r"y_1/\sqrt\sigma", "y₁/√σ"),
+        (r"\sqrt{a^{2} - b^{2}}", "√(a² − b²)"),
+        (r"R I_{0} R^{T}", "R I₀ Rᵀ"),
+        (r"\sin^{2}{\theta} \left(a - b\right)", "sin² θ (a − b)"),
+    ],
+)
+def test_a_formula_is_one_line_of_text(source: str, text: str) -> None:
+    assert from_latex(source) == text
+
+
+@pytest.mark.parametrize(("equation", "right"), [("3.12", "I(t) = R I₀ Rᵀ"), ("3.14", "d/dt X_r = Ω × X_r")])
+def test_vectors_and_tensors_are_not_written_out(equation: str, right: str) -> None:
+    lines = in_words(audit(equation), PAPER).splitlines()
+    assert f"  right      {right}" in lines
+    assert all(len(line) < 300 and "Matrix" not in line and "\\" not in line for line in lines)
+
+
+def test_what_is_printed_is_the_catalogues_line() -> None:
+    lines = in_words(audit("5.22"), PAPER).splitlines()
+    assert "  printed    x₁ = cos(Φ)·(r₀ − r₀²·cos(Φ)) − 0.5" in lines
+    assert sum("  right" in line for line in lines) == 4
