@@ -11,9 +11,9 @@ from lagrotor.benchmark.mechanisms import comparison, deciding
 from lagrotor.benchmark.mechanisms import recorded_mechanisms as record
 from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, g
 from lagrotor.benchmark.mechanisms.comparison import SAME, SIZES, TIMES, TOOLS, Measured
+from lagrotor.benchmark.mechanisms.comparison_tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
 from lagrotor.benchmark.mechanisms.deciding import PAIRS, Decided
 from lagrotor.benchmark.mechanisms.own_tools import OWN
-from lagrotor.benchmark.mechanisms.comparison_tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
 from lagrotor.benchmark.mechanisms.tool import Ready, Tool
 from lagrotor.errors import LagrotorError
 

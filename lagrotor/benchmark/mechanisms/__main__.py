@@ -5,8 +5,8 @@
 
 import argparse
 
-from lagrotor.benchmark.mechanisms.recorded_mechanisms import measure_all, write_record
 from lagrotor.benchmark.mechanisms.comparison_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.mechanisms.recorded_mechanisms import measure_all, write_record
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m lagrotor.benchmark.mechanisms", description=__doc__)
