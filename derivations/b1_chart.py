@@ -8,7 +8,7 @@
 # and with the velocities that belong to it. Without the velocity of second order the same pair falls within 20 s.
 #
 # **Reference.** Two formulations at $10^{-13}$, the bar eliminated and unit vectors with multipliers; their distance is the
-# error of the reference. A calculation with thirty digits, by extrapolation, agrees with both to $10^{-13}$
+# error of the reference. A calculation with thirty digits, by extrapolation, agrees with both to $3\times10^{-13}$
 # (tests/benchmark).
 
 # %%
