@@ -1,5 +1,6 @@
 """Range of validity of the closed forms, and of any prediction: amplitude, spins not quite opposite, no spin, time."""
 
+import warnings
 from dataclasses import replace
 from functools import lru_cache
 from math import exp, log, pi
@@ -8,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.errors import LagrotorWarning
 from lagrotor.models.ensemble import started
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.floquet import floquet_of
@@ -153,6 +155,8 @@ def horizon_limits(quick: bool) -> list[Limit]:
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
     state = MODEL.start(scene)
-    one, other = (simulate(s, times, "minimal", 1e-12).axes for s in started(scene, [state, state + apart]))
+    with warnings.catch_warnings():  # past the horizon on purpose: how soon neighbours part is what is measured
+        warnings.simplefilter("ignore", LagrotorWarning)
+        one, other = (simulate(s, times, "minimal", 1e-12).axes for s in started(scene, [state, state + apart]))
     away = np.linalg.norm(one - other, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")
