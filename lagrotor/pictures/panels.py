@@ -47,7 +47,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     return figure
 
 
-# Where the curves of a rate are told apart (s): the first swings after the shock, and the last ones of the run.
+# Where the curves of a rate can be distinguished (s): the first swings after the shock, and the last ones of the run.
 _FIRST, _LAST = (1.9, 4.0), (8.5, 10.0)
 
 
