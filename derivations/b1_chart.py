@@ -18,7 +18,7 @@ from lagrotor.benchmark.method import TOLERANCES
 from lagrotor.benchmark.runner import benchmark, front
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.benchmark.scipy_solvers import TRAPS
-from lagrotor.paper.notebook import Remark
+from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 
 # %% [markdown]

@@ -11,8 +11,8 @@
 
 # %%
 from lagrotor.paper.rotor_pair.claims.ansatz import C15
-from lagrotor.paper.rotor_pair.claims.correction import C16, C17
 from lagrotor.paper.rotor_pair.claims.freedoms_and_modes import C14
+from lagrotor.paper.rotor_pair.claims.link_swing import C16, C17
 
 # %% [markdown]
 # ## C14: degrees of freedom

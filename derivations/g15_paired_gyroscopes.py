@@ -23,7 +23,7 @@ from lagrotor.models.programs import euler_program, minimal_program, spheres_pro
 from lagrotor.numerics.codegen import operations
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.lagrangians import axes_pair, bar_curve, mercator_lagrangian, minimal_embedding, pair_with_bar
-from lagrotor.pair.symbols import MERCATOR, MINIMAL, b
+from lagrotor.pair.notation import MERCATOR, MINIMAL, b
 from lagrotor.paper.proof import prove
 from lagrotor.paper.tables import Table
 

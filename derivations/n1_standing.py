@@ -19,8 +19,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Brace, Link, Structure
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.exact.held_to_exact import bounded_motion, measured_growth
 from lagrotor.structures.pattern_search import sign_patterns

@@ -19,8 +19,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Brace, Rotor, Structure
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.structures.absorbers import (
     mass_worst_case,
     spins_white_noise,

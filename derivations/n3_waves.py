@@ -18,8 +18,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Rotor, Structure
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
 from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, square, straight_row, zigzag

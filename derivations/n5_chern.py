@@ -16,8 +16,7 @@ import sympy as sp
 
 from lagrotor import Rotor
 from lagrotor.errors import InputError
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.structures.waves.chern import chern_numbers
 from lagrotor.structures.waves.edge_waves import edge_waves
 from lagrotor.structures.waves.patterns import honeycomb, square_octagon

@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair.lagrangians import axis, rotor_lagrangian
-from lagrotor.pair.symbols import I3, ROTOR, J, R, m, omega_1, omega_2
+from lagrotor.pair.notation import I3, ROTOR, J, R, m, omega_1, omega_2
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation, vector
 from lagrotor.paper.premises import Premise

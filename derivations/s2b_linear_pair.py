@@ -15,10 +15,9 @@ import sympy as sp
 
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, I3, Omega, R, a, b, k, omega_1, omega_2, t
+from lagrotor.pair.notation import AXES, G_1, G_2, I3, Omega, R, a, b, k, omega_1, omega_2, t
 from lagrotor.paper.letters import vector
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 
 eps = sp.Symbol("epsilon", positive=True)
 F = vector("F")

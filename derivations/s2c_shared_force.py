@@ -13,7 +13,7 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.symbols import I3, J, R, m, omega_1, omega_2
+from lagrotor.pair.notation import I3, J, R, m, omega_1, omega_2
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, vector
 from lagrotor.paper.premises import Premise

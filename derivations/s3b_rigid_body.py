@@ -15,7 +15,7 @@
 import sympy as sp
 
 from lagrotor.mechanics import total_derivative
-from lagrotor.pair.symbols import ROTOR
+from lagrotor.pair.notation import ROTOR
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rotation, symmetric, vector
 from lagrotor.paper.premises import Premise

@@ -13,7 +13,7 @@
 import sympy as sp
 
 from lagrotor.algebra import agreement_order
-from lagrotor.pair.symbols import M
+from lagrotor.pair.notation import M
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, cross_matrix, inverse, vector
 from lagrotor.paper.premises import Premise

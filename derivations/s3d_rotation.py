@@ -15,7 +15,7 @@
 import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
-from lagrotor.pair.symbols import PAIR, ROTOR
+from lagrotor.pair.notation import PAIR, ROTOR
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross_matrix, inverse, rotation, vector
 from lagrotor.paper.premises import Premise

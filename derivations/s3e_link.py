@@ -13,7 +13,7 @@
 import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
-from lagrotor.pair.symbols import ROTOR
+from lagrotor.pair.notation import ROTOR
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate, vector
 from lagrotor.paper.proof import Formula, prove

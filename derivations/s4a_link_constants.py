@@ -11,8 +11,7 @@
 import sympy as sp
 
 from lagrotor.paper.form import form
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.stating import verdict
 
 M, n, omega_s, m_eff = sp.symbols("M n omega_s m_eff", positive=True)

@@ -10,8 +10,7 @@
 # %%
 import sympy as sp
 
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.paper.stating import verdict
 
 # %% [markdown]

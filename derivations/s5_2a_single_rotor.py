@@ -16,7 +16,7 @@ import sympy as sp
 
 from lagrotor.mechanics import System, accelerations, momenta, total_derivative
 from lagrotor.pair.lagrangians import J_OF, rotor_lagrangian
-from lagrotor.pair.symbols import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
+from lagrotor.pair.notation import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rotation
 from lagrotor.paper.proof import Formula, prove

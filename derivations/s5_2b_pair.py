@@ -14,11 +14,10 @@ import sympy as sp
 
 from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
-from lagrotor.pair.symbols import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
+from lagrotor.pair.notation import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.rotor_pair.shared_premises import (
     ABOUT_JOINT,

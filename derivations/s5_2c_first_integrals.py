@@ -18,7 +18,7 @@ from lagrotor.mechanics import momenta
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair.lagrangians import axis, pair_with_bar
-from lagrotor.pair.symbols import ANSATZ, I3, PAIR
+from lagrotor.pair.notation import ANSATZ, I3, PAIR
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate

@@ -14,7 +14,7 @@
 import sympy as sp
 
 from lagrotor.pair.lagrangians import axis
-from lagrotor.pair.symbols import ANSATZ, PAIR, R, ell, r0, theta_0
+from lagrotor.pair.notation import ANSATZ, PAIR, R, ell, r0, theta_0
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
 from lagrotor.paper.premises import Premise

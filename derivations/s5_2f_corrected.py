@@ -17,7 +17,7 @@ import sympy as sp
 from lagrotor import Scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
+from lagrotor.pair.notation import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
 from lagrotor.paper.form import form
 from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0

@@ -15,7 +15,7 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock, natural_rate, simulate
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair, rotor_lagrangian
-from lagrotor.pair.symbols import AXES, G_1, G_2, I3, ROTOR, G, J, Omega, Phi, R, a, b, m, omega, omega_1, omega_2
+from lagrotor.pair.notation import AXES, G_1, G_2, I3, ROTOR, G, J, Omega, Phi, R, a, b, m, omega, omega_1, omega_2
 from lagrotor.paper.form import form
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.proof import prove

@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import (
+from lagrotor.pair.notation import (
     G_1,
     G_2,
     I1,
@@ -39,9 +39,8 @@ from lagrotor.pair.symbols import (
     sigma,
 )
 from lagrotor.paper.form import form
-from lagrotor.paper.notebook import Remark
 from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
 from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency

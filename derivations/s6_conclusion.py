@@ -15,10 +15,9 @@ import sympy as sp
 
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
-from lagrotor.pair.symbols import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
 from lagrotor.paper.form import form
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.shared_premises import (
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,

@@ -18,10 +18,9 @@ from lagrotor.models.orbits.floquet import floquet
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair.lagrangians import joint_line_momentum, mercator_axis, mercator_lagrangian, pair_with_bar
-from lagrotor.pair.symbols import AXES, I3, MERCATOR, PAIR, k
+from lagrotor.pair.notation import AXES, I3, MERCATOR, PAIR, k
 from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper.proof import Formula, Remark, prove
 
 # %% [markdown]
 # ## The spins

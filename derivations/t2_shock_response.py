@@ -16,9 +16,8 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.models.linear import shock_response_error
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import G_1, G_2, P_1, P_2, P_X, G, Omega, a, att, b, t
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import G_1, G_2, P_1, P_2, P_X, G, Omega, a, att, b, t
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.impulse_response import impulse_matrices, shock_displacement, shock_energy
 from lagrotor.theory.shock_response import shock_response
 

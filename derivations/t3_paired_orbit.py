@@ -21,9 +21,8 @@ from lagrotor.mechanics import euler_lagrange
 from lagrotor.models.orbits.precession import precession_orbit
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.lagrangians import axes_pair, joint_line_momentum
-from lagrotor.pair.symbols import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency, paired_momentum
 from lagrotor.theory.paired_precession.series import equations, field_of, paired_series
 from lagrotor.theory.paired_precession.series_orbit import series_orbit

@@ -17,9 +17,8 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.models.orbits.continuation import OrbitFamily, orbit_family, trace_family
 from lagrotor.pair.lagrangians import mercator_lagrangian
-from lagrotor.pair.symbols import G_1, G_2, MERCATOR, G, k
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import G_1, G_2, MERCATOR, G, k
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
 # %% [markdown]

@@ -20,9 +20,8 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.orbits.floquet import floquet
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, SWING, G, Phi, a, b, k, r0, sigma
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import AXES, G_1, G_2, SWING, G, Phi, a, b, k, r0, sigma
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.averaging import slow_stiffness
 from lagrotor.theory.paired_precession.series import paired_series
 from lagrotor.theory.paired_precession.stability import elliptic_edge, exponent_series, growth_squared

@@ -18,9 +18,8 @@ from lagrotor import Link, Scene, Shock, natural_rate
 from lagrotor.models.mean_motion import exact_cancelling_force, mean_over, run_after, turning_rate
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
-from lagrotor.pair.symbols import AXES, G_1, G_2, P_X, G, P, a, att, b, k, p_y
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import AXES, G_1, G_2, P_X, G, P, a, att, b, k, p_y
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.drift_after_shock import (
     cancelling_force,
     cancelling_impulse,

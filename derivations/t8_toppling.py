@@ -15,9 +15,8 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.pair.symbols import G_1, G_2, TWISTED, G, a, b, k, nu
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.pair.notation import G_1, G_2, TWISTED, G, a, b, k, nu
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.theory.shock_response import shock_response
 from lagrotor.theory.toppling import (
     linear_toppling,

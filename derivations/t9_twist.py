@@ -15,10 +15,9 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.pair.symbols import G_1, G_2, TWISTED, G, Phi, a, b, rho
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
-from lagrotor.theory.parallel_precession import (
+from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
+from lagrotor.paper.proof import Formula, Remark, prove
+from lagrotor.theory.parallel_twist import (
     lyapunov_criterion,
     parallel_residual,
     parallel_scene,

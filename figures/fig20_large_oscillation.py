@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, natural_rate
 from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.pair.symbols import Phi, r0
+from lagrotor.pair.notation import Phi, r0
 from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes
 from lagrotor.pictures.panels import distance_over_one_turn, orbits_from_above
 from lagrotor.theory.paired_precession.series import paired_series

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
-from lagrotor.theory.parallel_precession import parallel_scene, twist_growth, twist_multiplier_growth
+from lagrotor.theory.parallel_twist import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
 EDGE = MASS / 4

@@ -73,8 +73,8 @@ def _paper(given: argparse.Namespace) -> "Paper":
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.printed import can_read
-    from lagrotor.paper.start import begin
+    from lagrotor.paper.new_paper.printed import can_read
+    from lagrotor.paper.new_paper.start import begin
 
     made = begin(given.folder, given.source)
     print(

@@ -18,7 +18,7 @@ def _constrained() -> str:
     """(r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6), 57 numbers."""
     from lagrotor.numerics.codegen import Program, program_source
     from lagrotor.pair.lagrangians import axes_pair
-    from lagrotor.pair.symbols import AXES, a, b, k
+    from lagrotor.pair.notation import AXES, a, b, k
 
     system = axes_pair()
     return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass)))

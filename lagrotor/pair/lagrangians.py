@@ -14,7 +14,7 @@ from typing import Literal
 import sympy as sp
 
 from lagrotor.mechanics import Coordinates, System, momenta, total_derivative
-from lagrotor.pair.symbols import (
+from lagrotor.pair.notation import (
     ANSATZ,
     AXES,
     G_1,

@@ -9,10 +9,10 @@ from lagrotor.paper.claim_tests import ClaimTest as ClaimTest
 from lagrotor.paper.claim_tests import Finding as Finding
 from lagrotor.paper.claim_tests import Part as Part
 from lagrotor.paper.ledger import judge as judge
-from lagrotor.paper.notebook import Remark as Remark
 from lagrotor.paper.papers import Paper as Paper
 from lagrotor.paper.premises import Premise as Premise
 from lagrotor.paper.proof import Formula as Formula
+from lagrotor.paper.proof import Remark as Remark
 from lagrotor.paper.proof import prove as prove
 from lagrotor.paper.stating import verdict as verdict
 from lagrotor.paper.tables import Table as Table

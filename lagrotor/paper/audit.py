@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lagrotor.errors import InputError
-from lagrotor.paper.ledger import Verdict, verdict_table
 from lagrotor.paper.tables import Table
+from lagrotor.paper.verdicts import Verdict, verdict_table
 
 NOT_YET = "not-yet-judged"
 

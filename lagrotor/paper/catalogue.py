@@ -7,38 +7,18 @@ from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import Glossary
-from lagrotor.paper.folder_modules import importable
+from lagrotor.paper.letters import Letters, Line, declared, read, read_line
+from lagrotor.paper.scripts import importable
 from lagrotor.paper.title_page import TitlePage, row, title_page, toml
-
-if TYPE_CHECKING:
-    from lagrotor.paper.letters import Letters
 
 Row = TypeVar("Row", bound="Equation | Claim | Figure")
 _CLAIM = re.compile(r"C\d+")
 # The keys of a printed line.
 _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
-
-
-@dataclass(frozen=True)
-class Line:
-    """One printed line `quantity = member = member …`, each member an expression in the paper's letters.
-
-    quantity: what the line is about, in LaTeX. order, small: where it is claimed through small**order only. within: for a
-    number read off a run, half a unit of its last printed digit, relative. scene: values that the text gives for this line.
-    names: the line only introduces a letter.
-    """
-
-    quantity: str
-    members: tuple[Any, ...] = ()
-    order: int = 0
-    small: Any = None
-    within: Any = None
-    scene: Mapping[Any, Any] = field(default_factory=dict)
-    names: bool = False
 
 
 @dataclass(frozen=True)
@@ -230,10 +210,8 @@ class Catalogue:
         """Letters that stand for expressions in others; they are written out before the values of a scene are put in."""
         return getattr(self._symbols, "WRITTEN_OUT", {})
 
-    def letters(self, section: str) -> "Letters":
+    def letters(self, section: str) -> Letters:
         """What the printed lines of a section are written in, besides the functions of every paper."""
-        from lagrotor.paper.letters import Letters, declared
-
         own = {symbol.name: symbol for symbol in self.glossary}
         given = self._equations_toml.get("letters", {}).get(section, {})
         names = {**own, **getattr(self._symbols, "FUNCTIONS", {}), **declared(given)}
@@ -241,29 +219,8 @@ class Catalogue:
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
         """The printed lines of an equation as expressions. Raises InputError where one cannot be read."""
-        from lagrotor.paper.letters import read
-
         entry = self.equation(identifier)
         names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"
         for letter, meaning in entry.letters.items():
             names[letter] = read(meaning, names, f"{where}, letter {letter}")
-        return tuple(_line(each, names, where) for each in entry.line)
-
-
-def _line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
-    from lagrotor.paper.letters import components, read
-
-    def read_off(digits: str) -> Any:
-        number = read(digits, {}, where)
-        return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
-
-    scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
-    return Line(
-        quantity=given["quantity"],
-        members=tuple(read(member, names, where) for member in given.get("members", ())),
-        order=given.get("order", 0),
-        small=read(given["small"], names, where) if "small" in given else None,
-        within=read_off(given["read_off"]) if "read_off" in given else None,
-        scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
-        names=given.get("names", False),
-    )
+        return tuple(read_line(each, names, where) for each in entry.line)

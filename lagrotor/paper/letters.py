@@ -1,4 +1,4 @@
-"""What the names in a printed line stand for: sympy symbols, vectors, and the functions that every paper may call."""
+"""Printed lines as expressions: what their names stand for, symbols, vectors, the functions that every paper may call."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -123,3 +123,40 @@ def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
     except (SyntaxError, TypeError, AttributeError, ValueError) as refusal:
         raise InputError(f"{where}: {text!r} cannot be read: {refusal}") from None
     return value
+
+
+@dataclass(frozen=True)
+class Line:
+    """One printed line `quantity = member = member …`, each member an expression in the paper's letters.
+
+    quantity: what the line is about, in LaTeX. order, small: where it is claimed through small**order only. within: for a
+    number read off a run, half a unit of its last printed digit, relative. scene: values that the text gives for this line.
+    names: the line only introduces a letter.
+    """
+
+    quantity: str
+    members: tuple[Any, ...] = ()
+    order: int = 0
+    small: Any = None
+    within: Any = None
+    scene: Mapping[Any, Any] = field(default_factory=dict)
+    names: bool = False
+
+
+def read_line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
+    """A printed line from what the catalogue says of it. Raises InputError where an expression cannot be read."""
+
+    def read_off(digits: str) -> Any:
+        number = read(digits, {}, where)
+        return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
+
+    scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
+    return Line(
+        quantity=given["quantity"],
+        members=tuple(read(member, names, where) for member in given.get("members", ())),
+        order=given.get("order", 0),
+        small=read(given["small"], names, where) if "small" in given else None,
+        within=read_off(given["read_off"]) if "read_off" in given else None,
+        scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
+        names=given.get("names", False),
+    )

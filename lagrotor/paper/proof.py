@@ -1,4 +1,5 @@
-"""A step of a derivation, shown and decided: `prove(left, right, "in words")` displays both sides, or refuses."""
+"""What a derivation shows: formulas, remarks, and steps decided by `prove(left, right, "in words")`, which displays both sides or
+refuses."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -26,6 +27,17 @@ class Formula:
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.tex}$"
+
+
+@dataclass(frozen=True)
+class Remark:
+    """Something that a derivation found besides the judged equations: a heading and what was found, with its numbers."""
+
+    title: str
+    text: str
+
+    def _repr_markdown_(self) -> str:
+        return f"**{self.title}.** {self.text}"
 
 
 # Characters of LaTeX beyond which a side cannot be read: it is to be named, or the equation written in vectors.

@@ -2,12 +2,14 @@
 
 import ast
 import re
+import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Literal
 
 from lagrotor.errors import InputError, LagrotorError, ScriptError
@@ -192,3 +194,30 @@ def _execute(body: str, before: int, path: Path, defined: dict[str, Any]) -> lis
         else:
             exec(compile(ast.Module([node], []), str(path), "exec"), defined)
     return shown
+
+
+@contextmanager
+def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
+    """Within the block `import name` finds `folder/name.py`; two papers may each have a module of the same name.
+
+    modules: those of the folder that were imported before; new ones are added to it.
+    """
+    before = dict(sys.modules)
+    sys.modules.update(modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name, module in list(sys.modules.items()):
+            if module is not before.get(name) and _lies_in(folder, module):
+                modules[name] = module
+                if name in before:
+                    sys.modules[name] = before[name]
+                else:
+                    del sys.modules[name]
+
+
+def _lies_in(folder: Path, module: ModuleType) -> bool:
+    file = getattr(module, "__file__", None)
+    return file is not None and Path(file).parent == folder and "." not in module.__name__

@@ -11,12 +11,12 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, ProofError
-from lagrotor.paper.catalogue import Catalogue, Equation, Line
+from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.form import Form
-from lagrotor.paper.ledger import Relation, Side, Statement
-from lagrotor.paper.letters import Letters, components
+from lagrotor.paper.letters import Letters, Line, components
 from lagrotor.paper.premises import Premise, written_out
 from lagrotor.paper.proof import Formula
+from lagrotor.paper.verdicts import Relation, Side, Statement
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from typing import Any
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation
-from lagrotor.paper.ledger import Relation, Verdict
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.readable import from_latex, readable
+from lagrotor.paper.verdicts import Relation, Verdict
 
 
 def in_words(verdict: Verdict, paper: Paper) -> str:

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from lagrotor.mechanics.glossary import latex
-from lagrotor.paper.ledger import Relation, Statement, Verdict
 from lagrotor.paper.papers import Paper
+from lagrotor.paper.verdicts import Relation, Statement, Verdict
 from lagrotor.report.latex import END, head, printed, prose, tidy
 
 

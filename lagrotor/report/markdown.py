@@ -7,10 +7,10 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
+from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (

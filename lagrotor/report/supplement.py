@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable
 import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.ledger import Verdict
 from lagrotor.paper.tables import Cell, FigureLink, Table
+from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (

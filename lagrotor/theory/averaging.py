@@ -14,7 +14,7 @@ from functools import cache
 
 import sympy as sp
 
-from lagrotor.pair.symbols import G_1, G_2, SWING, TWIST, TWISTED, G, P, X, a, b, k
+from lagrotor.pair.notation import G_1, G_2, SWING, TWIST, TWISTED, G, P, X, a, b, k
 from lagrotor.theory.toppling import twisted_lagrangian
 
 _EPS = sp.Symbol("epsilon", positive=True)

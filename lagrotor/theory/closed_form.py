@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.codegen import Program, compile_program, in_blocks, program_source
-from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.pair.notation import GLOSSARY
 
 Array = NDArray[np.float64]
 # From the arguments, each (n,): estimated bounds of the errors, (outputs, n) or what broadcasts to it.

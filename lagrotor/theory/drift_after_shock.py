@@ -18,8 +18,8 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
+from lagrotor.pair.notation import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
 from lagrotor.pair.scene import Scene
-from lagrotor.pair.symbols import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.shock_response import shock_response

@@ -16,7 +16,7 @@ from functools import cache
 import sympy as sp
 
 from lagrotor.mechanics import LinearSystem
-from lagrotor.pair.symbols import G_1, G_2, P_1, P_2, P_X, a, b
+from lagrotor.pair.notation import G_1, G_2, P_1, P_2, P_X, a, b
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 

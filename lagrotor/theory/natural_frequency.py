@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor.mechanics import LinearSystem
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, K, a, b, ell, m
+from lagrotor.pair.notation import AXES, G_1, G_2, K, a, b, ell, m
 from lagrotor.theory.closed_form import ClosedForm
 
 _G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)

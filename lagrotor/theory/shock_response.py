@@ -147,7 +147,7 @@ def _response() -> str:
 def _mass() -> str:
     """(a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
     from lagrotor.numerics.codegen import Program, program_source
-    from lagrotor.pair.symbols import a, b
+    from lagrotor.pair.notation import a, b
     from lagrotor.theory.impulse_response import impulse_matrices
 
     return program_source(Program((a, b), (), tuple(impulse_matrices().mass)))

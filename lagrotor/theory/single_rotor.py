@@ -7,7 +7,7 @@ import sympy as sp
 from lagrotor.mechanics import euler_lagrange, momenta
 from lagrotor.mechanics.lagrangian import linear_solve
 from lagrotor.pair.lagrangians import ansatz_integrals, rotor_lagrangian
-from lagrotor.pair.symbols import ANSATZ, I3, M_3, ROTOR, A, B, G, J, M_z, omega
+from lagrotor.pair.notation import ANSATZ, I3, M_3, ROTOR, A, B, G, J, M_z, omega
 from lagrotor.theory.closed_form import ClosedForm
 
 

@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrotor.mechanics import LinearSystem, euler_lagrange
 from lagrotor.pair.lagrangians import mercator_lagrangian, minimal_embedding
-from lagrotor.pair.symbols import G_1, G_2, MERCATOR, MINIMAL, TWISTED, G, a, b, k, nu
+from lagrotor.pair.notation import G_1, G_2, MERCATOR, MINIMAL, TWISTED, G, a, b, k, nu
 from lagrotor.theory.closed_form import ClosedForm
 
 

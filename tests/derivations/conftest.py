@@ -5,9 +5,10 @@ from collections.abc import Callable
 import pytest
 
 from lagrotor.paper import scripts
-from lagrotor.paper.ledger import Verdict, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import Stated
+from lagrotor.paper.verdicts import Verdict
 
 Edit = tuple[str, str, str]  # script, text, what takes its place
 

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
-from lagrotor.pair.symbols import G_1, G_2, Omega, R, a, b, t
+from lagrotor.pair.notation import G_1, G_2, Omega, R, a, b, t
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 

@@ -9,9 +9,8 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.errors import ProofError
-from lagrotor.pair.symbols import G_1, G_2, G, Omega, R, t
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import prove
+from lagrotor.pair.notation import G_1, G_2, G, Omega, R, t
+from lagrotor.paper.proof import Remark, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import Stated
 

@@ -13,10 +13,10 @@ from lagrotor import Link, Scene, paired_scene, simulate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order, swing
 from lagrotor.pair import lagrangians
-from lagrotor.pair.symbols import I3, ROTOR, J, ell, k, r0, sigma, theta_0
+from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.pair.trajectory import ansatz_A
 from lagrotor.paper import proof, scripts, stating
-from lagrotor.paper.ledger import Statement, Verdict, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair import shared_premises
 from lagrotor.paper.rotor_pair.ansatz_premises import (
     breach,
@@ -27,6 +27,7 @@ from lagrotor.paper.rotor_pair.ansatz_premises import (
 )
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.stating import Stated
+from lagrotor.paper.verdicts import Statement, Verdict
 from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
 ABOUT, MASSLESS, EQUAL = (

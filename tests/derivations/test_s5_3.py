@@ -10,7 +10,7 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.pair import lagrangians
-from lagrotor.pair.symbols import J, K, R, ell, k, m, omega, sigma
+from lagrotor.pair.notation import J, K, R, ell, k, m, omega, sigma
 from lagrotor.paper import proof, scripts, stating
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.premises import Premise

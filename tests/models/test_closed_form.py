@@ -13,7 +13,7 @@ from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.integrated import integrated
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
-from lagrotor.theory.parallel_precession import parallel_scene
+from lagrotor.theory.parallel_twist import parallel_scene
 
 T = np.linspace(0, 5, 101)
 ROTOR = Rotor(1.3, 0.9, 0.7, 1.1)

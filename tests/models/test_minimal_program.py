@@ -14,7 +14,7 @@ from lagrotor.models.programs.minimal_program import _curve as bar_stages
 from lagrotor.models.programs.minimal_program import _Stages, observation, program
 from lagrotor.numerics.codegen import Program, Stage, compile_program, operations, solve_symmetric
 from lagrotor.pair.lagrangians import bar_curve, mercator_axis, mercator_lagrangian, minimal_embedding
-from lagrotor.pair.symbols import G_1, G_2, MERCATOR, MINIMAL, a, b, k
+from lagrotor.pair.notation import G_1, G_2, MERCATOR, MINIMAL, a, b, k
 
 KINDS = [
     (massive, ratio, body) for massive in (False, True) for ratio in ("short", "equal", "long") for body in (0, 1, 2)

@@ -36,7 +36,7 @@ from lagrotor.pair.lagrangians import (
     pair_with_bar,
     rotor_lagrangian,
 )
-from lagrotor.pair.symbols import (
+from lagrotor.pair.notation import (
     ANSATZ,
     AXES,
     G_1,

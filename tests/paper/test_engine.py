@@ -17,5 +17,5 @@ def test_no_module_of_the_engine_names_one_paper(path: Path) -> None:
 
 
 def test_a_name_of_one_paper_would_be_seen() -> None:
-    for line in ("the spins are equal", "from lagrotor.pair.symbols import J", "# of the rotor pair"):
+    for line in ("the spins are equal", "from lagrotor.pair.notation import J", "# of the rotor pair"):
         assert OWN.search(line)

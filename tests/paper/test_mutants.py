@@ -11,8 +11,9 @@ from itertools import islice
 import pytest
 import sympy as sp
 
-from lagrotor.paper.ledger import Relation, Statement, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.verdicts import Relation, Statement
 
 MOST = 6  # twins of one relation that are judged
 
@@ -142,7 +143,7 @@ def test_what_holds_assumes_nothing(statement: Statement) -> None:
 CHANGED = """
 import json, sys
 import lagrotor.pair.lagrangians as physics
-from lagrotor.pair.symbols import I1, I3, J, K, M, R, a, b, ell, m, ROTOR
+from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, ROTOR
 import lagrotor.paper.proof as proof
 proof.prove = lambda *sides, **more: None
 import lagrotor.paper.stating as stating
@@ -181,7 +182,7 @@ def verdicts_under(change: str, *stems: str) -> dict[str, str]:
 
 
 ROTOR = {"5.01", "5.02", "5.03", "5.04", "5.05", "5.06"}
-PAIR_SCRIPTS = ("s5_2b_pair", "s5_2c_first_integrals", "s5_2d_rate", "s5_3a_equal_spins", "s6_conclusion")
+PAIR_SCRIPTS = ("s5_2b_pair", "s5_2c_first_integrals", "s5_2d_precession_rate", "s5_3a_equal_spins", "s6_conclusion")
 
 
 @pytest.mark.parametrize("change", ["tilting without the factor one half", "the spin opposite to the precession"])

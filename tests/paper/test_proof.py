@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import ProofError
-from lagrotor.pair.symbols import PAIR, ell, theta_0
+from lagrotor.pair.notation import PAIR, ell, theta_0
 from lagrotor.paper.proof import Formula, prove
 
 x, y = sp.symbols("x y", real=True)

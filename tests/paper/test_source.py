@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.paper.printed import read_print
-from lagrotor.paper.source import read_source
+from lagrotor.paper.new_paper.printed import read_print
+from lagrotor.paper.new_paper.source import read_source
 
 TEX = r"""
 \documentclass{article}\title{Two masses \& a spring\thanks{none}}\author{A. One \and B. Two}

@@ -6,7 +6,25 @@ import pytest
 import sympy as sp
 
 from lagrotor.algebra import decide_equal
-from lagrotor.pair.symbols import ANSATZ, I1, I3, M_3, PAIR, ROTOR, A, B, I, M, M_z, Phi, R, a_const, omega, r0, theta_0
+from lagrotor.pair.notation import (
+    ANSATZ,
+    I1,
+    I3,
+    M_3,
+    PAIR,
+    ROTOR,
+    A,
+    B,
+    I,
+    M,
+    M_z,
+    Phi,
+    R,
+    a_const,
+    omega,
+    r0,
+    theta_0,
+)
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.letters import read
 from lagrotor.paper.rotor_pair.own_paper import PAPER

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.pair.symbols import M, R
+from lagrotor.pair.notation import M, R
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Result
-from lagrotor.paper.ledger import Statement, chain, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.verdicts import Statement, chain
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report

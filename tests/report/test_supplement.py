@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.pair.symbols import M, r0
+from lagrotor.pair.notation import M, r0
 from lagrotor.paper import claim_tests
-from lagrotor.paper.ledger import Relation, Statement, chain, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
+from lagrotor.paper.verdicts import Relation, Statement, chain
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.latex import END, derived, head, printed, prose, table

@@ -4,8 +4,7 @@ import pytest
 
 from lagrotor.errors import ProofError
 from lagrotor.paper import scripts
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Step
+from lagrotor.paper.proof import Remark, Step
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 STEMS = PAPER.scripts.names("derivations", "n")

@@ -6,8 +6,7 @@ import pytest
 
 from lagrotor.errors import ProofError
 from lagrotor.paper import scripts
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Step
+from lagrotor.paper.proof import Remark, Step
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]
@@ -36,8 +35,8 @@ def test_a_script_shows_each_step_and_says_what_it_is(stem):
 
 # A sign, a factor or a term of the library's or the script's side; each must stop the script.
 MUTANTS = [
-    ("t1_normal_modes", "2 * (a + b) * x_a + G_1 * v1", "2 * (a + b) * x_a - G_1 * v1"),
-    ("t1_normal_modes", "2 * b * G_1 * G_2) / (2", "b * G_1 * G_2) / (2"),
+    ("t1_natural_rate", "2 * (a + b) * x_a + G_1 * v1", "2 * (a + b) * x_a - G_1 * v1"),
+    ("t1_natural_rate", "2 * b * G_1 * G_2) / (2", "b * G_1 * G_2) / (2"),
     ("t2_shock_response", "prove(N**3, -squared * N", "prove(N**3, squared * N"),
     ("t2_shock_response", "prove(M * S, C * D", "prove(M * S, -C * D"),
     ("t3_paired_orbit", "-2 * (w_2 + sigma * (k**2 * sigma - 3", "-2 * (w_2 + sigma * (k**2 * sigma + 3"),

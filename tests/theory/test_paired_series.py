@@ -8,7 +8,7 @@ from lagrotor import Link, Rotor, Scene, Shock, natural_rate, paired_scene, simu
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import Phi, k, r0, sigma
+from lagrotor.pair.notation import Phi, k, r0, sigma
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.series import paired_series
 

@@ -9,7 +9,7 @@ import sympy as sp
 from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.exponents import characteristic_exponents
-from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory.paired_precession.series import equations, paired_series, shape_of
 from lagrotor.theory.paired_precession.stability import elliptic_edge, exponent_series, growth_squared, most_growth
 

@@ -18,7 +18,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of
-from lagrotor.theory.parallel_precession import parallel_scene
+from lagrotor.theory.parallel_twist import parallel_scene
 
 Array = NDArray[np.float64]
 PAIR = Scene((10.0, -10.0))

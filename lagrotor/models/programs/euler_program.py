@@ -5,7 +5,7 @@ import sympy as sp
 from lagrotor.mechanics import bias, mass_matrix, total_derivative
 from lagrotor.numerics.codegen import Program, solve_symmetric
 from lagrotor.pair.lagrangians import axis, pair_with_bar
-from lagrotor.pair.symbols import I3, PAIR, a, b, k
+from lagrotor.pair.notation import I3, PAIR, a, b, k
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 # The spins first: their pivot is I_3, and what is left of the azimuth's is then a sin² theta.

@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple
 import sympy as sp
 
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
-from lagrotor.pair.symbols import G_1, G_2, MINIMAL, a, b, k
+from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 
 Ratio = Literal["short", "equal", "long"]
 Pair = tuple[sp.Expr, sp.Expr]

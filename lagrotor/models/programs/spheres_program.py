@@ -11,7 +11,7 @@ from lagrotor.mechanics import bias, mass_matrix
 from lagrotor.mechanics.lagrangian import linear_solve
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
 from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.symbols import AXES, G_1, G_2, a, b, k
+from lagrotor.pair.notation import AXES, G_1, G_2, a, b, k
 
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 

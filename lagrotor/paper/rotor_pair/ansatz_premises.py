@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from lagrotor.pair.lagrangians import pair_with_bar
-from lagrotor.pair.symbols import ANSATZ, PAIR, theta_0
+from lagrotor.pair.notation import ANSATZ, PAIR, theta_0
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.rotor_pair.claims.ansatz import deviations
 from lagrotor.paper.rotor_pair.claims.precession_runs import MASSLESS, OPPOSITE, PAPER_BAR, PAPER_R0, once_round

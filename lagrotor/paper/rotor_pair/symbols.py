@@ -3,8 +3,8 @@
 from collections import ChainMap
 
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, axis
-from lagrotor.pair.symbols import GLOSSARY as GLOSSARY
-from lagrotor.pair.symbols import J
+from lagrotor.pair.notation import GLOSSARY as GLOSSARY
+from lagrotor.pair.notation import J
 
 FUNCTIONS = {"axis": axis}
 LATEX = {"axis": r"\hat{r}"}

@@ -17,8 +17,7 @@ from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage, javascript
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
-from lagrotor.pair.scene import Rotor
-from lagrotor.pair.symbols import (
+from lagrotor.pair.notation import (
     AXES,
     G_1,
     G_2,
@@ -39,8 +38,9 @@ from lagrotor.pair.symbols import (
     omega_1,
     omega_2,
 )
-from lagrotor.pair.symbols import r0 as amplitude
-from lagrotor.pair.symbols import sigma as shape
+from lagrotor.pair.notation import r0 as amplitude
+from lagrotor.pair.notation import sigma as shape
+from lagrotor.pair.scene import Rotor
 from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series

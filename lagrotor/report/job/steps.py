@@ -8,10 +8,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from lagrotor.paper.ledger import Verdict
-from lagrotor.paper.notebook import Remark
 from lagrotor.paper.papers import Paper
+from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
+from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
 from lagrotor.report.job.reach import made_from, named, taken_from
 from lagrotor.report.page.derivation_pages import derivation_html, title

@@ -10,8 +10,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, Step
+from lagrotor.paper.proof import Formula, Remark, Step
 from lagrotor.paper.scripts import Script
 from lagrotor.paper.stating import Stated
 from lagrotor.paper.tables import Table

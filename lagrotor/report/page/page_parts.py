@@ -3,7 +3,7 @@
 from html import escape
 
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.ledger import Verdict
+from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import (
     Report,

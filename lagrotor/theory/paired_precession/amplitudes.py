@@ -16,7 +16,7 @@ import sympy as sp
 
 from lagrotor.algebra import truncated_series
 from lagrotor.errors import InputError
-from lagrotor.pair.symbols import COSINE, a_1, k, r0, sigma
+from lagrotor.pair.notation import COSINE, a_1, k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series

@@ -8,7 +8,7 @@ import sympy as sp
 from lagrotor.algebra import normal_form, truncated_series
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.pair.symbols import Phi, k, r0, sigma
+from lagrotor.pair.notation import Phi, k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.orbit_harmonics import joint_line_momentum
 from lagrotor.theory.paired_precession.remainder import with_error

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.errors import DomainError
-from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 

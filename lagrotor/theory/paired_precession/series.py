@@ -25,8 +25,8 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.fourier import FourierSeries, Series
 from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, lindstedt_poincare
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
+from lagrotor.pair.notation import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.pair.scene import Scene
-from lagrotor.pair.symbols import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of
 
 # The remainder of a series is estimated as a geometric series; calibrated by tests/models/test_orbit_errors.py on random

@@ -17,7 +17,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.exponents import ExponentSeries, characteristic_exponents
-from lagrotor.pair.symbols import k, r0, sigma
+from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, equations, paired_series

@@ -10,7 +10,7 @@ from importlib.resources import files
 import pytest
 
 from lagrotor.mechanics.glossary import latex
-from lagrotor.pair.symbols import GLOSSARY
+from lagrotor.pair.notation import GLOSSARY
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
 from lagrotor.report.formulas.mathml_latex import from_latex

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex as tex
-from lagrotor.pair.symbols import PAIR, ROTOR, M, Omega, ell, r0
+from lagrotor.pair.notation import PAIR, ROTOR, M, Omega, ell, r0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas import mathml_latex
 

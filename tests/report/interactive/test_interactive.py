@@ -25,7 +25,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.symbols import Phi, omega, r0, theta_0
+from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
 from lagrotor.theory.paired_precession.series_orbit import series_orbit

@@ -14,13 +14,14 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from lagrotor.pair.symbols import M, r0
+from lagrotor.pair.notation import M, r0
 from lagrotor.paper import claim_tests
 from lagrotor.paper.claim_tests import Finding, Part, Result
-from lagrotor.paper.ledger import Relation, Statement, chain, decide
-from lagrotor.paper.notebook import Remark
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.proof import Remark
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.tables import FigureLink, Table
+from lagrotor.paper.verdicts import Relation, Statement, chain
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import harmonics_at
 from lagrotor.pair.examples import HEAVY
+from lagrotor.pair.notation import G_1, G_2, a, b, k
 from lagrotor.pair.scene import Link, Scene, Shock
-from lagrotor.pair.symbols import G_1, G_2, a, b, k
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES

@@ -7,10 +7,11 @@
 # pair, except where the paper's program is named. Fallen in x: $|x| > 0.5$, 30° from upright. The paper's run lasts 8 s
 # after the shock.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/stability_in_x.py` and `twist_and_displacement.py`.
+# What is measured, and how it is decided: `toppling_after_shock.py` and
+# `twist_and_displacement.py` in `lagrotor/paper/rotor_pair/claims/`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.stability_in_x import C10, C11
+from lagrotor.paper.rotor_pair.claims.toppling_after_shock import C10, C11
 from lagrotor.paper.rotor_pair.claims.twist_and_displacement import C12, C13
 from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
 

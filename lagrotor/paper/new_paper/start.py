@@ -9,9 +9,9 @@ from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
-from lagrotor.paper.printed import Print, read_print
+from lagrotor.paper.new_paper.printed import Print, read_print
+from lagrotor.paper.new_paper.source import Displayed, Source, read_source
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.source import Displayed, Source, read_source
 
 # The worked example that a new folder begins with.
 _EXAMPLE = "papers/pendulum"

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import euler_lagrange
+from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
 from lagrotor.pair.scene import Scene
-from lagrotor.pair.symbols import G_1, G_2, TWISTED, G, Phi, a, b, rho
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.toppling import twisted_lagrangian
 

@@ -6,7 +6,7 @@ import pytest
 from lagrotor import Link, Scene, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.parallel_precession import (
+from lagrotor.theory.parallel_twist import (
     parallel_scene,
     twist_bounded,
     twist_growth,

@@ -18,9 +18,8 @@ from lagrotor.mechanics import euler_lagrange
 from lagrotor.numerics.convergence import measured_order
 from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.lagrangians import INERTIAS, axes_pair, link_constraint
-from lagrotor.pair.symbols import AXES, G_1, G_2, G, K, a, b, ell, m
-from lagrotor.paper.notebook import Remark
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.pair.notation import AXES, G_1, G_2, G, K, a, b, ell, m
+from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.natural_frequency import natural_frequency
 from lagrotor.theory.natural_rate import natural_rate_error

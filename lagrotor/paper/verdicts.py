@@ -1,0 +1,124 @@
+"""What a derivation states of an equation, and what was decided of it: relations, statements, verdicts and their table."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeAlias
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.paper.premises import Premise
+from lagrotor.paper.readable import readable
+from lagrotor.paper.tables import Table
+
+Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
+Side: TypeAlias = Any  # a sympy expression or matrix
+
+
+@dataclass(frozen=True)
+class Relation:
+    """`printed` should equal `derived`; with `small`, up to and including small**claimed.
+
+    within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
+    scene: values that the text gives for this line; they are put in last, after the premises. written: LaTeX of the derived
+    side, in a correction of what should be printed, as a physicist writes it; granted: it is equal under the premises only.
+    """
+
+    printed: Side
+    derived: Side
+    small: sp.Symbol | None = None
+    claimed: int = 0
+    within: sp.Rational | None = None
+    quantity: str = ""
+    scene: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    written: str = ""
+    granted: bool = False
+
+    def under(self, premises: Iterable[Premise]) -> "Relation":
+        """The relation with premises put into both sides; an approximation makes it one between leading terms."""
+        held = self
+        for premise in premises:
+            small = premise.small if premise.small is not None else held.small
+            held = replace(held, printed=premise.on(held.printed), derived=premise.on(held.derived), small=small)
+        return held
+
+
+def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
+    """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression."""
+    return tuple(Relation(sp.sympify(p), sp.sympify(derived), small, claimed) for p in printed)
+
+
+@dataclass(frozen=True)
+class Statement:
+    """What one equation of a paper is held to; id: its id, empty where it belongs to none; title: what it is about.
+
+    relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
+    correction: what should stand there, as relations of their own. wrong: what is wrong, in a line. names: the line only
+    introduces a letter. measured: it is a number read off a run. depends_on: ids of the equations that this one uses.
+    evidence: sentences with the numbers that were computed.
+    """
+
+    id: str
+    relations: tuple[Relation, ...]
+    premises: tuple[Premise, ...] = ()
+    correction: tuple[Relation, ...] = ()
+    wrong: str = ""
+    names: bool = False
+    measured: bool = False
+    depends_on: tuple[str, ...] = ()
+    evidence: tuple[str, ...] = ()
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.relations and not self.names:
+            raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was decided of one equation. premises: the fewest under which it holds, or, of a refuted one, under which its
+    correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
+
+    `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: nothing to ask).
+    """
+
+    statement: Statement
+    verdict: Answer
+    premises: tuple[Premise, ...]
+    order: int | None
+    small: sp.Symbol | None
+    domain: tuple[sp.Expr, ...]
+    correction_verdict: Answer | None
+    evidence: tuple[str, ...]
+    seconds: float
+    reaches_result: bool | None = None
+
+    @property
+    def id(self) -> str:
+        """The equation's id in the catalogue."""
+        return self.statement.id
+
+    @property
+    def condition(self) -> str | None:
+        """The premises as one sentence; None where nothing was assumed."""
+        return "; ".join(premise.sentence for premise in self.premises) or None
+
+    def __repr__(self) -> str:
+        head, decided, why = _row(self)
+        return "\n  ".join((f"{head}: {decided[0]}", *decided[1:], *why))
+
+    def _repr_html_(self) -> str:
+        return verdict_table([self])._repr_html_()
+
+
+def verdict_table(verdicts: Iterable[Verdict]) -> Table:
+    """Verdicts below each other, each with its premises or order, what was wrong and the evidence."""
+    return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
+
+
+def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
+    order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
+    corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
+    decided = (v.verdict, *(p.sentence for p in v.premises), order, corrected)
+    named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
+    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence)))
