@@ -18,8 +18,7 @@ from lagrotor.benchmark.method import TOLERANCES
 from lagrotor.benchmark.runner import benchmark, front
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.benchmark.scipy_solvers import TRAPS
-from lagrotor.paper.proof import Remark
-from lagrotor.paper.tables import Table
+from lagrotor.paper import Remark, Table
 
 # %% [markdown]
 # **Tolerances.** From $10^{-3}$ to $10^{-13}$. The largest error of a tip over the run is compared with the number of

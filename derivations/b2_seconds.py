@@ -12,7 +12,7 @@
 from lagrotor.benchmark.recorded_speed import recorded_speed
 from lagrotor.benchmark.scenes_and_methods import CASES, OURS
 from lagrotor.models.choose import choose
-from lagrotor.paper.tables import Table
+from lagrotor.paper import Table
 
 found = recorded_speed()
 machine, at_error = found["machine"], found["at_error"]

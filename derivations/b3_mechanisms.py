@@ -15,7 +15,7 @@
 from lagrotor.benchmark.mechanisms.comparison import ERROR
 from lagrotor.benchmark.mechanisms.comparison_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
 from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
-from lagrotor.paper.tables import Table
+from lagrotor.paper import Table
 
 found = recorded_mechanisms()
 machine = found.machine

@@ -12,7 +12,7 @@
 
 # %%
 from lagrotor import Scene, natural_rate
-from lagrotor.pair.examples import HEAVY
+from lagrotor.pair import HEAVY
 from lagrotor.paper.rotor_pair.claims.natural_rates import C20, C21, C22
 from lagrotor.paper.rotor_pair.claims.rate_and_inclination import C23
 

@@ -9,7 +9,7 @@
 # What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/freedoms_and_modes.py`.
 
 # %%
-from lagrotor.paper.proof import Remark
+from lagrotor.paper import Remark
 from lagrotor.paper.rotor_pair.claims.freedoms_and_modes import C24
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
 

@@ -14,7 +14,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, l, g = sp.symbols("m l g", positive=True)
 

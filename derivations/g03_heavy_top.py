@@ -14,7 +14,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 I1, I3, m, g, l = sp.symbols("I_1 I_3 m g l", positive=True)
 c = coordinates("phi theta psi")

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, R, g, Omega = sp.symbols("m R g Omega", positive=True)
 c = coordinates("theta")

@@ -13,7 +13,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, accelerations, coordinates, t
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, l, g, A, w = sp.symbols("m l g A omega", positive=True)
 c = coordinates("theta")

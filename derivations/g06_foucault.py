@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, l, g, Omega, latitude = sp.symbols("m l g Omega lambda", positive=True)
 n = Omega * sp.sin(latitude)

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, I, w, eps = sp.symbols("m I omega epsilon", positive=True)
 c = coordinates("z vartheta")

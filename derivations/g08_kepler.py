@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, accelerations, coordinates, total_derivative
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, k = sp.symbols("m k", positive=True)
 c = coordinates("x y")

@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, q, B, E = sp.symbols("m q B E", positive=True)
 c = coordinates("x y z")

@@ -15,7 +15,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 Ao, A, Bi, Ci, I1, I3 = sp.symbols("A_o A_i B_i C_i I_1 I_3", positive=True)
 H = sp.Symbol("H", real=True)

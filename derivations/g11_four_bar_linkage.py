@@ -13,7 +13,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates, degrees_of_freedom
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 mu, g, d = sp.symbols("mu g d", positive=True)
 lengths = sp.symbols("a b c", positive=True)

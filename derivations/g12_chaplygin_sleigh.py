@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, l, J = sp.symbols("m l J", positive=True)
 c = coordinates("x y phi")

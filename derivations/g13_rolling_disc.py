@@ -14,7 +14,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper.proof import prove
+from lagrotor.paper import prove
 
 m, R, g = sp.symbols("m R g", positive=True)
 c = coordinates("x y z phi vartheta psi")

@@ -12,10 +12,9 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.mechanics.running.programs import motion_program
-from lagrotor.numerics.codegen import operations
-from lagrotor.paper.proof import prove
+from lagrotor.mechanics import Frame, System, coordinates, motion_program
+from lagrotor.numerics import operations
+from lagrotor.paper import prove
 
 m, l, g, I1, I3 = sp.symbols("m l g I_1 I_3", positive=True)
 

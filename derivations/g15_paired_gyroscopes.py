@@ -15,17 +15,14 @@ from dataclasses import replace
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Rotor, Scene
+from lagrotor import Link, Rotor, Scene, consistent_scene
 from lagrotor import simulate as simulate_scene
-from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.mechanics.running.programs import motion_program
+from lagrotor.mechanics import Frame, System, coordinates, motion_program
 from lagrotor.models.programs import euler_program, minimal_program, spheres_program
-from lagrotor.numerics.codegen import operations
-from lagrotor.pair.initial_conditions import consistent_scene
-from lagrotor.pair.lagrangians import axes_pair, bar_curve, mercator_lagrangian, minimal_embedding, pair_with_bar
+from lagrotor.numerics import operations
+from lagrotor.pair import axes_pair, bar_curve, mercator_lagrangian, minimal_embedding, pair_with_bar
 from lagrotor.pair.notation import MERCATOR, MINIMAL, b
-from lagrotor.paper.proof import prove
-from lagrotor.paper.tables import Table
+from lagrotor.paper import Table, prove
 
 M, R, I1, I3, ell, m, K = sp.symbols("M R I_1 I_3 ell m K", positive=True)
 c = coordinates("a_1 b_1 s_1 a_2 b_2 s_2 d e")

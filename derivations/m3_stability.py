@@ -9,7 +9,7 @@
 
 # %%
 from lagrotor.benchmark.limits.step_size import limits
-from lagrotor.paper.tables import Table
+from lagrotor.paper import Table
 
 found = limits(quick=True)
 list(dict.fromkeys(x.regime for x in found))

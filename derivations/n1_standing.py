@@ -19,10 +19,9 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Brace, Link, Structure
-from lagrotor.paper.proof import Remark, prove
+from lagrotor.paper import Remark, prove
+from lagrotor.structures import bounded_motion, measured_growth, sign_patterns
 from lagrotor.structures.coefficients import coefficients
-from lagrotor.structures.exact.held_to_exact import bounded_motion, measured_growth
-from lagrotor.structures.pattern_search import sign_patterns
 
 s = sp.Symbol("s")
 a, b, kappa, c, k = sp.symbols("a b kappa c k", positive=True)

@@ -19,8 +19,8 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Brace, Rotor, Structure
-from lagrotor.paper.proof import Remark, prove
-from lagrotor.structures.absorbers import (
+from lagrotor.paper import Remark, prove
+from lagrotor.structures import (
     mass_worst_case,
     spins_white_noise,
     spins_win_white_noise,

@@ -18,10 +18,9 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Rotor, Structure
-from lagrotor.paper.proof import Remark, prove
+from lagrotor.paper import Remark, prove
+from lagrotor.structures import dispersion, honeycomb, long_wave_speeds, polygon_ring, square, straight_row, zigzag
 from lagrotor.structures.coefficients import coefficients
-from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
-from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, square, straight_row, zigzag
 
 a, G, kappa, omega = sp.symbols("a G kappa omega", positive=True)
 b, q, theta = sp.symbols("b q theta", real=True)

@@ -21,7 +21,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Structure, paired_scene, simulate
 from lagrotor.errors import LagrotorWarning
-from lagrotor.paper.proof import Remark, prove
+from lagrotor.paper import Remark, prove
 
 a, b, c, c_s, G_1, G_2, G, I3, k, t = sp.symbols("a b c c_s G_1 G_2 G I_3 k t", positive=True)
 s, beta = sp.Symbol("s"), sp.Symbol("beta", positive=True)

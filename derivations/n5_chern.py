@@ -16,10 +16,8 @@ import sympy as sp
 
 from lagrotor import Rotor
 from lagrotor.errors import InputError
-from lagrotor.paper.proof import Remark, prove
-from lagrotor.structures.waves.chern import chern_numbers
-from lagrotor.structures.waves.edge_waves import edge_waves
-from lagrotor.structures.waves.patterns import honeycomb, square_octagon
+from lagrotor.paper import Remark, prove
+from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
 
 a, k, G, omega = sp.symbols("a k G omega", positive=True)
 mu, mu_A, mu_B = sp.symbols("mu mu_A mu_B", real=True)

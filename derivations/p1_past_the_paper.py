@@ -10,12 +10,10 @@
 import sympy as sp
 
 from lagrotor.pair.notation import G, Omega, P, att, nu, p_y, r0
+from lagrotor.paper import FigureLink, Table
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.tables import FigureLink, Table
-from lagrotor.theory.drift_after_shock import cancelling_impulse
+from lagrotor.theory import cancelling_impulse, growth_squared, toppling_threshold
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.paired_precession.stability import growth_squared
-from lagrotor.theory.toppling import toppling_threshold
 
 t1 = PAPER.scripts.run("derivations", "t1_natural_rate")
 t2 = PAPER.scripts.run("derivations", "t2_shock_response")

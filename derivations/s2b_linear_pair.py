@@ -14,10 +14,10 @@
 import sympy as sp
 
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, I3, Omega, R, a, b, k, omega_1, omega_2, t
+from lagrotor.paper import Formula, Remark, prove
 from lagrotor.paper.letters import vector
-from lagrotor.paper.proof import Formula, Remark, prove
 
 eps = sp.Symbol("epsilon", positive=True)
 F = vector("F")

@@ -15,11 +15,9 @@ from itertools import permutations
 
 import sympy as sp
 
+from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rate, vector
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, prove
-from lagrotor.paper.stating import verdict
 
 NUMBERS = (1, 2, 3)
 m1, m2, m3 = masses = sp.symbols("m_1 m_2 m_3", positive=True)

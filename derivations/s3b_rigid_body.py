@@ -16,12 +16,10 @@ import sympy as sp
 
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.notation import ROTOR
+from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, rotation, symmetric, vector
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import verdict
 
 particles = PAPER.scripts.run("derivations", "s3a_particles")
 masses, places, velocities, arms, L = (particles[name] for name in ("masses", "places", "velocities", "arms", "L"))

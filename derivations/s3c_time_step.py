@@ -14,11 +14,9 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order
 from lagrotor.pair.notation import M
+from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross, cross_matrix, inverse, vector
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, prove
-from lagrotor.paper.stating import verdict
 
 dt = sp.Symbol("Delta_t", positive=True)
 

@@ -14,14 +14,12 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.lagrangians import axis
+from lagrotor.pair import axis
 from lagrotor.pair.notation import PAIR, ROTOR
+from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import cross_matrix, inverse, rotation, vector
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import verdict
 
 body = PAPER.scripts.run("derivations", "s3b_rigid_body")
 theta, phi, _ = ROTOR.q

@@ -12,12 +12,11 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.lagrangians import axis
+from lagrotor.pair import axis
 from lagrotor.pair.notation import ROTOR
+from lagrotor.paper import Formula, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate, vector
-from lagrotor.paper.proof import Formula, prove
-from lagrotor.paper.stating import verdict
 
 S, D, s = sp.symbols("S D s", positive=True)
 theta, phi, _ = ROTOR.q

@@ -10,9 +10,8 @@
 # %%
 import sympy as sp
 
+from lagrotor.paper import Formula, Remark, prove, verdict
 from lagrotor.paper.form import form
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.paper.stating import verdict
 
 M, n, omega_s, m_eff = sp.symbols("M n omega_s m_eff", positive=True)
 kilogram, second, metre = sp.symbols("kilogram second metre", positive=True)

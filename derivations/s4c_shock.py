@@ -10,8 +10,7 @@
 # %%
 import sympy as sp
 
-from lagrotor.paper.proof import Remark, prove
-from lagrotor.paper.stating import verdict
+from lagrotor.paper import Remark, prove, verdict
 
 # %% [markdown]
 # ## The pulse

@@ -15,11 +15,11 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.examples import HEAVY, SHOCK_PAIRED, SHOCK_Y
+from lagrotor.numerics import measured_order
+from lagrotor.pair import HEAVY, SHOCK_PAIRED, SHOCK_Y
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Omega, R, a, b, t
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.natural_frequency import linear_pair
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import linear_pair
 
 p, q = sp.symbols("p q", positive=True)
 S, X, D = sp.symbols("S X D", real=True)

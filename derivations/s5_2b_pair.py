@@ -13,11 +13,11 @@
 import sympy as sp
 
 from lagrotor.mechanics import degrees_of_freedom, total_derivative
-from lagrotor.pair.lagrangians import axis, pair_lagrangian, pair_with_bar
+from lagrotor.pair import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
+from lagrotor.paper import Formula, Remark, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
-from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.rotor_pair.shared_premises import (
     ABOUT_JOINT,
@@ -26,8 +26,7 @@ from lagrotor.paper.rotor_pair.shared_premises import (
     UNIT_LENGTH,
     in_parameters,
 )
-from lagrotor.paper.stating import verdict
-from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor.theory import paired_series
 
 theta_1, phi_1, psi_1, theta_2, phi_2, psi_2 = PAIR.q
 

@@ -15,17 +15,15 @@ import sympy as sp
 
 from lagrotor import Scene, Shock, simulate
 from lagrotor.mechanics import momenta
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair.lagrangians import axis, pair_with_bar
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order, swing
+from lagrotor.pair import ansatz_A, axis, pair_with_bar
 from lagrotor.pair.notation import ANSATZ, I3, PAIR
-from lagrotor.pair.trajectory import ansatz_A
+from lagrotor.paper import prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate
-from lagrotor.paper.proof import prove
 from lagrotor.paper.rotor_pair.ansatz_premises import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.rotor_pair.shared_premises import ABOUT_JOINT, EQUAL_INERTIAS, MASSLESS_BAR
-from lagrotor.paper.stating import verdict
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q
 _, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v

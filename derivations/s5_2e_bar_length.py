@@ -13,16 +13,14 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.lagrangians import axis
+from lagrotor.pair import axis
 from lagrotor.pair.notation import ANSATZ, PAIR, R, ell, r0, theta_0
+from lagrotor.paper import Premise, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import norm
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import prove
 from lagrotor.paper.rotor_pair.ansatz_premises import one_inclination, opposite_azimuths
 from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0
 from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH
-from lagrotor.paper.stating import verdict
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q
 phi = ANSATZ.q[2]

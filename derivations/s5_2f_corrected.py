@@ -14,19 +14,15 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Scene, simulate
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order
+from lagrotor import Scene, corrected_trajectories, natural_rate, paired_frequency, simulate
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
+from lagrotor.paper import Formula, prove, verdict
 from lagrotor.paper.form import form
-from lagrotor.paper.proof import Formula, prove
 from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0
 from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
-from lagrotor.paper.stating import verdict
-from lagrotor.theory.natural_rate import natural_rate
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
-from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.theory.single_rotor import pair_precession_rate
+from lagrotor.theory import pair_precession_rate, paired_series
 
 cosine, sine = sp.cos(Phi), sp.sin(Phi)
 bar_ratio = {k: ell / R}

@@ -13,9 +13,9 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, natural_rate, simulate
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order
+from lagrotor import Link, Scene, natural_rate, paired_frequency, simulate
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import (
     G_1,
     G_2,
@@ -38,13 +38,10 @@ from lagrotor.pair.notation import (
     r0,
     sigma,
 )
+from lagrotor.paper import Formula, Premise, Remark, prove, verdict
 from lagrotor.paper.form import form
-from lagrotor.paper.premises import Premise
-from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
-from lagrotor.paper.stating import verdict
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
 theta = ROTOR.q[0]
 with_mass, with_inertia = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 2 * K * R**2 / ell**2

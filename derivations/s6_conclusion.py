@@ -13,11 +13,12 @@
 # %%
 import sympy as sp
 
+from lagrotor import paired_frequency
 from lagrotor.mechanics import degrees_of_freedom
-from lagrotor.pair.lagrangians import axes_pair, pair_with_bar
+from lagrotor.pair import axes_pair, pair_with_bar
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.paper import Formula, Remark, prove, verdict
 from lagrotor.paper.form import form
-from lagrotor.paper.proof import Formula, Remark, prove
 from lagrotor.paper.rotor_pair.shared_premises import (
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,
@@ -27,9 +28,7 @@ from lagrotor.paper.rotor_pair.shared_premises import (
     TWO_MODES,
     in_parameters,
 )
-from lagrotor.paper.stating import verdict
-from lagrotor.theory.natural_frequency import linear_pair
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
+from lagrotor.theory import linear_pair
 
 # %% [markdown]
 # ## Degrees of freedom

@@ -12,15 +12,13 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, simulate
+from lagrotor import Link, Scene, floquet, simulate
 from lagrotor.mechanics import System, energy
-from lagrotor.models.orbits.floquet import floquet
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair.lagrangians import joint_line_momentum, mercator_axis, mercator_lagrangian, pair_with_bar
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order, swing
+from lagrotor.pair import ansatz_A, joint_line_momentum, mercator_axis, mercator_lagrangian, pair_with_bar
 from lagrotor.pair.notation import AXES, I3, MERCATOR, PAIR, k
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper.proof import Formula, Remark, prove
+from lagrotor.paper import Formula, Remark, prove
 
 # %% [markdown]
 # ## The spins

@@ -15,14 +15,13 @@ import sympy as sp
 
 from lagrotor import Link, Scene, consistent_scene, natural_rate, simulate
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.numerics.spectrum import peak, spectrum
-from lagrotor.pair.lagrangians import INERTIAS, axes_pair, link_constraint
+from lagrotor.numerics import measured_order, peak
+from lagrotor.numerics.spectrum import spectrum
+from lagrotor.pair import INERTIAS, axes_pair, link_constraint
 from lagrotor.pair.notation import AXES, G_1, G_2, G, K, a, b, ell, m
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.impulse_response import impulse_matrices
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import impulse_matrices, natural_rate_error
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.natural_rate import natural_rate_error
 
 # %% [markdown]
 # ## Lagrangian, gyroscopic forces and bar

@@ -13,13 +13,12 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.models.linear import shock_response_error
-from lagrotor.numerics.convergence import measured_order
+from lagrotor import Link, Scene, Shock, shock_response, simulate
+from lagrotor.models import shock_response_error
+from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import G_1, G_2, P_1, P_2, P_X, G, Omega, a, att, b, t
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.impulse_response import impulse_matrices, shock_displacement, shock_energy
-from lagrotor.theory.shock_response import shock_response
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import impulse_matrices, shock_displacement, shock_energy
 
 # %% [markdown]
 # ## From the equation of motion to powers of one matrix

@@ -16,16 +16,22 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, natural_rate
+from lagrotor import (
+    Link,
+    Scene,
+    corrected_trajectories,
+    natural_rate,
+    paired_frequency,
+    paired_momentum,
+    precession_orbit,
+)
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.models.orbits.precession import precession_orbit
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.lagrangians import axes_pair, joint_line_momentum
+from lagrotor.numerics import measured_order
+from lagrotor.pair import axes_pair, joint_line_momentum
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency, paired_momentum
-from lagrotor.theory.paired_precession.series import equations, field_of, paired_series
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import paired_series, series_orbit
+from lagrotor.theory.paired_precession.series import equations, field_of
 
 # %% [markdown]
 # ## Lagrangian and constraints

@@ -14,12 +14,11 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, natural_rate
-from lagrotor.models.orbits.continuation import OrbitFamily, orbit_family, trace_family
-from lagrotor.pair.lagrangians import mercator_lagrangian
+from lagrotor import Link, Scene, natural_rate, orbit_family, paired_frequency
+from lagrotor.models import OrbitFamily, trace_family
+from lagrotor.pair import mercator_lagrangian
 from lagrotor.pair.notation import G_1, G_2, MERCATOR, G, k
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
+from lagrotor.paper import Formula, Remark, prove
 
 # %% [markdown]
 # ## Lagrangian and bar

@@ -14,17 +14,13 @@ import numpy as np
 import sympy as sp
 from scipy.optimize import brentq
 
-from lagrotor import Link, Scene
-from lagrotor.mechanics import euler_lagrange
-from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.models.orbits.floquet import floquet
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.lagrangians import axes_pair
+from lagrotor import Link, Scene, floquet
+from lagrotor.mechanics import FourierSeries, euler_lagrange
+from lagrotor.numerics import measured_order
+from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, SWING, G, Phi, a, b, k, r0, sigma
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.averaging import slow_stiffness
-from lagrotor.theory.paired_precession.series import paired_series
-from lagrotor.theory.paired_precession.stability import elliptic_edge, exponent_series, growth_squared
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, paired_series, slow_stiffness
 
 # %% [markdown]
 # ## Which perturbations can grow

@@ -14,23 +14,22 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, Shock, natural_rate
-from lagrotor.models.mean_motion import exact_cancelling_force, mean_over, run_after, turning_rate
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
+from lagrotor import Link, Scene, Shock, cancelling_force, natural_rate, toppling_after_shock
+from lagrotor.models import exact_cancelling_force, mean_over, run_after, turning_rate
+from lagrotor.numerics import measured_order
+from lagrotor.pair import joint_line_momentum, link_constraint
 from lagrotor.pair.notation import AXES, G_1, G_2, P_X, G, P, a, att, b, k, p_y
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.drift_after_shock import (
-    cancelling_force,
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import (
+    cancelling_force_error,
     cancelling_impulse,
+    impulse_matrices,
     mean_square_twist,
     second_order_momentum,
     shock_toppling,
-    toppling_after_shock,
+    toppling_error,
     wander_after_shock,
 )
-from lagrotor.theory.drift_error import cancelling_force_error, toppling_error
-from lagrotor.theory.impulse_response import impulse_matrices
 
 # %% [markdown]
 # ## The conserved momentum

@@ -15,15 +15,21 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import Link, Scene, Shock, simulate, toppling_after_shock
 from lagrotor.errors import DomainError
-from lagrotor.models.mean_motion import run_after, time_to_wander, turning_rate, wandering_rate
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
+from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import P_X, SWING, TWIST, TWISTED, G, P, X, a, att, b, k, p_y
-from lagrotor.paper.proof import Remark, prove
-from lagrotor.theory.averaging import averaged_routhian, quartic_lagrangian, quartic_routhian, slow_rates
-from lagrotor.theory.drift_after_shock import shock_wander, toppling_after_shock, wander_after_shock
-from lagrotor.theory.drift_error import wander_error
+from lagrotor.paper import Remark, prove
+from lagrotor.theory import (
+    averaged_routhian,
+    quartic_lagrangian,
+    quartic_routhian,
+    shock_wander,
+    slow_rates,
+    wander_after_shock,
+    wander_error,
+)
 
 # %% [markdown]
 # ## The Lagrangian through fourth order

@@ -13,12 +13,11 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import Link, Scene, Shock, shock_response, simulate
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, a, b, k, nu
-from lagrotor.paper.proof import Remark, prove
-from lagrotor.theory.shock_response import shock_response
-from lagrotor.theory.toppling import (
+from lagrotor.paper import Remark, prove
+from lagrotor.theory import (
     linear_toppling,
     toppling_growth,
     toppling_polynomial,

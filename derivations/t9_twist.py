@@ -13,11 +13,11 @@
 import numpy as np
 import sympy as sp
 
-from lagrotor import Link, Scene, Shock, simulate
+from lagrotor import Link, Scene, Shock, shock_response, simulate
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
-from lagrotor.paper.proof import Formula, Remark, prove
-from lagrotor.theory.parallel_twist import (
+from lagrotor.paper import Formula, Remark, prove
+from lagrotor.theory import (
     lyapunov_criterion,
     parallel_residual,
     parallel_scene,
@@ -26,9 +26,8 @@ from lagrotor.theory.parallel_twist import (
     twist_growth,
     twist_growth_error,
     twist_multiplier_growth,
+    twisted_lagrangian,
 )
-from lagrotor.theory.shock_response import shock_response
-from lagrotor.theory.toppling import twisted_lagrangian
 
 (U, Delta, alpha), (U_v, Delta_v, alpha_v), (U_a, Delta_a, alpha_a) = TWISTED.q, TWISTED.v, TWISTED.a
 

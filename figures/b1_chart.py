@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.style import OKABE_ITO
+from lagrotor.drawing import OKABE_ITO
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 # Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
-from lagrotor.drawing.style import OKABE_ITO
+from lagrotor.drawing import OKABE_ITO
 
 LOOKS = {
     "lagrotor": ("blue", "o"),

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.drawing.wheel import BAR, INK, RADIUS, ROTORS, Camera
-from lagrotor.numerics.rotations import body_rotations
-from lagrotor.pictures.diagram import arc, arrow, canvas, draw_wheel, ground, label, path_arrow
+from lagrotor.drawing import BAR, INK, RADIUS, ROTORS, Camera
+from lagrotor.numerics import body_rotations
+from lagrotor.pictures import arc, arrow, canvas, draw_wheel, ground, label, path_arrow
 
 SCENE = Scene(spins=(10.0, -10.0))
 TITLE = "Axially coupled rotor pair"

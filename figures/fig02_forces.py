@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Rotor
-from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS, Camera
-from lagrotor.pair.lagrangians import axis
-from lagrotor.pictures.diagram import arc, arrow, canvas, ground, label, path_arrow
+from lagrotor.drawing import BAR, INK, MARK, ROTORS, Camera
+from lagrotor.pair import axis
+from lagrotor.pictures import arc, arrow, canvas, ground, label, path_arrow
 
 ROTOR, ELL, SPINS, INCLINATION, FORCE = Rotor(), 1.0, (12.0, 6.0), 0.28, np.array([0.6, 0.0, 0.0])
 TITLE = "Forces on the rotors and the bar"

@@ -13,12 +13,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
-from lagrotor.drawing.style import CORRECTED, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTED, MODEL, OKABE_ITO
+from lagrotor.models import RigidBody, RigidBodySystem
 from lagrotor.models.spring_link import run as spring_run
 from lagrotor.models.spring_link import system as spring_link
-from lagrotor.models.spring_link.rigid_body import RigidBody
-from lagrotor.models.spring_link.system import RigidBodySystem
-from lagrotor.pictures.diagram import arrow, bare
+from lagrotor.pictures import arrow, bare
 
 TITLE = "Object design of the rigid-body simulator"
 CAPTION = (

@@ -11,10 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
-from lagrotor.models.spring_link.rigid_body import RigidBody, finite_rotation
-from lagrotor.models.spring_link.system import RigidBodySystem, link_force
-from lagrotor.pictures.diagram import arrow, canvas, label
+from lagrotor.drawing import BAR, INK, MARK, ROTORS
+from lagrotor.models import RigidBody, RigidBodySystem, finite_rotation, link_force
+from lagrotor.pictures import arrow, canvas, label
 
 S, D, SCALE = 1.0, 0.2, 0.33  # N/m, kg/s; m drawn for 1 N
 TITLE = "Spring between vertex 1 and vertex 2"

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
 from lagrotor import Scene
-from lagrotor.drawing.wheel import GROUND, INK, MARK, ROTORS
-from lagrotor.models.spring_link.run import paper_system
-from lagrotor.pictures.diagram import arrow, canvas, label
+from lagrotor.drawing import GROUND, INK, MARK, ROTORS
+from lagrotor.models import paper_system
+from lagrotor.pictures import arrow, canvas, label
 
 S, D, MOVED = 1.0, 0.2, np.array([0.24, 0.0, 0.18])  # N/m, kg/s; m
 TITLE = "Link between a ground vertex and a body vertex"

@@ -11,10 +11,10 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.wheel import BAR, INK, MARK, RADIUS, ROTORS, Camera
-from lagrotor.models.spring_link.run import paper_system
-from lagrotor.pair.examples import DAMPING, SCENES, STIFFNESS
-from lagrotor.pictures.diagram import canvas, draw_wheel, ground, label
+from lagrotor.drawing import BAR, INK, MARK, RADIUS, ROTORS, Camera
+from lagrotor.models import paper_system
+from lagrotor.pair import DAMPING, SCENES, STIFFNESS
+from lagrotor.pictures import canvas, draw_wheel, ground, label
 
 APART = np.array([[-0.12, 0, 0], [0.12, 0, 0], [0, 0, 0.24]])  # m, for the drawing only
 TITLE = "Three rigid bodies and four links"

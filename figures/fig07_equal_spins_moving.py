@@ -10,10 +10,10 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.wheel import BAR, INK, RADIUS, ROTORS, Camera
-from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.drawing import BAR, INK, RADIUS, ROTORS, Camera
+from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run
-from lagrotor.pictures.diagram import bare, draw_wheel, ground
+from lagrotor.pictures import bare, draw_wheel, ground
 
 SCENE = SCENES["same-spin"].scene
 T_END, SHOWN = 0.628, (0, 157, 314, 471)  # s; steps of the pictures, a quarter of a turn apart

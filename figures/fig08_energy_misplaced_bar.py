@@ -11,9 +11,9 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.style import MODEL, OKABE_ITO
-from lagrotor.models.spring_link.run import paper_system, run_steps
-from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.drawing import MODEL, OKABE_ITO
+from lagrotor.models import paper_system, run_steps
+from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 
 SCENE = SCENES["same-spin"].scene
 BAR_HEIGHT, RIGHT_HEIGHT = 1.5, 1.0  # m above the ground joints; the paper's z = 1 and 0.5

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing.style import EXACT, MODEL
-from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.drawing import EXACT, MODEL
+from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 
 SCENE = SCENES["same-spin"].scene

@@ -11,10 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing.style import EXACT, MODEL, OKABE_ITO
-from lagrotor.models.spring_link.run import paper_system
-from lagrotor.models.spring_link.system import step_limit
-from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.drawing import EXACT, MODEL, OKABE_ITO
+from lagrotor.models import paper_system, step_limit
+from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
 
 SCENE = SCENES["same-spin-shock"].scene

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.pair.examples import DAMPING, SCENES, STEP, STIFFNESS
+from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import centre_numbers, centre_off, centre_runs
-from lagrotor.pictures.panels import shock_figure
+from lagrotor.pictures import shock_figure
 
 SCENE = SCENES["anti-spin-shock-y"].scene
 TITLE = "Opposite spins, shock across the bar"

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from lagrotor.drawing.wheel import GROUND, INK, MARK, ROTORS, Camera
-from lagrotor.pair.lagrangians import axis
-from lagrotor.pictures.diagram import arrow, between, canvas, label, path_arrow
+from lagrotor.drawing import GROUND, INK, MARK, ROTORS, Camera
+from lagrotor.pair import axis
+from lagrotor.pictures import arrow, between, canvas, label, path_arrow
 
 NODE, THETA, PSI = 1.05, 0.7, 0.75  # the paper's varphi, theta, psi, rad
 TITLE = "Euler angles of one rotor"

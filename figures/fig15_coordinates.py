@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import consistent_scene
-from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, ROTORS, Camera
-from lagrotor.pair.lagrangians import axis
-from lagrotor.pictures.diagram import arc, arrow, between, canvas, ground, label, path_arrow
+from lagrotor.drawing import BAR, GROUND, INK, MARK, ROTORS, Camera
+from lagrotor.pair import axis
+from lagrotor.pictures import arc, arrow, between, canvas, ground, label, path_arrow
 
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # theta, phi of the two axes before they are brought onto the bar, rad
 TITLE = "Generalized coordinates of the pair"

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import consistent_scene
-from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, ROTORS
-from lagrotor.pair.lagrangians import axis
-from lagrotor.pictures.diagram import arrow, between, ground, label, path_arrow
+from lagrotor.drawing import BAR, GROUND, INK, MARK, ROTORS
+from lagrotor.pair import axis
+from lagrotor.pictures import arrow, between, ground, label, path_arrow
 
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # as in figure 15
 TITLE = "Top view of the coordinates"

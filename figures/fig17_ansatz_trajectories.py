@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing.style import EXACT, PAPER
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.drawing import EXACT, PAPER
+from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes
-from lagrotor.pictures.panels import orbits_from_above, over_one_turn
+from lagrotor.pictures import orbits_from_above, over_one_turn
 
 R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)
 

@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER, with_residual
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.drawing import CORRECTED, EXACT, PAPER, with_residual
+from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes, paper_axes, series_axes
-from lagrotor.pictures.panels import over_one_turn
+from lagrotor.pictures import over_one_turn
 
 R0, TOL = 0.204, 1e-11
 

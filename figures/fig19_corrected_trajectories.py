@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes, series_axes
-from lagrotor.pictures.panels import distance_over_one_turn, orbits_from_above
+from lagrotor.pictures import distance_over_one_turn, orbits_from_above
 
 R0, TOL = 0.204, 1e-11
 

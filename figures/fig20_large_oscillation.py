@@ -11,12 +11,12 @@ import sympy as sp
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.models import exact_orbit
 from lagrotor.pair.notation import Phi, r0
 from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes
-from lagrotor.pictures.panels import distance_over_one_turn, orbits_from_above
-from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor.pictures import distance_over_one_turn, orbits_from_above
+from lagrotor.theory import paired_series
 
 R0, TOL = 0.5, 1e-11
 

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.models import exact_orbit
 
 R0, TOL = 0.204, 1e-11
 

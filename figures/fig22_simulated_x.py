@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing.style import EXACT, MODEL, OKABE_ITO
-from lagrotor.pair.examples import SCENES
+from lagrotor.drawing import EXACT, MODEL, OKABE_ITO
+from lagrotor.pair import SCENES
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

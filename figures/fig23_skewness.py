@@ -10,11 +10,10 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
-from lagrotor.numerics.spectrum import turn_means
-from lagrotor.pair.examples import SCENES
-from lagrotor.theory.shock_response import shock_response
+from lagrotor import shock_response, simulate
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.numerics import turn_means
+from lagrotor.pair import SCENES
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

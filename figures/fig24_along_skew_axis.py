@@ -10,12 +10,10 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
-from lagrotor.numerics.spectrum import turn_means
-from lagrotor.pair.examples import SCENES
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
-from lagrotor.theory.shock_response import shock_response
+from lagrotor import corrected_trajectories, paired_frequency, shock_response, simulate
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.numerics import turn_means
+from lagrotor.pair import SCENES
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
+from lagrotor.pair import DAMPING, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import rate_numbers, rate_runs
-from lagrotor.pictures.panels import rate_figure
+from lagrotor.pictures import rate_figure
 
 TOL, PRINTED = 1e-10, 16.0
 SCENE = Scene(spins=(20, 0), link=None, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))

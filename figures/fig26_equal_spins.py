@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.drawing.style import EXACT, MODEL
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.drawing import EXACT, MODEL
+from lagrotor.pair import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
 
 TOL = 1e-10

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import rate_numbers, rate_runs
-from lagrotor.pictures.panels import rate_figure
+from lagrotor.pictures import rate_figure
 
 TOL, PRINTED = 1e-10, 11.4
 SCENE = Scene(spins=(20, 20), link=HEAVY, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))

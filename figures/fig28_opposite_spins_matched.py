@@ -11,9 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.numerics.spectrum import peak, spectrum
-from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.numerics import peak
+from lagrotor.numerics.spectrum import spectrum
+from lagrotor.pair import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125

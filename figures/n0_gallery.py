@@ -9,8 +9,7 @@ from math import inf
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.structures.gallery import GALLERY, example
-from lagrotor.structures.pictures import draw_plan
+from lagrotor.structures import GALLERY, draw_plan, example
 
 TITLE = "Ten structures"
 ALT = (

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.structures import measured_growth
 from lagrotor.structures.coefficients import coefficients
-from lagrotor.structures.exact.held_to_exact import measured_growth
 from lagrotor.structures.small_motion import small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Brace, Rotor, Structure
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
-from lagrotor.structures.absorbers import mass_worst_case, spins_win_worst_case, spins_worst_case
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.structures import mass_worst_case, spins_win_worst_case, spins_worst_case
 
 ROTOR, LOAD, SWAY = Rotor(1, 1, 1 / 16, 1 / 8), 50.0, 2 * np.pi  # a disc of radius 0.5 m; 50 kg a tip; 1 Hz
 INERTIA = ROTOR.J + LOAD * ROTOR.length**2

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Pattern, Rotor
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
-from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, zigzag
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.structures import honeycomb, polygon_ring, zigzag
 
 SPIN, HINGE, ROTORS = 10.0, 50.0, 16
 RINGS = (12, 6, 4)  # corners: bars turned by 30°, 60°, 90°

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Structure, paired_scene
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 
 SPIN, TILT = 10.0, 0.1
 RUBBED = (0.2, 0.4, 0.8)  # N m s/rad

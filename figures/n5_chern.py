@@ -10,10 +10,8 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.style import MODEL, PAPER
-from lagrotor.structures.waves.chern import chern_numbers
-from lagrotor.structures.waves.edge_waves import edge_waves
-from lagrotor.structures.waves.patterns import honeycomb, square_octagon
+from lagrotor.drawing import MODEL, PAPER
+from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
 
 WIDTH, POINTS, NEAR = 10, 91, 0.2  # cells; wave numbers; share of the strip that counts as a border
 SPIN, HINGE, SPRING = 30.0, 200.0, 50.0

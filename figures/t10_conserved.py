@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair.trajectory import ansatz_A
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order, swing
+from lagrotor.pair import ansatz_A
 
 AMPLITUDES = np.array([0.05, 0.1, 0.2, 0.4])
 FLOOR, MODELS = 1e-16, ("minimal", "euler")

@@ -11,8 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, OKABE_ITO, PAPER
-from lagrotor.numerics.spectrum import peak, spectrum
+from lagrotor.drawing import CORRECTED, EXACT, OKABE_ITO, PAPER
+from lagrotor.numerics import peak
+from lagrotor.numerics.spectrum import spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
 UNIT = Rotor().I3 * SPIN / Rotor().J

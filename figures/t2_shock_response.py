@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.numerics import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11
 SIZES = np.array([0.125, 0.25, 0.5, 1.0, 2.0])

@@ -11,11 +11,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.paired_precession.series import paired_series, shape_of
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
+from lagrotor.drawing import CORRECTED, EXACT
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order
+from lagrotor.theory import paired_series, series_orbit
+from lagrotor.theory.paired_precession.series import shape_of
 
 SCENE = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))
 AMPLITUDES = np.array([0.05, 0.08, 0.12, 0.18, 0.27, 0.4])

@@ -10,8 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.theory.paired_precession.series import paired_series, shape_of
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.theory import paired_series
+from lagrotor.theory.paired_precession.series import shape_of
 
 BARS = {
     "massless, ℓ = R": Link(1, 0, 0),

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.paired_precession.stability import elliptic_edge, growth_squared
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.numerics import measured_order
+from lagrotor.theory import elliptic_edge, growth_squared
 
 BARS = {
     "b = 0: massless": (Link(1, 0, 0), OKABE_ITO["reddish purple"], "o"),

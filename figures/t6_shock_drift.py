@@ -10,10 +10,9 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, cancelling_force
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
-from lagrotor.models.mean_motion import run_after, turning_rate
-from lagrotor.theory.drift_after_shock import toppling_after_shock
+from lagrotor import Link, Scene, Shock, cancelling_force, toppling_after_shock
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.models import run_after, turning_rate
 
 ALONG, CHOSEN, SWINGS = 40.0, -11.0, 8
 

@@ -11,11 +11,11 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, Shock, natural_rate, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
-from lagrotor.models.mean_motion import run_after, time_to_wander, turning_rate, wandering_rate
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.drift_after_shock import toppling_after_shock, wander_after_shock
+from lagrotor import Link, Scene, Shock, natural_rate, simulate, toppling_after_shock
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
+from lagrotor.numerics import measured_order
+from lagrotor.theory import wander_after_shock
 
 LEAN, BOUND, SHOWN, AT = 0.5, 0.1, 12.0, 0.5
 FORCES = np.array([2.0, 3.6, 6.3, 11.2, 20.0])

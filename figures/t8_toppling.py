@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO
-from lagrotor.theory.toppling import toppling_growth, toppling_threshold
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.theory import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0
 BARS = {

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
-from lagrotor.theory.parallel_twist import parallel_scene, twist_growth, twist_multiplier_growth
+from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.theory import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
 EDGE = MASS / 4

@@ -1,91 +1,36 @@
 """lagrotor: the Lagrangian of axially coupled rotor pairs, derived, decided, and compared with its own simulation."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lagrotor.about import __version__ as __version__
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.models.ensemble import sweep
-    from lagrotor.models.orbits.continuation import orbit_family
-    from lagrotor.models.orbits.floquet import floquet
-    from lagrotor.models.orbits.precession import paired_scene, precession_orbit
-    from lagrotor.models.simulate import simulate
-    from lagrotor.pair.initial_conditions import consistent_scene
-    from lagrotor.pair.scene_document import read_scene, write_scene
-    from lagrotor.pair.trajectory import Trajectory
-    from lagrotor.paper.papers import Paper
-    from lagrotor.paper.rotor_pair.own_paper import audit
-    from lagrotor.structures.assembly import Brace
-    from lagrotor.structures.structure import Structure
-    from lagrotor.structures.waves.pattern import Pattern
-    from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock
-    from lagrotor.theory.natural_rate import natural_rate
-    from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency, paired_momentum
-    from lagrotor.theory.shock_response import shock_response
+    from lagrotor.models.ensemble import sweep as sweep
+    from lagrotor.models.orbits.continuation import orbit_family as orbit_family
+    from lagrotor.models.orbits.floquet import floquet as floquet
+    from lagrotor.models.orbits.precession import paired_scene as paired_scene
+    from lagrotor.models.orbits.precession import precession_orbit as precession_orbit
+    from lagrotor.models.simulate import simulate as simulate
+    from lagrotor.pair.initial_conditions import consistent_scene as consistent_scene
+    from lagrotor.pair.scene import Link as Link
+    from lagrotor.pair.scene import Rotor as Rotor
+    from lagrotor.pair.scene import Scene as Scene
+    from lagrotor.pair.scene import Shock as Shock
+    from lagrotor.pair.scene_document import read_scene as read_scene
+    from lagrotor.pair.scene_document import write_scene as write_scene
+    from lagrotor.pair.trajectory import Trajectory as Trajectory
+    from lagrotor.paper.papers import Paper as Paper
+    from lagrotor.paper.rotor_pair.own_paper import audit as audit
+    from lagrotor.structures.assembly import Brace as Brace
+    from lagrotor.structures.structure import Structure as Structure
+    from lagrotor.structures.waves.pattern import Pattern as Pattern
+    from lagrotor.theory.drift_after_shock import cancelling_force as cancelling_force
+    from lagrotor.theory.drift_after_shock import toppling_after_shock as toppling_after_shock
+    from lagrotor.theory.natural_rate import natural_rate as natural_rate
+    from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories as corrected_trajectories
+    from lagrotor.theory.paired_precession.closed_forms import paired_frequency as paired_frequency
+    from lagrotor.theory.paired_precession.closed_forms import paired_momentum as paired_momentum
+    from lagrotor.theory.shock_response import shock_response as shock_response
 
-# Names whose modules are heavy, imported when first asked for: `import lagrotor` needs neither sympy nor matplotlib.
-_LATER = {
-    "write_scene": "lagrotor.pair.scene_document",
-    "sweep": "lagrotor.models.ensemble",
-    "read_scene": "lagrotor.pair.scene_document",
-    "paired_frequency": "lagrotor.theory.paired_precession.closed_forms",
-    "corrected_trajectories": "lagrotor.theory.paired_precession.closed_forms",
-    "Trajectory": "lagrotor.pair.trajectory",
-    "Brace": "lagrotor.structures.assembly",
-    "Pattern": "lagrotor.structures.waves.pattern",
-    "Structure": "lagrotor.structures.structure",
-    "Paper": "lagrotor.paper.papers",
-    "audit": "lagrotor.paper.rotor_pair.own_paper",
-    "cancelling_force": "lagrotor.theory.drift_after_shock",
-    "consistent_scene": "lagrotor.pair.initial_conditions",
-    "floquet": "lagrotor.models.orbits.floquet",
-    "natural_rate": "lagrotor.theory.natural_rate",
-    "orbit_family": "lagrotor.models.orbits.continuation",
-    "paired_momentum": "lagrotor.theory.paired_precession.closed_forms",
-    "paired_scene": "lagrotor.models.orbits.precession",
-    "precession_orbit": "lagrotor.models.orbits.precession",
-    "shock_response": "lagrotor.theory.shock_response",
-    "simulate": "lagrotor.models.simulate",
-    "toppling_after_shock": "lagrotor.theory.drift_after_shock",
-}
-
-__all__ = [
-    "Brace",
-    "Link",
-    "Paper",
-    "Pattern",
-    "Rotor",
-    "Scene",
-    "Shock",
-    "Structure",
-    "Trajectory",
-    "audit",
-    "cancelling_force",
-    "consistent_scene",
-    "corrected_trajectories",
-    "floquet",
-    "natural_rate",
-    "orbit_family",
-    "paired_frequency",
-    "paired_momentum",
-    "paired_scene",
-    "precession_orbit",
-    "read_scene",
-    "shock_response",
-    "simulate",
-    "sweep",
-    "toppling_after_shock",
-    "write_scene",
-]
-
-
-def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        return getattr(import_module(_LATER[name]), name)
-    raise AttributeError(f"module 'lagrotor' has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__, __all__ = face(__name__)

@@ -1,9 +1,12 @@
 """The house as CONTRIBUTING.md draws it: every import runs downward, no room and no module lies on a circle."""
 
 import ast
+from importlib import import_module
 from pathlib import Path
 
 import pytest
+
+from lagrotor.faces import handed_on
 
 ROOT = Path(__file__).parent.parent
 # From the ground up: a room imports from those before it and from itself.
@@ -12,6 +15,7 @@ FLOORS = (
         "about",
         "errors",
         "files",
+        "faces",
         "algebra",
         "numerics",
         "drawing",
@@ -109,11 +113,52 @@ def test_an_upward_import_and_a_circle_would_be_seen() -> None:
     assert {"lagrotor.errors", "lagrotor.pair.scene"} in circles(changed)
 
 
+FACES = {name: handed_on(path) for name, path in MODULES.items() if path.name == "__init__.py"}
+
+
 def test_a_face_hands_names_on_and_defines_nothing() -> None:
-    for name, path in MODULES.items():
-        if path.name == "__init__.py" and name != "lagrotor":
-            kinds = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.Expr)
-            assert all(isinstance(node, kinds) for node in ast.parse(path.read_text()).body), name
+    for name in FACES:
+        blocks = [node for node in ast.parse(MODULES[name].read_text()).body if isinstance(node, ast.If)]
+        kinds = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.Expr, ast.If)
+        assert all(isinstance(node, kinds) for node in ast.parse(MODULES[name].read_text()).body), name
+        assert all(isinstance(node, ast.ImportFrom) for block in blocks for node in block.body), name
+
+
+@pytest.mark.parametrize("name", [name for name, handed in FACES.items() if handed])
+def test_every_name_that_a_face_hands_on_is_there(name: str) -> None:
+    package = import_module(name)
+    for public in package.__all__:
+        assert getattr(package, public) is getattr(import_module(FACES[name][public]), public)
+    with pytest.raises(AttributeError, match="has no attribute 'no_such_name'"):
+        package.no_such_name  # noqa: B018
+
+
+def test_no_name_of_a_face_is_that_of_a_module_beside_it() -> None:
+    """Importing the module would put it in the place of the name."""
+    beside = {name: {path.stem for path in MODULES[name].parent.iterdir()} for name in FACES}
+    assert [(name, both) for name in FACES if (both := beside[name] & FACES[name].keys())] == []
+
+
+def past_the_face(file: Path) -> list[str]:
+    """Names that a file imports from a module, although a face above that module hands them on."""
+    return [
+        f"{file.name}: {alias.name} from {node.module}"
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        for handed in FACES.values()
+        if handed.get(alias.name) == node.module
+    ]
+
+
+@pytest.mark.parametrize("folder", ["derivations", "docs", "figures", "papers", "tests"])
+def test_scripts_and_tests_import_through_the_face_of_a_room(folder: str) -> None:
+    assert [found for file in sorted((ROOT / folder).rglob("*.py")) for found in past_the_face(file)] == []
+
+
+def test_an_import_past_the_face_would_be_seen(tmp_path: Path) -> None:
+    (tmp_path / "script.py").write_text("from lagrotor.paper.proof import prove\n")
+    assert past_the_face(tmp_path / "script.py") == ["script.py: prove from lagrotor.paper.proof"]
 
 
 def test_the_guide_draws_this_house() -> None:

@@ -1,15 +1,17 @@
 """Exact algebra: the decision of identities and truncated power series."""
 
-from lagrotor.algebra.identity import Decision, decide_equal, decide_zero, normal_form
-from lagrotor.algebra.power_series import LeadingTerm, agreement_order, leading_term, truncated_series
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Decision",
-    "LeadingTerm",
-    "agreement_order",
-    "decide_equal",
-    "decide_zero",
-    "leading_term",
-    "normal_form",
-    "truncated_series",
-]
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.algebra.identity import Decision as Decision
+    from lagrotor.algebra.identity import decide_equal as decide_equal
+    from lagrotor.algebra.identity import decide_zero as decide_zero
+    from lagrotor.algebra.identity import normal_form as normal_form
+    from lagrotor.algebra.power_series import LeadingTerm as LeadingTerm
+    from lagrotor.algebra.power_series import agreement_order as agreement_order
+    from lagrotor.algebra.power_series import leading_term as leading_term
+    from lagrotor.algebra.power_series import truncated_series as truncated_series
+
+__getattr__, __dir__, __all__ = face(__name__)

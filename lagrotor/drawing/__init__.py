@@ -1,0 +1,23 @@
+"""Curves and moving bodies from arrays: colours, one style, the picture of a rotor."""
+
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.drawing.style import CORRECTED as CORRECTED
+    from lagrotor.drawing.style import EXACT as EXACT
+    from lagrotor.drawing.style import MODEL as MODEL
+    from lagrotor.drawing.style import OKABE_ITO as OKABE_ITO
+    from lagrotor.drawing.style import PAPER as PAPER
+    from lagrotor.drawing.style import paper_style as paper_style
+    from lagrotor.drawing.style import with_residual as with_residual
+    from lagrotor.drawing.wheel import BAR as BAR
+    from lagrotor.drawing.wheel import GROUND as GROUND
+    from lagrotor.drawing.wheel import INK as INK
+    from lagrotor.drawing.wheel import MARK as MARK
+    from lagrotor.drawing.wheel import RADIUS as RADIUS
+    from lagrotor.drawing.wheel import ROTORS as ROTORS
+    from lagrotor.drawing.wheel import Camera as Camera
+
+__getattr__, __dir__, __all__ = face(__name__)

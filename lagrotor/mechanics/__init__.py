@@ -1,46 +1,37 @@
 """Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries and small motions."""
 
-from lagrotor.mechanics.bodies.frames import Frame
-from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
-from lagrotor.mechanics.equations import constrained_accelerations, degrees_of_freedom
-from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.lagrangian import (
-    Coordinates,
-    accelerations,
-    bias,
-    coordinates,
-    energy,
-    euler_lagrange,
-    mass_matrix,
-    momenta,
-    t,
-    total_derivative,
-)
-from lagrotor.mechanics.linear_modes import LinearSystem, Mode
-from lagrotor.mechanics.symmetry import FirstIntegral, legendre
-from lagrotor.mechanics.systems import System
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Coordinates",
-    "Equilibrium",
-    "FirstIntegral",
-    "Frame",
-    "LinearSystem",
-    "Mode",
-    "System",
-    "accelerations",
-    "bias",
-    "constrained_accelerations",
-    "coordinates",
-    "degrees_of_freedom",
-    "energy",
-    "euler_lagrange",
-    "legendre",
-    "mass_matrix",
-    "momenta",
-    "project_position",
-    "project_velocity",
-    "solve_constrained",
-    "t",
-    "total_derivative",
-]
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.mechanics.bodies.frames import Frame as Frame
+    from lagrotor.mechanics.constraints import project_position as project_position
+    from lagrotor.mechanics.constraints import project_velocity as project_velocity
+    from lagrotor.mechanics.constraints import solve_constrained as solve_constrained
+    from lagrotor.mechanics.equations import constrained_accelerations as constrained_accelerations
+    from lagrotor.mechanics.equations import degrees_of_freedom as degrees_of_freedom
+    from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
+    from lagrotor.mechanics.exponents import characteristic_exponents as characteristic_exponents
+    from lagrotor.mechanics.fourier import FourierSeries as FourierSeries
+    from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
+    from lagrotor.mechanics.lagrangian import accelerations as accelerations
+    from lagrotor.mechanics.lagrangian import bias as bias
+    from lagrotor.mechanics.lagrangian import coordinates as coordinates
+    from lagrotor.mechanics.lagrangian import energy as energy
+    from lagrotor.mechanics.lagrangian import euler_lagrange as euler_lagrange
+    from lagrotor.mechanics.lagrangian import mass_matrix as mass_matrix
+    from lagrotor.mechanics.lagrangian import momenta as momenta
+    from lagrotor.mechanics.lagrangian import t as t
+    from lagrotor.mechanics.lagrangian import total_derivative as total_derivative
+    from lagrotor.mechanics.linear_modes import LinearSystem as LinearSystem
+    from lagrotor.mechanics.linear_modes import Mode as Mode
+    from lagrotor.mechanics.order_by_order import GrowingSeries as GrowingSeries
+    from lagrotor.mechanics.order_by_order import Unknowns as Unknowns
+    from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
+    from lagrotor.mechanics.running.programs import motion_program as motion_program
+    from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
+    from lagrotor.mechanics.symmetry import legendre as legendre
+    from lagrotor.mechanics.systems import System as System
+
+__getattr__, __dir__, __all__ = face(__name__)

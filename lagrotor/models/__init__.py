@@ -1,0 +1,44 @@
+"""Ways to run the pair: linear and averaged motion, exact orbits, ensembles, the paper's spring-linked bodies."""
+
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.models.closed_form_model import closed_form as closed_form
+    from lagrotor.models.conserved import conservation_defect as conservation_defect
+    from lagrotor.models.ensemble import Ensemble as Ensemble
+    from lagrotor.models.estimate_constants import linear_bound as linear_bound
+    from lagrotor.models.linear import linear_error as linear_error
+    from lagrotor.models.linear import linear_run as linear_run
+    from lagrotor.models.linear import shock_response_error as shock_response_error
+    from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force
+    from lagrotor.models.mean_motion import mean_error as mean_error
+    from lagrotor.models.mean_motion import mean_over as mean_over
+    from lagrotor.models.mean_motion import run_after as run_after
+    from lagrotor.models.mean_motion import time_to_lean as time_to_lean
+    from lagrotor.models.mean_motion import time_to_wander as time_to_wander
+    from lagrotor.models.mean_motion import turning_rate as turning_rate
+    from lagrotor.models.mean_motion import wandering_rate as wandering_rate
+    from lagrotor.models.orbits.continuation import OrbitFamily as OrbitFamily
+    from lagrotor.models.orbits.continuation import trace_family as trace_family
+    from lagrotor.models.orbits.periodic_orbit import parting as parting
+    from lagrotor.models.orbits.periodic_orbit import periodic_orbit as periodic_orbit
+    from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
+    from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
+    from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
+    from lagrotor.models.spring_link.rigid_body import inertia_transform as inertia_transform
+    from lagrotor.models.spring_link.rigid_body import printed_inertia_transform as printed_inertia_transform
+    from lagrotor.models.spring_link.rigid_body import printed_rotation as printed_rotation
+    from lagrotor.models.spring_link.rigid_body import rotation_between as rotation_between
+    from lagrotor.models.spring_link.run import join_bar as join_bar
+    from lagrotor.models.spring_link.run import paper_bodies as paper_bodies
+    from lagrotor.models.spring_link.run import paper_system as paper_system
+    from lagrotor.models.spring_link.run import run_solver as run_solver
+    from lagrotor.models.spring_link.run import run_steps as run_steps
+    from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem
+    from lagrotor.models.spring_link.system import link_force as link_force
+    from lagrotor.models.spring_link.system import printed_link_force as printed_link_force
+    from lagrotor.models.spring_link.system import step_limit as step_limit
+
+__getattr__, __dir__, __all__ = face(__name__)

@@ -1,0 +1,37 @@
+"""The paper's system: Lagrangians, example scenes, a run and its conserved quantities; its symbols are in `notation`."""
+
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.pair.examples import DAMPING as DAMPING
+    from lagrotor.pair.examples import HEAVY as HEAVY
+    from lagrotor.pair.examples import LIGHT as LIGHT
+    from lagrotor.pair.examples import SCENES as SCENES
+    from lagrotor.pair.examples import SHOCK_PAIRED as SHOCK_PAIRED
+    from lagrotor.pair.examples import SHOCK_Y as SHOCK_Y
+    from lagrotor.pair.examples import STEP as STEP
+    from lagrotor.pair.examples import STIFFNESS as STIFFNESS
+    from lagrotor.pair.lagrangians import INERTIAS as INERTIAS
+    from lagrotor.pair.lagrangians import J_OF as J_OF
+    from lagrotor.pair.lagrangians import JOINT_LINE as JOINT_LINE
+    from lagrotor.pair.lagrangians import ansatz_integrals as ansatz_integrals
+    from lagrotor.pair.lagrangians import ansatz_lagrangian as ansatz_lagrangian
+    from lagrotor.pair.lagrangians import axes_pair as axes_pair
+    from lagrotor.pair.lagrangians import axis as axis
+    from lagrotor.pair.lagrangians import bar_curve as bar_curve
+    from lagrotor.pair.lagrangians import joint_line_momentum as joint_line_momentum
+    from lagrotor.pair.lagrangians import link_constraint as link_constraint
+    from lagrotor.pair.lagrangians import mercator_axis as mercator_axis
+    from lagrotor.pair.lagrangians import mercator_lagrangian as mercator_lagrangian
+    from lagrotor.pair.lagrangians import minimal_embedding as minimal_embedding
+    from lagrotor.pair.lagrangians import pair_lagrangian as pair_lagrangian
+    from lagrotor.pair.lagrangians import pair_with_bar as pair_with_bar
+    from lagrotor.pair.lagrangians import rotor_lagrangian as rotor_lagrangian
+    from lagrotor.pair.scene_document import scene_of as scene_of
+    from lagrotor.pair.scene_document import scene_toml as scene_toml
+    from lagrotor.pair.trajectory import UNITS as UNITS
+    from lagrotor.pair.trajectory import ansatz_A as ansatz_A
+
+__getattr__, __dir__, __all__ = face(__name__)

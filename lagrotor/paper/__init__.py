@@ -4,15 +4,34 @@
 of a claim `ClaimTest`, `Finding`, `Part`; and `symbols.py` `Glossary`.
 """
 
-from lagrotor.mechanics.glossary import Glossary as Glossary
-from lagrotor.paper.claim_tests import ClaimTest as ClaimTest
-from lagrotor.paper.claim_tests import Finding as Finding
-from lagrotor.paper.claim_tests import Part as Part
-from lagrotor.paper.ledger import judge as judge
-from lagrotor.paper.papers import Paper as Paper
-from lagrotor.paper.premises import Premise as Premise
-from lagrotor.paper.proof import Formula as Formula
-from lagrotor.paper.proof import Remark as Remark
-from lagrotor.paper.proof import prove as prove
-from lagrotor.paper.stating import verdict as verdict
-from lagrotor.paper.tables import Table as Table
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.mechanics.glossary import Glossary as Glossary
+    from lagrotor.paper.audit import Audit as Audit
+    from lagrotor.paper.claim_tests import ClaimTest as ClaimTest
+    from lagrotor.paper.claim_tests import Finding as Finding
+    from lagrotor.paper.claim_tests import Part as Part
+    from lagrotor.paper.claim_tests import Result as Result
+    from lagrotor.paper.ledger import decide as decide
+    from lagrotor.paper.ledger import judge as judge
+    from lagrotor.paper.papers import Paper as Paper
+    from lagrotor.paper.premises import Premise as Premise
+    from lagrotor.paper.premises import parameter_premise as parameter_premise
+    from lagrotor.paper.proof import Formula as Formula
+    from lagrotor.paper.proof import Remark as Remark
+    from lagrotor.paper.proof import Step as Step
+    from lagrotor.paper.proof import prove as prove
+    from lagrotor.paper.readable import scientific as scientific
+    from lagrotor.paper.stating import Stated as Stated
+    from lagrotor.paper.stating import verdict as verdict
+    from lagrotor.paper.tables import FigureLink as FigureLink
+    from lagrotor.paper.tables import Table as Table
+    from lagrotor.paper.verdicts import Relation as Relation
+    from lagrotor.paper.verdicts import Statement as Statement
+    from lagrotor.paper.verdicts import Verdict as Verdict
+    from lagrotor.paper.verdicts import chain as chain
+
+__getattr__, __dir__, __all__ = face(__name__)

@@ -1,0 +1,37 @@
+"""Any number of rotors and bars: standing under load, response, waves, the exact motion."""
+
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.structures.absorbers import mass_worst_case as mass_worst_case
+    from lagrotor.structures.absorbers import spins_white_noise as spins_white_noise
+    from lagrotor.structures.absorbers import spins_win_white_noise as spins_win_white_noise
+    from lagrotor.structures.absorbers import spins_win_worst_case as spins_win_worst_case
+    from lagrotor.structures.absorbers import spins_worst_case as spins_worst_case
+    from lagrotor.structures.document import read_structure as read_structure
+    from lagrotor.structures.document import structure_of as structure_of
+    from lagrotor.structures.document import toml_of as toml_of
+    from lagrotor.structures.document import write_structure as write_structure
+    from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
+    from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
+    from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
+    from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
+    from lagrotor.structures.gallery import GALLERY as GALLERY
+    from lagrotor.structures.gallery import example as example
+    from lagrotor.structures.pattern_search import sign_patterns as sign_patterns
+    from lagrotor.structures.pictures import draw_plan as draw_plan
+    from lagrotor.structures.waves.bloch import bloch as bloch
+    from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
+    from lagrotor.structures.waves.dispersion import dispersion as dispersion
+    from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds
+    from lagrotor.structures.waves.edge_waves import edge_waves as edge_waves
+    from lagrotor.structures.waves.patterns import honeycomb as honeycomb
+    from lagrotor.structures.waves.patterns import polygon_ring as polygon_ring
+    from lagrotor.structures.waves.patterns import square as square
+    from lagrotor.structures.waves.patterns import square_octagon as square_octagon
+    from lagrotor.structures.waves.patterns import straight_row as straight_row
+    from lagrotor.structures.waves.patterns import zigzag as zigzag
+
+__getattr__, __dir__, __all__ = face(__name__)

@@ -1,0 +1,57 @@
+"""Closed forms of the pair, each with its error: shock, drift, toppling, twist, the paired precession."""
+
+from typing import TYPE_CHECKING
+
+from lagrotor.faces import face
+
+if TYPE_CHECKING:
+    from lagrotor.theory.averaging import averaged_routhian as averaged_routhian
+    from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
+    from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
+    from lagrotor.theory.averaging import slow_rates as slow_rates
+    from lagrotor.theory.averaging import slow_stiffness as slow_stiffness
+    from lagrotor.theory.closed_form import ClosedForm as ClosedForm
+    from lagrotor.theory.drift_after_shock import cancelling_impulse as cancelling_impulse
+    from lagrotor.theory.drift_after_shock import mean_square_twist as mean_square_twist
+    from lagrotor.theory.drift_after_shock import second_order_momentum as second_order_momentum
+    from lagrotor.theory.drift_after_shock import shock_toppling as shock_toppling
+    from lagrotor.theory.drift_after_shock import shock_wander as shock_wander
+    from lagrotor.theory.drift_after_shock import wander_after_shock as wander_after_shock
+    from lagrotor.theory.drift_error import cancelling_force_error as cancelling_force_error
+    from lagrotor.theory.drift_error import toppling_error as toppling_error
+    from lagrotor.theory.drift_error import wander_error as wander_error
+    from lagrotor.theory.impulse_response import impulse_matrices as impulse_matrices
+    from lagrotor.theory.impulse_response import shock_displacement as shock_displacement
+    from lagrotor.theory.impulse_response import shock_energy as shock_energy
+    from lagrotor.theory.natural_frequency import linear_pair as linear_pair
+    from lagrotor.theory.natural_rate import natural_rate_error as natural_rate_error
+    from lagrotor.theory.paired_precession.amplitudes import amplitude_of_first_harmonic as amplitude_of_first_harmonic
+    from lagrotor.theory.paired_precession.amplitudes import largest_inclination as largest_inclination
+    from lagrotor.theory.paired_precession.closed_forms import corrected_inclinations as corrected_inclinations
+    from lagrotor.theory.paired_precession.series import paired_series as paired_series
+    from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit as PrecessionOrbit
+    from lagrotor.theory.paired_precession.series_orbit import series_orbit as series_orbit
+    from lagrotor.theory.paired_precession.stability import elliptic_edge as elliptic_edge
+    from lagrotor.theory.paired_precession.stability import exponent_series as exponent_series
+    from lagrotor.theory.paired_precession.stability import growth_squared as growth_squared
+    from lagrotor.theory.paired_precession.stability import most_growth as most_growth
+    from lagrotor.theory.parallel_twist import lyapunov_criterion as lyapunov_criterion
+    from lagrotor.theory.parallel_twist import parallel_residual as parallel_residual
+    from lagrotor.theory.parallel_twist import parallel_scene as parallel_scene
+    from lagrotor.theory.parallel_twist import twist_bounded as twist_bounded
+    from lagrotor.theory.parallel_twist import twist_coefficients as twist_coefficients
+    from lagrotor.theory.parallel_twist import twist_growth as twist_growth
+    from lagrotor.theory.parallel_twist import twist_growth_error as twist_growth_error
+    from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
+    from lagrotor.theory.single_rotor import free_precession_rate as free_precession_rate
+    from lagrotor.theory.single_rotor import pair_precession_rate as pair_precession_rate
+    from lagrotor.theory.single_rotor import rotor_precession_rate as rotor_precession_rate
+    from lagrotor.theory.toppling import linear_toppling as linear_toppling
+    from lagrotor.theory.toppling import toppling_growth as toppling_growth
+    from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
+    from lagrotor.theory.toppling import toppling_residual as toppling_residual
+    from lagrotor.theory.toppling import toppling_threshold as toppling_threshold
+    from lagrotor.theory.toppling import turning as turning
+    from lagrotor.theory.toppling import twisted_lagrangian as twisted_lagrangian
+
+__getattr__, __dir__, __all__ = face(__name__)

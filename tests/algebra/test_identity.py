@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import cos, cosh, cot, coth, csc, csch, exp, pi, sec, sech, sin, sinh, sqrt, tan, tanh
 
-from lagrotor.algebra.identity import decide_equal, decide_zero, normal_form
+from lagrotor.algebra import decide_equal, decide_zero, normal_form
 from lagrotor.errors import InputError, NotExactError
 
 x, y, omega, t = sp.symbols("x y omega t")

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Rational, asinh, atan, cos, cosh, exp, log, sin, sqrt, tan
 
-from lagrotor.algebra.power_series import LeadingTerm, agreement_order, leading_term, truncated_series
+from lagrotor.algebra import LeadingTerm, agreement_order, leading_term, truncated_series
 from lagrotor.errors import InputError, NotExactError
 
 x, y, e = sp.symbols("x y epsilon")

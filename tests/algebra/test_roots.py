@@ -7,8 +7,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Abs, I, Rational, S, cos, cosh, exp, pi, sin, sqrt, tan
 
+from lagrotor.algebra import decide_equal, decide_zero, normal_form
 from lagrotor.algebra.evidence import points
-from lagrotor.algebra.identity import decide_equal, decide_zero, normal_form
 from lagrotor.errors import NotExactError
 
 x, y, z = sp.symbols("x y z")

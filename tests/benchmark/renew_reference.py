@@ -14,8 +14,8 @@ import numpy as np
 from lagrotor import Scene
 from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, ORDER
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics.codegen import compile_program
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
+from lagrotor.numerics import compile_program
+from lagrotor.theory import series_orbit
 
 TARGET = Path(__file__).with_name("reference.json")
 COLUMNS, STEPS_A_SECOND = 13, 20

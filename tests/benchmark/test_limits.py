@@ -35,10 +35,8 @@ from lagrotor.benchmark.scipy_solvers import SOLVERS, run_by
 from lagrotor.benchmark.throughput import displaced_family
 from lagrotor.commands.command_line import main
 from lagrotor.errors import IntegrationError, SingularError
-from lagrotor.models import euler, minimal, spheres
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.spring_link.rigid_body import finite_rotation
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.models import euler, exact_orbit, finite_rotation, minimal, spheres
+from lagrotor.numerics import measured_order
 
 
 def test_threshold_halves_in_the_logarithm():

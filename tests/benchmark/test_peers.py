@@ -14,7 +14,7 @@ from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odei
 from lagrotor.benchmark.runner import benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import IntegrationError
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics import measured_order
 
 SCENE = CASES["displaced"](True).scene
 TIMES = np.linspace(0, 1, 11)

@@ -15,9 +15,9 @@ from lagrotor.benchmark.reference import reference
 from lagrotor.benchmark.runner import Failure, Point, benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
-from lagrotor.drawing.style import paper_style
+from lagrotor.drawing import paper_style
 from lagrotor.errors import InputError
-from lagrotor.models.closed_form_model import closed_form
+from lagrotor.models import closed_form
 from lagrotor.pictures.speed_chart import speed_chart as draw
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())

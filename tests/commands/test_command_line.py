@@ -19,11 +19,9 @@ from lagrotor.commands import terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
-from lagrotor.paper import Paper, claim_tests
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
 from lagrotor.paper.rotor_pair import own_paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.pictures import figures
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.job import folder, reproduce

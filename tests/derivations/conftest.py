@@ -4,11 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from lagrotor.paper import scripts
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Stated, Verdict, decide, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import Stated
-from lagrotor.paper.verdicts import Verdict
 
 Edit = tuple[str, str, str]  # script, text, what takes its place
 

@@ -5,7 +5,7 @@ import pytest
 
 from lagrotor.benchmark.runner import benchmark
 from lagrotor.benchmark.scenes_and_methods import METHODS
-from lagrotor.drawing.style import paper_style
+from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 

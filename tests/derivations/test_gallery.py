@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import ProofError
-from lagrotor.paper.proof import Step, prove
+from lagrotor.paper import Step, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 GALLERY = PAPER.scripts.names("derivations", "g")

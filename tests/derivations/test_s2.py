@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.pair.notation import G_1, G_2, Omega, R, a, b, t
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 NAMES = PAPER.scripts.run("derivations", "s2b_linear_pair")

@@ -9,9 +9,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Premise, decide
 from lagrotor.paper.letters import symmetric
-from lagrotor.paper.premises import Premise
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (

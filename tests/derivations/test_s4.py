@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 LINKS, ENERGY, SHOCK = "s4a_link_constants", "s4b_energy", "s4c_shock"

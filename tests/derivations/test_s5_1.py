@@ -10,9 +10,8 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.errors import ProofError
 from lagrotor.pair.notation import G_1, G_2, G, Omega, R, t
-from lagrotor.paper.proof import Remark, prove
+from lagrotor.paper import Remark, Stated, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import Stated
 
 BAR = Link(mass=1, inertia=1)
 NUMBERS = {"p": 1.75, "q": 3.25, "G": 10.0}

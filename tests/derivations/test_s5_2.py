@@ -9,14 +9,12 @@ import pytest
 import sympy as sp
 from scipy.spatial.transform import Rotation
 
-from lagrotor import Link, Scene, paired_scene, simulate
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order, swing
-from lagrotor.pair import lagrangians
+from lagrotor import Link, Scene, paired_frequency, paired_scene, simulate
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order, swing
+from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
-from lagrotor.pair.trajectory import ansatz_A
-from lagrotor.paper import proof, scripts, stating
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Stated, Statement, Verdict, decide, proof, scripts, stating
 from lagrotor.paper.rotor_pair import shared_premises
 from lagrotor.paper.rotor_pair.ansatz_premises import (
     breach,
@@ -26,9 +24,6 @@ from lagrotor.paper.rotor_pair.ansatz_premises import (
     opposite_spin_angles,
 )
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import Stated
-from lagrotor.paper.verdicts import Statement, Verdict
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
 ABOUT, MASSLESS, EQUAL = (
     shared_premises.ABOUT_JOINT.says,

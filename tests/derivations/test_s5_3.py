@@ -8,12 +8,10 @@ import pytest
 import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import J, K, R, ell, k, m, omega, sigma
-from lagrotor.paper import proof, scripts, stating
-from lagrotor.paper.ledger import decide
-from lagrotor.paper.premises import Premise
+from lagrotor.paper import Premise, Stated, decide, proof, scripts, stating
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import (
     EQUAL_SPINS,
@@ -23,7 +21,6 @@ from lagrotor.paper.rotor_pair.shared_premises import (
     PAPERS_ROTOR,
     in_parameters,
 )
-from lagrotor.paper.stating import Stated
 
 STEMS = ("s5_3a_equal_spins", "s5_3b_opposite_spins")
 SCRIPTS = [PAPER.scripts.executed("derivations", stem) for stem in STEMS]

@@ -8,13 +8,11 @@ import sympy as sp
 
 from lagrotor import Link, Scene, natural_rate, simulate
 from lagrotor.mechanics import degrees_of_freedom
-from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import G_1, G_2, G, a, b
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Relation, Stated, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
-from lagrotor.paper.stating import Stated
-from lagrotor.paper.verdicts import Relation
 
 SCRIPT = PAPER.scripts.executed("derivations", "s6_conclusion")
 NAMES = SCRIPT.names

@@ -10,15 +10,15 @@ import pytest
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from lagrotor import Scene, Shock, consistent_scene, simulate
+from lagrotor import Scene, Shock, consistent_scene, paired_frequency, simulate
 from lagrotor.commands.command_line import main
+from lagrotor.drawing import Camera
 from lagrotor.drawing.film import SIZE, frame_times
-from lagrotor.drawing.wheel import Camera, carried, wheel
+from lagrotor.drawing.wheel import carried, wheel
 from lagrotor.errors import InputError, LagrotorError
-from lagrotor.numerics.rotations import between_samples, body_rotations, turn_between
-from lagrotor.pair.examples import SCENES
+from lagrotor.numerics import between_samples, body_rotations, turn_between
+from lagrotor.pair import SCENES
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.paired_precession.closed_forms import paired_frequency
 
 START = np.array([[0.3, 0.2, np.sqrt(0.87)], [0.0, 0.0, 1.0]])
 RATES = np.array([[0.6, -0.9, 0.0], [1.0, 0.5, 0.0]])

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from lagrotor.drawing.style import paper_style
+from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Rotor, natural_rate
-from lagrotor.models.spring_link.system import RigidBodySystem
+from lagrotor.models import RigidBodySystem
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
 

@@ -2,8 +2,7 @@
 
 import sympy as sp
 
-from lagrotor.mechanics.exponents import characteristic_exponents
-from lagrotor.mechanics.perturbation import lindstedt_poincare
+from lagrotor.mechanics import characteristic_exponents, lindstedt_poincare
 
 ORDER = 9
 

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.mechanics.order_by_order import GrowingSeries, Unknowns
+from lagrotor.mechanics import FourierSeries, GrowingSeries, Unknowns
 
 ORDER = 4
 KEYS = st.tuples(st.integers(0, ORDER), st.integers(-3, 3))

@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.fourier import FourierSeries
-from lagrotor.mechanics.perturbation import lindstedt_poincare
+from lagrotor.mechanics import FourierSeries, lindstedt_poincare
 
 
 def value(series: FourierSeries, eps: float, phase: float) -> float:

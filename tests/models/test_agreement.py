@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
 from lagrotor.errors import IntegrationError
 from lagrotor.mechanics import project_position, project_velocity, solve_constrained
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.pair.trajectory import Trajectory
 
 TIMES = np.linspace(0, 10, 41)
 TOL = 1e-11

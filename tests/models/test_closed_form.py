@@ -8,12 +8,9 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import DomainError
-from lagrotor.models import minimal
-from lagrotor.models.closed_form_model import closed_form
+from lagrotor.models import closed_form, exact_orbit, minimal
 from lagrotor.models.integrated import integrated
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
-from lagrotor.theory.parallel_twist import parallel_scene
+from lagrotor.theory import parallel_scene, series_orbit
 
 T = np.linspace(0, 5, 101)
 ROTOR = Rotor(1.3, 0.9, 0.7, 1.1)

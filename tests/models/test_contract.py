@@ -9,12 +9,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import Chebyshev
 
-from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
+from lagrotor import Link, Rotor, Scene, Shock, Trajectory, consistent_scene, simulate
 from lagrotor.errors import InputError
+from lagrotor.models import exact_orbit, paper_system, run_solver
 from lagrotor.models.estimate_constants import LINEAR_MARGIN
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.spring_link.run import paper_system, run_solver
-from lagrotor.pair.trajectory import Trajectory
 
 END, POINTS = 1.5, 81
 TIMES = END / 2 * (1 - np.cos(np.pi * np.arange(POINTS) / (POINTS - 1)))  # Chebyshev points: rates integrate exactly

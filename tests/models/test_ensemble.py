@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
+from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, sweep
 from lagrotor.errors import InputError, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models import chunk, ensemble
 from lagrotor.models.chunk import MODELS, run_chunk
-from lagrotor.models.ensemble import started, sweep
+from lagrotor.models.ensemble import started
 from lagrotor.models.minimal import MODEL
 
 T = np.array([0.0, 0.4, 1.0, 2.5])

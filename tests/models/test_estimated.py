@@ -9,13 +9,11 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.models import estimated, euler, minimal
-from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.conserved import conservation_defect, pulse_nodes
+from lagrotor.models import closed_form, conservation_defect, estimated, euler, minimal, parting, periodic_orbit
+from lagrotor.models.conserved import pulse_nodes
 from lagrotor.models.estimate_constants import TABLE
 from lagrotor.models.integrated import integrated
 from lagrotor.models.natural_units import natural_units, typical_rate
-from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
 from lagrotor.numerics import solver_constants
 
 SHOCKED = Scene(

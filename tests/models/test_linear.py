@@ -11,11 +11,11 @@ from scipy.linalg import expm
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, LagrotorError, SingularError
-from lagrotor.models.estimate_constants import linear_bound
-from lagrotor.models.linear import linear_error, linear_run, modes
+from lagrotor.models import linear_bound, linear_error, linear_run
+from lagrotor.models.linear import modes
 from lagrotor.models.minimal import MODEL
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.impulse_response import impulse_matrices
+from lagrotor.numerics import measured_order
+from lagrotor.theory import impulse_matrices
 from tests.models.test_choose import random_scene
 
 ROTOR, BAR = Rotor(1.3, 0.9, 0.7, 1.1), Link(0.8, 0.3, 0.05)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import DomainError
-from lagrotor.models.mean_motion import mean_error, mean_over
+from lagrotor.models import mean_error, mean_over
 
 
 @pytest.mark.parametrize("turns", [4, 6.3, 8, 12.7, 24])

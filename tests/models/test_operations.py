@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics.codegen import operations
+from lagrotor.numerics import operations
 
 MINIMAL = {
     (False, "equal"): 68, (False, "short"): 101, (False, "long"): 80,

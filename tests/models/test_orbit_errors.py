@@ -10,13 +10,24 @@ import numpy as np
 import pytest
 
 import lagrotor
-from lagrotor import Link, Rotor, Scene, Shock, natural_rate, paired_scene, precession_orbit, simulate
+from lagrotor import (
+    Link,
+    Rotor,
+    Scene,
+    Shock,
+    corrected_trajectories,
+    natural_rate,
+    paired_frequency,
+    paired_momentum,
+    paired_scene,
+    precession_orbit,
+    simulate,
+)
 from lagrotor.errors import DomainError, InputError
+from lagrotor.models import exact_orbit
 from lagrotor.models.orbits.precession import sampled
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.theory import PrecessionOrbit, series_orbit
 from lagrotor.theory.paired_precession.amplitudes import first_harmonic
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency, paired_momentum
-from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit, series_orbit
 
 PHASES = np.linspace(0, 2 * np.pi, 121)
 MASSLESS, LONG_ROTOR = Scene(spins=(10, -10)), Rotor(1.3, 0.8, 0.9, 1.2)

@@ -5,8 +5,7 @@ import pytest
 
 from lagrotor import Link, Scene, floquet, orbit_family, simulate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.orbits.continuation import trace_family
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models import exact_orbit, trace_family
 from lagrotor.models.orbits.variational import flow
 
 

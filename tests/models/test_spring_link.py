@@ -10,17 +10,24 @@ from scipy.spatial.transform import Rotation
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models.spring_link.rigid_body import (
+from lagrotor.models import (
     RigidBody,
+    RigidBodySystem,
     finite_rotation,
     inertia_transform,
+    join_bar,
+    link_force,
+    paper_bodies,
+    paper_system,
     printed_inertia_transform,
+    printed_link_force,
     printed_rotation,
     rotation_between,
+    run_solver,
+    run_steps,
+    step_limit,
 )
-from lagrotor.models.spring_link.run import join_bar, paper_bodies, paper_system, run_solver, run_steps
-from lagrotor.models.spring_link.system import RigidBodySystem, link_force, printed_link_force, step_limit
-from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.numerics import cross_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)

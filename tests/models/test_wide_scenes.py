@@ -12,10 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import simulate
+from lagrotor import Trajectory, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import simulate as simulating
-from lagrotor.pair.trajectory import Trajectory
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
 
 RECORDED = np.load(Path(__file__).with_name("wide_scenes.npz"))

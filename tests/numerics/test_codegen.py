@@ -12,15 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.numerics.codegen import (
-    Program,
-    compile_program,
-    in_blocks,
-    javascript,
-    operations,
-    reduce_common,
-    solve_symmetric,
-)
+from lagrotor.numerics import Program, compile_program, operations
+from lagrotor.numerics.codegen import in_blocks, javascript, reduce_common, solve_symmetric
 
 x, y, z = sp.symbols("x y z", real=True)
 s, t = sp.symbols("s t", real=True)

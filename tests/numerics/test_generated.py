@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from lagrotor.numerics.codegen import Program, program_source
+from lagrotor.numerics import Program, program_source
 from lagrotor.numerics.generated import GeneratedFunction, function_of
 from lagrotor.report.renew_record import generated_code
 

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
+from lagrotor.numerics import Problem
 from lagrotor.numerics import integrate as module
-from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.integrate import check_tolerance, integrate
 from lagrotor.numerics.segment import Array, RightHandSide, Run, Segment, StopError
 from lagrotor.numerics.solver_constants import DETOUR
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.numerics.rotations import between_samples
+from lagrotor.numerics import between_samples, measured_order
 
 
 def circles(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from lagrotor.numerics.spectrum import mean_between, peak, spectrum, turn_means
+from lagrotor.numerics import mean_between, peak, turn_means
+from lagrotor.numerics.spectrum import spectrum
 
 
 def test_the_peak_of_a_known_sine():

@@ -12,7 +12,7 @@ from lagrotor.models import minimal
 from lagrotor.models.integrated import integrated
 from lagrotor.models.programs.minimal_program import observation, program
 from lagrotor.numerics import taylor
-from lagrotor.pair.examples import SHOCK_PAIRED
+from lagrotor.pair import SHOCK_PAIRED
 
 TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
 MOVING = {"rates": ((0.4, 1, 0), (0.4, -0.5, 0))}

@@ -18,7 +18,7 @@ from lagrotor.mechanics import (
     solve_constrained,
     total_derivative,
 )
-from lagrotor.pair.lagrangians import (
+from lagrotor.pair import (
     INERTIAS,
     J_OF,
     JOINT_LINE,

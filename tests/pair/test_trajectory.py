@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, Shock, simulate
+from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays, write_beside, write_text
-from lagrotor.pair.trajectory import UNITS, Trajectory
+from lagrotor.pair import UNITS
 
 TIMES = np.linspace(0, 2, 21)
 ROTOR = Rotor(mass=1.3, length=0.9, I1=0.7, I3=1.1)

@@ -4,10 +4,10 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import InputError, ProofError
+from lagrotor.paper import verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import Letters, cross, vector
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import verdict
 
 DECLARED = PAPER.letters("3")
 

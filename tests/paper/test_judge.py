@@ -4,8 +4,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.paper import judge
-from lagrotor.paper.premises import Premise
+from lagrotor.paper import Premise, judge
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)

@@ -7,15 +7,11 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import I1, I3, ROTOR, J, r0
-from lagrotor.paper import letters
-from lagrotor.paper.ledger import decide
-from lagrotor.paper.premises import Premise
+from lagrotor.paper import Premise, Relation, Statement, chain, decide, letters, verdict
 from lagrotor.paper.record import as_text, changes, reaches_result, recorded
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import about_parameters
-from lagrotor.paper.stating import verdict
 from lagrotor.paper.verdict_text import as_data
-from lagrotor.paper.verdicts import Relation, Statement, chain
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)

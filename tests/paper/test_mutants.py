@@ -11,9 +11,8 @@ from itertools import islice
 import pytest
 import sympy as sp
 
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import Relation, Statement, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdicts import Relation, Statement
 
 MOST = 6  # twins of one relation that are judged
 
@@ -149,7 +148,7 @@ proof.prove = lambda *sides, **more: None
 import lagrotor.paper.stating as stating
 stating.needs_premises = lambda *compared: False
 {change}
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 found = {{}}
 for stem in sys.argv[1:]:

@@ -5,7 +5,7 @@ import sympy as sp
 
 from lagrotor.errors import ProofError
 from lagrotor.pair.notation import PAIR, ell, theta_0
-from lagrotor.paper.proof import Formula, prove
+from lagrotor.paper import Formula, prove
 
 x, y = sp.symbols("x y", real=True)
 SQUARES = sp.sin(x) ** 2 + sp.cos(x) ** 2

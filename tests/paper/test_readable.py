@@ -2,7 +2,8 @@
 
 import pytest
 
-from lagrotor.paper.readable import readable, scientific
+from lagrotor.paper import scientific
+from lagrotor.paper.readable import readable
 
 
 @pytest.mark.parametrize(

@@ -8,12 +8,10 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrotor.pair.lagrangians import INERTIAS, J_OF
+from lagrotor.pair import INERTIAS, J_OF
 from lagrotor.pair.notation import G_1, G_2, GLOSSARY, I3, G, J, omega, omega_1, omega_2, r0, theta_0
-from lagrotor.paper import scripts
+from lagrotor.paper import Stated, Statement, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.stating import Stated
-from lagrotor.paper.verdicts import Statement
 
 STEMS = PAPER.scripts.names("derivations", "s")
 # What a letter means is no premise: it may be written out.
@@ -111,9 +109,9 @@ def test_no_premise_is_put_in_before_the_ledger_looks(stem: str, monkeypatch: py
 
 
 BY_HAND = """
-from lagrotor.pair.lagrangians import rotor_lagrangian
+from lagrotor.pair import rotor_lagrangian
 from lagrotor.pair.notation import I3, J
-from lagrotor.paper.stating import verdict
+from lagrotor.paper import verdict
 
 L = rotor_lagrangian()
 verdict("5.01", L)

@@ -8,7 +8,7 @@ from scipy.integrate import trapezoid
 
 from lagrotor import Scene, Shock, simulate
 from lagrotor.errors import InputError
-from lagrotor.pair.examples import SCENES
+from lagrotor.pair import SCENES
 from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,

@@ -5,11 +5,7 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
-from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.ledger import decide
-from lagrotor.paper.proof import Remark
-from lagrotor.paper.stating import verdict
-from lagrotor.paper.verdicts import Statement, chain
+from lagrotor.paper import ClaimTest, Finding, Part, Remark, Statement, chain, decide, verdict
 
 x = sp.Symbol("x", real=True)
 HOLDS = Statement("5.01", chain(sp.sin(x) ** 2, 1 - sp.cos(x) ** 2))

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from lagrotor.paper.tables import FigureLink, Table
+from lagrotor.paper import FigureLink, Table
 
 HOSTILE = "<script>a & b</script>"
 TAME = "&lt;script&gt;a &amp; b&lt;/script&gt;"

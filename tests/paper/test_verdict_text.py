@@ -2,8 +2,9 @@
 
 import pytest
 
+from lagrotor import audit
 from lagrotor.paper.readable import from_latex
-from lagrotor.paper.rotor_pair.own_paper import PAPER, audit
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.verdict_text import in_words
 
 

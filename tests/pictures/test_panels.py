@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from lagrotor.pictures.panels import distance_over_one_turn, orbits_from_above, rate_figure, shock_figure
+from lagrotor.pictures import distance_over_one_turn, orbits_from_above, rate_figure, shock_figure
 
 
 def test_the_frames_of_an_orbit():

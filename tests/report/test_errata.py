@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from lagrotor.paper import Verdict
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdicts import Verdict
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.markdown import errata_blocks
 

@@ -6,11 +6,9 @@ from pathlib import Path
 import pytest
 
 from lagrotor.pair.notation import M, R
-from lagrotor.paper.claim_tests import ClaimTest, Finding, Result
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import ClaimTest, Finding, Result, Statement, chain, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdicts import Statement, chain
-from lagrotor.pictures.figures import Picture
+from lagrotor.pictures import Picture
 from lagrotor.report.cite import citation
 from lagrotor.report.content import Report
 from lagrotor.report.results import balance, headlines

@@ -12,12 +12,9 @@ import pytest
 import sympy as sp
 
 from lagrotor.pair.notation import M, r0
-from lagrotor.paper import claim_tests
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import FigureLink, Relation, Statement, Table, chain, claim_tests, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.tables import FigureLink, Table
-from lagrotor.paper.verdicts import Relation, Statement, chain
-from lagrotor.pictures.figures import Picture
+from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.latex import END, derived, head, printed, prose, table
 from lagrotor.report.supplement import supplement

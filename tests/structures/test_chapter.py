@@ -3,8 +3,7 @@
 import pytest
 
 from lagrotor.errors import ProofError
-from lagrotor.paper import scripts
-from lagrotor.paper.proof import Remark, Step
+from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 STEMS = PAPER.scripts.names("derivations", "n")

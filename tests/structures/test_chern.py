@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.structures.waves.bloch import bloch
-from lagrotor.structures.waves.chern import chern_numbers
-from lagrotor.structures.waves.edge_waves import edge_waves
-from lagrotor.structures.waves.patterns import honeycomb, square, square_octagon, straight_row
+from lagrotor.structures import bloch, chern_numbers, edge_waves, honeycomb, square, square_octagon, straight_row
 
 SPRINGS = {"spring": 50.0, "hinge": 200.0}
 BARS = {"move": (0.3, 0.3), "hinge": 200.0}

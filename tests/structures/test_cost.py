@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
-from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures import exact_motion
 from lagrotor.structures.exact.saddle import saddle
 
 SIZES = (64, 512, 4096)

@@ -7,8 +7,7 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.structures.document import read_structure, structure_of, toml_of, write_structure
-from lagrotor.structures.gallery import GALLERY, example
+from lagrotor.structures import GALLERY, example, read_structure, structure_of, toml_of, write_structure
 
 STANDS = {
     "top": True, "pair": False, "loaded-pair": False, "braced-pair": True, "corner": True, "row": False, "square": True,

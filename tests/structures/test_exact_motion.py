@@ -9,7 +9,7 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures import exact_motion
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.oracle import by_lagrange

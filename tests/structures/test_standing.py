@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
+from lagrotor.structures import bounded_motion, measured_growth
 from lagrotor.structures.coefficients import coefficients
-from lagrotor.structures.exact.held_to_exact import bounded_motion, measured_growth
 from lagrotor.structures.small_motion import small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}

@@ -7,8 +7,16 @@ from hypothesis import strategies as st
 
 from lagrotor import Brace, Link, Pattern, Rotor, Structure
 from lagrotor.errors import InputError
-from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
-from lagrotor.structures.waves.patterns import honeycomb, polygon_ring, square, square_octagon, straight_row, zigzag
+from lagrotor.structures import (
+    dispersion,
+    honeycomb,
+    long_wave_speeds,
+    polygon_ring,
+    square,
+    square_octagon,
+    straight_row,
+    zigzag,
+)
 
 J = Rotor().J
 Q = np.linspace(-3.1, 3.1, 24)

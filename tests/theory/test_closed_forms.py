@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, consistent_scene, natural_rate, simulate
+from lagrotor import Link, Scene, consistent_scene, corrected_trajectories, natural_rate, simulate
 from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor.theory import corrected_inclinations, free_precession_rate, pair_precession_rate, rotor_precession_rate
 from lagrotor.theory.natural_frequency import natural_frequency
-from lagrotor.theory.paired_precession.closed_forms import corrected_inclinations, corrected_trajectories
-from lagrotor.theory.single_rotor import free_precession_rate, pair_precession_rate, rotor_precession_rate
 
 ALL = (
     rotor_precession_rate,

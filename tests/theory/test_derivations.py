@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 from lagrotor.errors import ProofError
-from lagrotor.paper import scripts
-from lagrotor.paper.proof import Remark, Step
+from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, natural_rate
+from lagrotor import Link, Scene, Shock, cancelling_force, natural_rate, toppling_after_shock
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.mean_motion import (
+from lagrotor.models import (
     exact_cancelling_force,
     mean_error,
     run_after,
@@ -16,9 +16,8 @@ from lagrotor.models.mean_motion import (
     turning_rate,
     wandering_rate,
 )
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
-from lagrotor.theory.drift_error import cancelling_force_error, toppling_error, wander_error
+from lagrotor.numerics import measured_order
+from lagrotor.theory import cancelling_force_error, toppling_error, wander_after_shock, wander_error
 from tests.theory.random_pairs import COUNTS, held, random_pair, shocked
 
 TURNS = 24

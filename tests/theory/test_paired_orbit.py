@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import Link, Rotor, Scene, natural_rate
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.simulate import simulate
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.paired_precession.closed_forms import paired_momentum
-from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor import Link, Rotor, Scene, natural_rate, paired_momentum, simulate
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order
+from lagrotor.theory import paired_series
 
 # sigma = 5/9, 7/5 and 11/8, with k = 13/10, 4/5 and 1.
 BARS = {

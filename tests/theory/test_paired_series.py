@@ -4,13 +4,22 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import Link, Rotor, Scene, Shock, natural_rate, paired_scene, simulate
+from lagrotor import (
+    Link,
+    Rotor,
+    Scene,
+    Shock,
+    corrected_trajectories,
+    natural_rate,
+    paired_frequency,
+    paired_scene,
+    simulate,
+)
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import Phi, k, r0, sigma
-from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
-from lagrotor.theory.paired_precession.series import paired_series
+from lagrotor.theory import paired_series
 
 SCENES = {
     "massless": Scene(spins=(10, -10)),

@@ -8,10 +8,10 @@ import sympy as sp
 
 from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
-from lagrotor.mechanics.exponents import characteristic_exponents
+from lagrotor.mechanics import characteristic_exponents
 from lagrotor.pair.notation import k, r0, sigma
-from lagrotor.theory.paired_precession.series import equations, paired_series, shape_of
-from lagrotor.theory.paired_precession.stability import elliptic_edge, exponent_series, growth_squared, most_growth
+from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, most_growth, paired_series
+from lagrotor.theory.paired_precession.series import equations, shape_of
 
 BARS = {"b = 0": Link(1), "b < 0": Link(1, 0.01, 0.1), "b > 0": Link(0.9, 0.8, 0.05), "edge": Link(1.3, 0.35, 0.11)}
 

@@ -5,14 +5,8 @@ import pytest
 
 from lagrotor import Link, Scene, simulate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.parallel_twist import (
-    parallel_scene,
-    twist_bounded,
-    twist_growth,
-    twist_growth_error,
-    twist_multiplier_growth,
-)
+from lagrotor.numerics import measured_order
+from lagrotor.theory import parallel_scene, twist_bounded, twist_growth, twist_growth_error, twist_multiplier_growth
 from tests.theory.random_pairs import COUNTS, held, random_pair
 
 

@@ -3,25 +3,20 @@
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, simulate
+from lagrotor import Link, Rotor, Scene, corrected_trajectories, paired_frequency, paired_momentum, simulate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.codegen import operations
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.paired_precession.amplitudes import (
+from lagrotor.models import exact_orbit
+from lagrotor.numerics import measured_order, operations
+from lagrotor.theory import (
     amplitude_of_first_harmonic,
-    first_harmonic,
-    largest_inclination,
-)
-from lagrotor.theory.paired_precession.closed_forms import (
     corrected_inclinations,
-    corrected_trajectories,
-    paired_frequency,
-    paired_momentum,
+    largest_inclination,
+    paired_series,
+    series_orbit,
 )
+from lagrotor.theory.paired_precession.amplitudes import first_harmonic
 from lagrotor.theory.paired_precession.horner import program
-from lagrotor.theory.paired_precession.series import paired_series, shape_of
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
+from lagrotor.theory.paired_precession.series import shape_of
 
 SCENES = {
     "massless": Scene(spins=(10, -10)),

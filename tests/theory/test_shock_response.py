@@ -5,11 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
+from lagrotor import Link, Rotor, Scene, Shock, natural_rate, shock_response, simulate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.linear import shock_response_error
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.theory.shock_response import shock_response
+from lagrotor.models import shock_response_error
+from lagrotor.numerics import measured_order
 from tests.theory.random_pairs import COUNTS, held, random_pair, shocked
 
 sizes = st.floats(0.3, 2.0)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.theory.toppling import toppling_growth, toppling_threshold
+from lagrotor.theory import toppling_growth, toppling_threshold
 
 
 @settings(max_examples=10, deadline=None)

@@ -12,6 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from lagrotor.about import __version__
+from lagrotor.faces import handed_on
 from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
@@ -42,13 +43,10 @@ def _tree(path: Path) -> ast.Module:
 
 
 @cache
-def _later() -> dict[str, str]:
-    """Public name of the package → the module that its face hands it on from."""
-    found: dict[str, str] = {}
-    for node in ast.walk(_tree(_PACKAGE / "__init__.py")):
-        if isinstance(node, ast.ImportFrom) and node.module:
-            found |= {alias.asname or alias.name: node.module for alias in node.names}
-    return found
+def _face(package: str) -> dict[str, str]:
+    """Name → module, of what a room or the package hands on; empty for a module and for a paper's folder."""
+    file = _PACKAGE.joinpath(*package.split(".")[1:], "__init__.py")
+    return handed_on(file) if package.startswith("lagrotor") and file.is_file() else {}
 
 
 @cache
@@ -58,10 +56,10 @@ def imports(path: Path, folder: Path) -> frozenset[Path]:
     for node in ast.walk(_tree(path)):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module == "lagrotor":
-            names |= {_later().get(alias.name, f"lagrotor.{alias.name}") for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
-            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+            handed = _face(node.module)
+            names |= {handed.get(alias.name, f"{node.module}.{alias.name}") for alias in node.names}
+            names |= set() if handed else {node.module}
     return frozenset(file for name in names if (file := _file_of(name, folder)))
 
 

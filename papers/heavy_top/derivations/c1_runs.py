@@ -10,8 +10,7 @@ import numpy as np
 from symbols import I_1, I_3, c, g, l, m
 from top import VALUES, top
 
-from lagrotor.paper import ClaimTest, Finding, Part
-from lagrotor.paper.readable import scientific
+from lagrotor.paper import ClaimTest, Finding, Part, scientific
 
 FAST, THETA_0 = 60.0, 0.5
 NEAR = 0.02  # one rate is another: to two parts in a hundred

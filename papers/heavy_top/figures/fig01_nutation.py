@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from symbols import I_1, I_3, g, l, m
 from top import VALUES, top
 
-from lagrotor.drawing.style import CORRECTED, EXACT, PAPER
+from lagrotor.drawing import CORRECTED, EXACT, PAPER
 
 TITLE = "Nutation of a top released at rest"
 CAPTION = "cos θ₀ − cos θ over two nutations at 60 rad/s, exact, and by (3.1) with the printed and the corrected extent (3.2)."

@@ -7,7 +7,7 @@ import sympy as sp
 from matplotlib.figure import Figure
 from symbols import c, g, l, m
 
-from lagrotor.drawing.style import EXACT, PAPER
+from lagrotor.drawing import EXACT, PAPER
 from lagrotor.mechanics import System
 
 TITLE = "A swing of 0.2 rad"

@@ -12,12 +12,13 @@ from hypothesis import strategies as st
 from sympy.core.cache import clear_cache
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.mechanics import Frame, System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running.integration import rhs_factory
-from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values
-from lagrotor.numerics.codegen import compile_program, operations, reduce_common
+from lagrotor.mechanics.running.programs import energy_program, parameter_values
+from lagrotor.numerics import compile_program, operations
+from lagrotor.numerics.codegen import reduce_common
 
 m, l, g, I1, I2, I3, k = sp.symbols("m l g I_1 I_2 I_3 k", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I2: 0.4, I3: 0.2, k: 0.5}

@@ -21,14 +21,13 @@ import sympy as sp
 import lagrotor.report.interactive.interactive as model
 from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
 from lagrotor.algebra import decide_zero
+from lagrotor.models import exact_orbit
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.numerics.codegen import compile_program
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics import compile_program, measured_order
 from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
-from lagrotor.theory.paired_precession.series_orbit import series_orbit
+from lagrotor.theory import series_orbit
 
 NODE = shutil.which("node")
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

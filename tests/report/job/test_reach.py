@@ -24,7 +24,7 @@ def fresh():
 def clear() -> None:
     for cached in (
         reach._tree,
-        reach._later,
+        reach._face,
         reach.imports,
         reach._texts,
         reach.named,
@@ -62,6 +62,9 @@ def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
     script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
     assert PACKAGE / "models" / "simulate.py" in reached(script, PAPER)
     assert imports(script, PAPER.folder) == {PACKAGE / "models" / "simulate.py"}
+    script.write_text("from lagrotor.theory import twist_growth\n", encoding="utf-8")
+    clear()
+    assert imports(script, PAPER.folder) == {PACKAGE / "theory" / "parallel_twist.py"}
 
 
 def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:

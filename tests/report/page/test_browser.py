@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from lagrotor.paper.ledger import decide
+from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import corrected

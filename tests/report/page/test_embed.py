@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.pictures.figures import Picture, draw
+from lagrotor.pictures import Picture
+from lagrotor.pictures.figures import draw
 from lagrotor.report.page import embed
 from lagrotor.report.page.embed import embedded, lean_svg, size
 

@@ -15,14 +15,21 @@ import pytest
 import sympy as sp
 
 from lagrotor.pair.notation import M, r0
-from lagrotor.paper import claim_tests
-from lagrotor.paper.claim_tests import Finding, Part, Result
-from lagrotor.paper.ledger import decide
-from lagrotor.paper.proof import Remark
+from lagrotor.paper import (
+    FigureLink,
+    Finding,
+    Part,
+    Relation,
+    Remark,
+    Result,
+    Statement,
+    Table,
+    chain,
+    claim_tests,
+    decide,
+)
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.tables import FigureLink, Table
-from lagrotor.paper.verdicts import Relation, Statement, chain
-from lagrotor.pictures.figures import Picture
+from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.markdown import markdown
