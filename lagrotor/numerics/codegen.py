@@ -78,11 +78,11 @@ def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> l
 
 
 def _repeats(expressions: Sequence[sp.Expr]) -> bool:
-    """Whether a part of them occurs twice."""
+    """Whether a part of them occurs twice, other than a symbol with a minus sign, which costs nothing in a sum."""
     left, seen = list(expressions), set[sp.Basic]()
     while left:
         e = left.pop()
-        if e.is_Atom:
+        if e.is_Atom or (e.is_Mul and len(e.args) == 2 and e.args[0] is sp.S.NegativeOne and e.args[1].is_Atom):
             continue
         if e in seen:
             return True

@@ -18,8 +18,8 @@ class Stages:
     def __call__(self, e: sp.Expr) -> sp.Expr:
         if e.is_Atom:
             return e
-        if e.is_Mul and e.args[0] is sp.S.NegativeOne and len(e.args) == 2:
-            return -self(e.args[1])
+        if e.is_Mul and e.args[0].is_negative and e.args[0].is_Rational:
+            return -self(-e)
         if e not in self.names:
             self.names[e] = sp.Symbol(f"_a{len(self.made)}", real=True)
             self.made.append((self.names[e], e))

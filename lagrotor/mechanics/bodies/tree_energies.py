@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from lagrotor.mechanics.bodies.articulated import Joint
+from lagrotor.mechanics.bodies.joints import Joint
 from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.bodies.stages import Stages
 from lagrotor.mechanics.bodies.trees import ZERO, Pair, Tree
@@ -26,8 +26,8 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], c: Coordinates, keep: Stages
         field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
         fields.append(joint.inward(field, keep))
         depths.append(keep(depth + field.dot(joint.shift)))
-        for mass in joint.link.masses:
-            centre, I = Small.of(mass.centre), Small.of(mass.inertia)
+        for mass in joint.masses:
+            centre, I = mass.centre, mass.inertia
             at, at_t = keep.each(v + w.cross(centre)), keep.each(v_t + w_t.cross(centre))
             total += keep(mass.mass * at.dot(at - at_t * 2) / 2 + w.dot(I * (w - w_t * 2)) / 2)
             total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))

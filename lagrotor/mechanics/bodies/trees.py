@@ -53,6 +53,11 @@ class Link:
     masses: tuple[Mass, ...] = ()
 
     @property
+    def turns(self) -> bool:
+        """Whether its origin stays where its parent has it."""
+        return self.rate[1].is_zero
+
+    @property
     def is_round(self) -> bool:
         """Whether it turns about an axis about which the bodies on it are symmetric."""
         if self.axis is None:
@@ -125,7 +130,39 @@ def _links(c: Coordinates, bodies: list[Body]) -> tuple[Link, ...] | None:
         return None
     if len(walk.used) != len(c.q):
         return None
-    return tuple(replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True))
+    return _parted([replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)])
+
+
+def _parted(links: list[Link]) -> tuple[Link, ...]:
+    """The links, each with the bodies that cost it least.
+
+    A point at the joint of a link that turns is that link's. A round link that carries nothing keeps the inertia about its
+    axis alone: the mass and the inertia across the axis do not feel its turn, and are its parent's.
+    """
+    carrying = {link.parent for link in links}
+    for number, link in enumerate(links):
+        if link.parent < 0:
+            continue
+        parent = links[link.parent]
+        if link.is_round and number not in carrying and link.masses:
+            own, across = zip(*(_split(mass, link) for mass in link.masses), strict=True)
+            links[number] = replace(link, masses=own)
+            links[link.parent] = replace(parent, masses=(*parent.masses, *across))
+        elif link.turns:
+            points = [e for e in parent.masses if e.inertia.is_zero_matrix and e.centre == link.shift]
+            links[number] = replace(link, masses=(*link.masses, *(replace(e, centre=sp.zeros(3, 1)) for e in points)))
+            links[link.parent] = replace(parent, masses=tuple(e for e in parent.masses if e not in points))
+    return tuple(links)
+
+
+def _split(mass: Mass, link: Link) -> tuple[Mass, Mass]:
+    """A body's inertia about the axis of a round link, and the rest of it in the axes of the link's parent."""
+    k = link.axis
+    axial = sp.Matrix(3, 3, lambda i, j: mass.inertia[k, k] if i == j == k else sp.S.Zero)
+    R = link.rotation
+    return Mass(sp.S.Zero, sp.zeros(3, 1), axial), Mass(
+        mass.mass, link.shift + R * mass.centre, R * (mass.inertia - axial) * R.T
+    )
 
 
 class _Walk:

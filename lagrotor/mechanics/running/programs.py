@@ -14,7 +14,8 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.bodies.articulated import joints, tree_accelerations
+from lagrotor.mechanics.bodies.articulated import tree_accelerations
+from lagrotor.mechanics.bodies.joints import joints
 from lagrotor.mechanics.bodies.stages import Stages
 from lagrotor.mechanics.bodies.tree_energies import tree_energy
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
