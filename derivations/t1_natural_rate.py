@@ -15,8 +15,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, consistent_scene, natural_rate, simulate
 from lagrotor.mechanics import euler_lagrange
-from lagrotor.numerics import measured_order, peak
-from lagrotor.numerics.spectrum import spectrum
+from lagrotor.numerics import measured_order, peak, spectrum
 from lagrotor.pair import INERTIAS, axes_pair, link_constraint
 from lagrotor.pair.notation import AXES, G_1, G_2, G, K, a, b, ell, m
 from lagrotor.paper import Formula, Remark, prove

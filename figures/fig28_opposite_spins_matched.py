@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
 from lagrotor.drawing import CORRECTED, EXACT, MODEL, PAPER
-from lagrotor.numerics import peak
-from lagrotor.numerics.spectrum import spectrum
+from lagrotor.numerics import peak, spectrum
 from lagrotor.pair import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 

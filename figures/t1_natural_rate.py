@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
 from lagrotor.drawing import CORRECTED, EXACT, OKABE_ITO, PAPER
-from lagrotor.numerics import peak
-from lagrotor.numerics.spectrum import spectrum
+from lagrotor.numerics import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
 UNIT = Rotor().I3 * SPIN / Rotor().J

@@ -16,7 +16,8 @@ from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, seconds_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.paper_bodies import paper_system
+from lagrotor.models.spring_link.run import run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_rate import natural_rate

@@ -115,7 +115,8 @@ def reproduce_command(given: argparse.Namespace) -> int:
 def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import verdict_text
     from lagrotor.paper.audit import NOT_YET
-    from lagrotor.report.content import counted, note, word
+    from lagrotor.report.content import counted, word
+    from lagrotor.report.facts import note
 
     paper = _paper(given)
     identifiers = [_known(identifier, paper.equations) for identifier in given.ids]

@@ -25,15 +25,15 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.periodic_orbit import parting as parting
     from lagrotor.models.orbits.periodic_orbit import periodic_orbit as periodic_orbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
+    from lagrotor.models.spring_link.paper_bodies import join_bar as join_bar
+    from lagrotor.models.spring_link.paper_bodies import paper_bodies as paper_bodies
+    from lagrotor.models.spring_link.paper_bodies import paper_system as paper_system
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
     from lagrotor.models.spring_link.rigid_body import inertia_transform as inertia_transform
     from lagrotor.models.spring_link.rigid_body import printed_inertia_transform as printed_inertia_transform
     from lagrotor.models.spring_link.rigid_body import printed_rotation as printed_rotation
     from lagrotor.models.spring_link.rigid_body import rotation_between as rotation_between
-    from lagrotor.models.spring_link.run import join_bar as join_bar
-    from lagrotor.models.spring_link.run import paper_bodies as paper_bodies
-    from lagrotor.models.spring_link.run import paper_system as paper_system
     from lagrotor.models.spring_link.run import run_solver as run_solver
     from lagrotor.models.spring_link.run import run_steps as run_steps
     from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem

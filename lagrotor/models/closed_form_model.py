@@ -6,53 +6,19 @@
 - opposite spins on their paired precession follow its periodic series, of the order that the tolerance asks for.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import exp, inf, pi, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.models.model import Array, Observed, constant_momenta
-from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
-from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.theory.natural_rate import natural_rate
+from lagrotor.errors import DomainError
+from lagrotor.models.model import Answer, Array, Observed, constant_momenta
+from lagrotor.models.orbits.paired_fit import ROUND, paired_answer
+from lagrotor.pair.scene import Scene
 
-if TYPE_CHECKING:
-    import sympy as sp
-
-    from lagrotor.mechanics.fourier import FourierSeries
-
-Waves = NDArray[np.complex128]
-ORDERS = (3, 5, 7, 9, 11, 13, 15)
-FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
 FARTHEST_APART = 1e-14  # of two axes that count as parallel: rounding; a twist grows in ways that depend on the bar
 FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
-LONG = 300.0  # rad beyond which a period is integrated where the series does not reach the tolerance
-LARGEST = 0.5  # amplitude beyond which the series is of no use
-_DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
-_ROUND = 4e-16  # relative, of an angle
-_SMALL = 0.1  # of an error, known to first order
-# What exchanging the rotors, half a period later, does to an axis.
-_MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
-
-    motion: times (n,) in s → axes and rates, each (2, n, 3).
-    """
-
-    error: float
-    reason: str
-    motion: Callable[[Array], tuple[Array, Array]]
 
 
 def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
@@ -82,7 +48,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> A
     if scene.spins[0] == scene.spins[1]:
         return _parallel(scene, axes, rates, t_end)
     if scene.spins[0] == -scene.spins[1]:
-        return _paired(scene, axes, rates, t_end, tol, best)
+        return paired_answer(scene, axes, rates, t_end, tol, best)
     raise DomainError(
         f"closed_form: none is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
         "or opposite; use model='linear' or 'minimal'"
@@ -117,7 +83,7 @@ def _tops(
 
     fastest = float(speeds.max()) * t_end
     off = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
-    return Answer(mismatch + (off + _ROUND) * (1 + fastest), reason, motion)
+    return Answer(mismatch + (off + ROUND) * (1 + fastest), reason, motion)
 
 
 def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> Answer:
@@ -147,174 +113,3 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> Answer:
 
 def _twice(vector: Array) -> Array:
     return np.stack([vector, vector])
-
-
-class _Series(NamedTuple):
-    """The orbit's series to one order: of r_1, waves[n, h, i] of r0**n exp(i h Phi) (real part meant), of Omega/Omega_0,
-    frequency[n], and how large the terms of each power of r0 are."""
-
-    waves: Waves
-    frequency: Array
-    wave_sizes: list[float]
-    frequency_sizes: list[float]
-
-
-@lru_cache(maxsize=64)
-def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
-    """The series through r0**order."""
-    from lagrotor.theory.paired_precession.series import paired_series
-
-    series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
-    waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
-    for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
-        for (n, h), value in _through(part, order):
-            waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
-    for (n, _), value in _through(series.frequency, order):
-        frequency[n] = float(value)
-    return _Series(waves, frequency, np.abs(waves).sum(axis=(1, 2)).tolist(), np.abs(frequency).tolist())
-
-
-def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int], Any]]:
-    return ((term, value) for term, value in series.terms.items() if term[0] <= order)
-
-
-def _summed(powers: Array, waves: Waves) -> Waves:
-    """sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
-    summed: Waves = powers @ waves.reshape(len(waves), -1)
-    return summed.reshape(*powers.shape, 3)
-
-
-def _axes_at(waves: Waves, phase: float) -> Array:
-    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, 3).
-
-    waves (…, order + 1, 3).
-    """
-    turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
-    both = np.stack([turn, turn])
-    both[1, 1::2] *= -1
-    return np.real(both @ waves) * _MIRRORS
-
-
-def _turned(vectors: Array, angle: float) -> Array:
-    """Vectors (…, 3) turned about the joint line by `angle`."""
-    c, s = np.cos(angle), np.sin(angle)
-    return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
-
-
-def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """(r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
-
-    axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
-    """
-    n = np.arange(len(series.frequency))
-    along = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
-    wanted = np.stack([axes, velocity])
-    reached, by = np.empty((2, 2, 3)), np.empty((2, 2, 3, 3))
-    for last in (False, False, True):
-        r0, phase, azimuth = unknowns
-        powers = np.stack([r0**n, n * r0 ** np.maximum(n - 1, 0)])
-        rate, rate_by_r0 = powers @ series.frequency
-        parts = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * along, phase)
-        reached[0], slope, bend, grown, sloped = _turned(parts, azimuth)
-        reached[1] = rate * slope
-        left = (wanted - reached).ravel()
-        if last:
-            break
-        by[0, ..., 0], by[1, ..., 0] = grown, rate * sloped + rate_by_r0 * slope
-        by[0, ..., 1], by[1, ..., 1] = slope, rate * bend
-        by[..., 0, 2], by[..., 1, 2], by[..., 2, 2] = 0.0, -reached[..., 2], reached[..., 1]
-        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), left, rcond=None)[0]
-    return unknowns, float(np.linalg.norm(left))
-
-
-def _paired(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> Answer:
-    """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
-
-    The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
-    series' last terms, which are larger than those left out; both grow exponentially where the orbit is hyperbolic. Each
-    order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
-    `best` says so.
-    """
-    width, natural = sqrt(scene.sigma), natural_rate(scene)
-    signed = natural if scene.spins[0] > 0 else -natural
-    turned, velocity = natural * t_end, rates / signed
-    guess = _guess(axes, velocity, width)
-
-    from lagrotor.theory.paired_precession.stability import most_growth
-
-    shape, ratio = _shape(scene.rotor, scene.link)
-    error, before = inf, inf
-    orders = (*ORDERS, *FURTHER) if best else ORDERS
-    r0 = float(guess[0])
-    growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
-    for order in orders:
-        series = _series(order, shape, ratio)
-        last = range(order - 1, order + 1)
-        tail = sum(r0**n * series.wave_sizes[n] for n in last)
-        slip = sum(r0**n * series.frequency_sizes[n] for n in last) * r0 * max(1.0, width)
-        before, error = error, tail * growth + slip * turned
-        fall = (error / before) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
-        if error <= tol / 4 or (error * fall > tol and not best):
-            break
-    unknowns, mismatch = _fit(axes, velocity, guess, series)
-    powers = unknowns[0] ** np.arange(order + 1)
-    error += (mismatch + _ROUND) * (turned + growth)
-    error = error if error < _SMALL else 2.0  # a large slip says nothing but that two axes are at most opposite
-    frequency = signed * float(powers @ series.frequency)
-    answer = _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
-    return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)
-
-
-def _over_periods(scene: Scene, series: Answer, frequency: float, t_end: float) -> Answer:
-    """For a long run that the series cannot follow: one period integrated, where the start returns to itself."""
-    try:
-        orbit = periodic_orbit(replace(scene, shock=None), 2 * pi / abs(frequency))
-    except LagrotorError:
-        return series
-    error = (orbit.mismatch + _ROUND) * (abs(frequency) * t_end + parting(orbit, t_end))
-    if not error < min(series.error, _SMALL):
-        return series
-    return Answer(error, "on its paired precession: Fourier series of one integrated period", orbit.motion)
-
-
-@lru_cache(maxsize=64)
-def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
-    from lagrotor.theory.paired_precession.series import shape_of
-
-    return shape_of(Scene((1.0, -1.0), rotor, link))
-
-
-def _guess(axes: Array, velocity: Array, width: float) -> Array:
-    """(r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
-    azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
-    first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
-    (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
-    r0, phase = float(np.hypot(x, y)), float(np.arctan2(y, x))
-    off = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
-    if not off <= 2 * (1 + width**2) * r0**2 or r0 > LARGEST:
-        raise DomainError(
-            f"closed_form: the start is not on a paired precession: {off:.2g} of the natural rate off the one of amplitude "
-            f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
-        )
-    return np.array([r0, phase, azimuth])
-
-
-def _orbit_answer(waves: Waves, frequency: float, unknowns: Array, order: int, error: float) -> Answer:
-    r0, phase, azimuth = (float(u) for u in unknowns)
-    h = np.arange(order + 1)[:, None]
-    # Both axes and both rates as one real matrix over cos(h Phi) and sin(h Phi); half a period later odd waves change sign.
-    both = np.stack([waves, frequency * 1j * h * waves])
-    rotors = _turned(np.stack([both, np.where(h % 2, -both, both)], axis=1) * _MIRRORS[:, None], azimuth)
-    table = rotors.transpose(2, 0, 1, 3).reshape(order + 1, 12)
-    table = np.concatenate([table.real, -table.imag])
-
-    def motion(t: Array) -> tuple[Array, Array]:
-        turn = np.exp(1j * (phase + frequency * t))
-        powers = np.ones((order + 1, len(t)), dtype=complex)
-        for n in range(order):
-            np.multiply(powers[n], turn, out=powers[n + 1])
-        seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-        return seen[0], seen[1]
-
-    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r0^{order}"
-    return Answer(error, reason, motion)

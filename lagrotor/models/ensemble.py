@@ -88,13 +88,12 @@ def sweep(
 
     Raises InputError for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
-    times, tolerance = check_times(t), check_tolerance(tol)
-    members = _checked(scenes, chunk, engine)
+    times, tolerance, members = check_times(t), check_tolerance(tol), _checked(scenes, chunk, engine)
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else chunk_folder(folder, members, times, tolerance, chunk, engine)
-    shape, none = (len(members), 2, len(times), 3), np.zeros(len(members), np.int64)
-    whole = Ensemble(members, times, np.empty(shape), np.empty(shape), none, none.copy())
+    shape = (len(members), 2, len(times), 3)
+    whole = Ensemble(members, times, *np.empty((2, *shape)), *np.zeros((2, len(members)), np.int64))
     done = 0
 
     def keep(number: int, found: Chunk) -> None:

@@ -105,7 +105,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 def observe_fast(scene: Scene, states: Array) -> Observed:
     """What the model observes, by the fast extra."""
     from lagrotor.models.programs.minimal_program import observation
-    from lagrotor.numerics.taylor import compile_taylor
+    from lagrotor.numerics.heyoka_programs import compile_taylor
 
     value, ratio = _ratio(scene)
     return _observed(scene, compile_taylor(observation(ratio), 6)(states, (value,)))

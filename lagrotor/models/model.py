@@ -28,6 +28,18 @@ class Observed:
     momenta: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
+
+    motion: times (n,) in s → axes and rates, each (2, n, 3).
+    """
+
+    error: float
+    reason: str
+    motion: Callable[[Array], tuple[Array, Array]]
+
+
 @dataclass(frozen=True)
 class Model:
     """A model that is integrated.

@@ -10,8 +10,12 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import compile_program as compile_program
     from lagrotor.numerics.codegen import operations as operations
     from lagrotor.numerics.codegen import program_source as program_source
-    from lagrotor.numerics.convergence import measured_order as measured_order
-    from lagrotor.numerics.convergence import swing as swing
+    from lagrotor.numerics.curves import mean_between as mean_between
+    from lagrotor.numerics.curves import measured_order as measured_order
+    from lagrotor.numerics.curves import peak as peak
+    from lagrotor.numerics.curves import spectrum as spectrum
+    from lagrotor.numerics.curves import swing as swing
+    from lagrotor.numerics.curves import turn_means as turn_means
     from lagrotor.numerics.harmonic_fit import best_harmonics as best_harmonics
     from lagrotor.numerics.harmonic_fit import harmonics_at as harmonics_at
     from lagrotor.numerics.integrate import Problem as Problem
@@ -19,8 +23,5 @@ if TYPE_CHECKING:
     from lagrotor.numerics.rotations import body_rotations as body_rotations
     from lagrotor.numerics.rotations import cross_matrix as cross_matrix
     from lagrotor.numerics.rotations import turn_between as turn_between
-    from lagrotor.numerics.spectrum import mean_between as mean_between
-    from lagrotor.numerics.spectrum import peak as peak
-    from lagrotor.numerics.spectrum import turn_means as turn_means
 
 __getattr__, __dir__, __all__ = face(__name__)

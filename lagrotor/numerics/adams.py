@@ -73,29 +73,13 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
 
     Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
-    Wanner, III.1). The first q nodes come together: their integral equation is swept until nothing moves.
+    Wanner, III.1).
     """
     rhs = segment.rhs
-    A, B, P = adams_weights(q)
-    from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
-    S = h * (from_middle - from_middle[0])
-    states, velocities, off = (
-        np.empty((steps + 1, len(y))),
-        np.empty((steps + 1, len(y))),
-        np.zeros((steps + 1, len(y))),
-    )
-    states[:q], velocities[:q] = y, rhs(t, y)
-    nfev = 1
-    for sweep in range(_SWEEPS):
-        before = states[:q].copy()
-        states[:q] = y + S @ velocities[:q]
-        for i in range(1, q):
-            velocities[i] = rhs(t + i * h, states[i])
-        nfev += q - 1
-        moved = np.abs(states[:q] - before).max()
-        if sweep and not moved > 2e-15 * (1 + np.abs(y).max()):
-            break
-    if not moved < 1e-13 * (1 + np.abs(y).max()):
+    A, B, _ = adams_weights(q)
+    states, velocities, off = np.empty((3, steps + 1, len(y)))
+    nfev, found = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
+    if not found:
         return _Piece(q, t, h, states[:1], velocities[:1], nfev, 0.5)
 
     # What rounding alone leaves of predictor less corrector, over h.
@@ -125,6 +109,27 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
         if worst < max(limit / 300, noise) and n <= steps and 1.3 * h < segment.longest:
             return _Piece(q, t, h, states[:n], velocities[:n], nfev, change)
     return _Piece(q, t, h, states, velocities, nfev, 1.0)
+
+
+def _first_nodes(
+    segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
+) -> tuple[int, bool]:
+    """The first q nodes together: their integral equation is swept until nothing moves. Evaluations, and whether it does."""
+    P = adams_weights(q)[2]
+    from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
+    S, size = h * (from_middle - from_middle[0]), 1 + np.abs(y).max()
+    states[:], velocities[:] = y, segment.rhs(t, y)
+    nfev = 1
+    for sweep in range(_SWEEPS):
+        before = states.copy()
+        states[:] = y + S @ velocities
+        for i in range(1, q):
+            velocities[i] = segment.rhs(t + i * h, states[i])
+        nfev += q - 1
+        moved = np.abs(states - before).max()
+        if sweep and not moved > 2e-15 * size:
+            break
+    return nfev, bool(moved < 1e-13 * size)
 
 
 def _passes_singular(segment: Segment, states: Array, h: float) -> bool:

@@ -7,20 +7,18 @@ so small that it is never the largest. What is compiled is kept for the process,
 second a program and order. The read-out at any time is as exact as the run.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import lru_cache
 from math import exp
-from operator import mul
 from threading import get_ident
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
+from lagrotor.numerics.heyoka_programs import heyoka_module, translated
 from lagrotor.numerics.integrate import Solution
 from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.segment import Projection, StopError
@@ -29,7 +27,6 @@ Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 _MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 _CARRIED = 2.0**-20  # of a cyclic coordinate: a millionth, that rounds nothing
-_BLOCK = 512  # points at once: for more, heyoka wakes threads, which do not pay
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
@@ -138,48 +135,6 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     return states, spent
 
 
-@lru_cache(maxsize=16)
-def compile_taylor(program: Program, states: int) -> Callable[[Array, tuple[float, ...]], Array]:
-    """The program on states (n, d), its first `states` arguments, and the rest as numbers: outputs (q, n).
-
-    Some times faster than numpy for a thousand points.
-    """
-    compiled = _compiled(program)
-
-    def evaluate(points: Array, parameters: tuple[float, ...]) -> Array:
-        found = []
-        for i in range(0, len(points), _BLOCK):
-            block = points[i : i + _BLOCK]
-            arguments = np.empty((len(program.arguments), len(block)))
-            arguments[:states] = block.T
-            for row, value in zip(arguments[states:], parameters, strict=True):
-                row[:] = value
-            found.append(compiled(arguments))
-        return np.concatenate(found, axis=1)
-
-    return evaluate
-
-
-def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:
-    """The program, for given parameters, as a compiled right-hand side (s, y) → y', for any solver."""
-    compiled, inputs = _compiled(program), np.array([*[0.0] * states, *parameters])
-
-    def rhs(s: float, y: Array) -> Array:
-        inputs[:states] = y
-        return np.asarray(compiled(inputs))
-
-    return rhs
-
-
-@lru_cache(maxsize=16)
-def _compiled(program: Program) -> Any:
-    """The program as heyoka's function of an array of its arguments."""
-    heyoka = _heyoka()
-    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
-    outputs = _translated(program, known, heyoka)
-    return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
-
-
 def _size(tol: float, order: int) -> float:
     """Of the constant dummy state: with it a step of this order leaves a tenth of `tol`."""
     return tol / 10 / _compiled_for(order)
@@ -198,28 +153,20 @@ def _cyclic(program: Program, states: int) -> list[int]:
     return [i for i, s in enumerate(program.arguments[:states]) if s not in used]
 
 
-def _heyoka() -> Any:
-    try:
-        import heyoka
-    except ImportError:
-        raise InputError("engine='fast' needs heyoka: pip install 'lagrotor[fast]', or use engine='core'") from None
-    return heyoka
-
-
 @lru_cache(maxsize=64)
 def _solver(program: Program, states: int, driven: bool, order: int, lanes: int, thread: int) -> Any:
     """The compiled integrator of a program whose first `states` arguments are the state; each thread has its own.
 
     Its state has one component more, which is constant.
     """
-    heyoka = _heyoka()
+    heyoka = heyoka_module()
     names, parameters = program.arguments[:states], program.arguments[states:]
     known = {s: heyoka.make_vars(str(s)) for s in names}
     known |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
-    rates = _translated(program, known, heyoka)
+    rates = translated(program, known, heyoka)
     for i in _cyclic(program, states):
         rates[i] *= _CARRIED
     equations = [(known[s], rate) for s, rate in zip(names, rates, strict=True)]
@@ -229,39 +176,3 @@ def _solver(program: Program, states: int, driven: bool, order: int, lanes: int,
         return heyoka.taylor_adaptive_batch(equations, state=np.zeros((states + 1, lanes)), **given)
     # A pulse is short: there its loops are not unrolled, which compiles many times faster and runs a little slower.
     return heyoka.taylor_adaptive(equations, state=[0.0] * (states + 1), compact_mode=driven or states > 6, **given)
-
-
-def _translated(program: Program, known: dict[sp.Symbol, Any], heyoka: Any) -> list[Any]:
-    """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
-    stages, outputs = reduce_common(program)
-    named = dict(known)
-    for name, expression in stages:
-        named[name] = _translate(expression, named, heyoka)
-    return [_translate(e, named, heyoka) for e in outputs]
-
-
-def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
-    if e in known:
-        return known[e]
-    if e.is_Number:
-        return heyoka.expression(float(e))
-    if e.is_Pow:
-        base, power = _translate(e.base, known, heyoka), e.exp
-        if power == sp.Rational(1, 2):
-            return heyoka.sqrt(base)
-        if not power.is_Integer:
-            return base ** float(power)
-        product = _product([base] * abs(int(power)))
-        return product if power > 0 else 1.0 / product
-    parts = [_translate(x, known, heyoka) for x in e.args]
-    if e.is_Add:
-        return heyoka.sum(parts)
-    if e.is_Mul:
-        return _product(parts)
-    if not hasattr(heyoka, e.func.__name__):
-        raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
-    return getattr(heyoka, e.func.__name__)(*parts)
-
-
-def _product(parts: Sequence[Any]) -> Any:
-    return reduce(mul, parts)

@@ -2,68 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from html import escape
-from math import fsum, hypot, isfinite, nan, pi, sqrt
+from math import fsum, hypot, pi, sqrt
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.pulse import PULSE_REACH
+from lagrotor.pair.quantities import Vector, not_negative, not_vanishing, number, numbers, positive, two_vectors, vector
 
-Vector = tuple[float, float, float]
-SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
 CLOSE = 1e-9  # how far a given state may lie off its constraints
-
-
-def _number(value: object, where: str, unit: str) -> float:
-    try:
-        number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
-    if isinstance(value, bool) or not isfinite(number):
-        raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
-    if abs(number) > LARGEST:
-        raise InputError(f"{where} = {number:g} {unit} is beyond {LARGEST:g}, where squares overflow; change the units")
-    return number
-
-
-def _positive(value: object, where: str, unit: str) -> float:
-    number = _number(value, where, unit)
-    if number <= 0:
-        raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
-    return _not_vanishing(number, where, unit)
-
-
-def _not_vanishing(number: float, where: str, unit: str) -> float:
-    if 0 < abs(number) < SMALLEST:
-        raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
-    return number
-
-
-def _not_negative(value: object, where: str, unit: str) -> float:
-    number = _number(value, where, unit)
-    if number < 0:
-        raise InputError(f"{where} = {number:g} {unit} must not be negative")
-    return number
-
-
-def _numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
-    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
-    if items is None or len(items) != count:
-        raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
-    return tuple(_number(item, f"{where}[{i}]", unit) for i, item in enumerate(items))
-
-
-def _vector(value: object, where: str, unit: str) -> Vector:
-    x, y, z = _numbers(value, 3, where, unit)
-    return x, y, z
-
-
-def _two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
-    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
-    if len(items) != 2:
-        raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")
-    return _vector(items[0], f"{where}[0]", unit), _vector(items[1], f"{where}[1]", unit)
 
 
 def dot(p: Vector, q: Vector) -> float:
@@ -82,7 +29,7 @@ class Rotor:
 
     def __post_init__(self) -> None:
         for name, unit in (("mass", "kg"), ("length", "m"), ("I1", "kg m²"), ("I3", "kg m²")):
-            object.__setattr__(self, name, _positive(getattr(self, name), f"Rotor: {name}", unit))
+            object.__setattr__(self, name, positive(getattr(self, name), f"Rotor: {name}", unit))
         if self.I3 > 2 * self.I1 * (1 + 1e-12):
             raise InputError(
                 f"Rotor: I3 = {self.I3:g} exceeds 2 I1 = {2 * self.I1:g} kg m²: no body has that inertia "
@@ -104,9 +51,9 @@ class Link:
     inertia: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "length", _positive(self.length, "Link: length", "m"))
-        object.__setattr__(self, "mass", _not_negative(self.mass, "Link: mass", "kg"))
-        object.__setattr__(self, "inertia", _not_negative(self.inertia, "Link: inertia", "kg m²"))
+        object.__setattr__(self, "length", positive(self.length, "Link: length", "m"))
+        object.__setattr__(self, "mass", not_negative(self.mass, "Link: mass", "kg"))
+        object.__setattr__(self, "inertia", not_negative(self.inertia, "Link: inertia", "kg m²"))
         if self.inertia > 0 and self.mass == 0:
             raise InputError(
                 f"Link: inertia = {self.inertia:g} kg m² with mass = 0: no body has that inertia; "
@@ -124,9 +71,9 @@ class Shock:
     body: int = 1
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "force", _vector(self.force, "Shock: force", "N"))
-        object.__setattr__(self, "at", _number(self.at, "Shock: at", "s"))
-        object.__setattr__(self, "width", _positive(self.width, "Shock: width", "s"))
+        object.__setattr__(self, "force", vector(self.force, "Shock: force", "N"))
+        object.__setattr__(self, "at", number(self.at, "Shock: at", "s"))
+        object.__setattr__(self, "width", positive(self.width, "Shock: width", "s"))
         if isinstance(self.body, bool) or self.body not in (1, 2):
             raise InputError(f"Shock: body = {self.body!r} must be 1 (left rotor) or 2 (right rotor)")
         object.__setattr__(self, "body", int(self.body))
@@ -173,11 +120,11 @@ class Scene:
             value = getattr(self, name)
             if not (isinstance(value, kind) or (optional and value is None)):
                 raise InputError(f"Scene: {name} = {value!r} must be a {kind.__name__}")
-        object.__setattr__(self, "spins", _numbers(self.spins, 2, "Scene: spins", "rad/s"))
+        object.__setattr__(self, "spins", numbers(self.spins, 2, "Scene: spins", "rad/s"))
         for i, spin in enumerate(self.spins):
-            _not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
-        object.__setattr__(self, "axes", _two_vectors(self.axes, "Scene: axes", "1"))
-        object.__setattr__(self, "rates", _two_vectors(self.rates, "Scene: rates", "1/s"))
+            not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
+        object.__setattr__(self, "axes", two_vectors(self.axes, "Scene: axes", "1"))
+        object.__setattr__(self, "rates", two_vectors(self.rates, "Scene: rates", "1/s"))
         for i, (r, v) in enumerate(zip(self.axes, self.rates, strict=True)):
             if abs(hypot(*r) - 1) > CLOSE:
                 raise InputError(f"Scene: axes[{i}] has length {hypot(*r):.9g}, not 1: divide it by its length")

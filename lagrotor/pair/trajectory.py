@@ -181,15 +181,11 @@ class Trajectory(Shown):
         raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
 
     def _columns(self) -> str:
-        names, columns = ["t [s]"], [self.t]
-        for i in (0, 1):
-            for j, letter in enumerate("xyz"):
-                names.append(f"tip_{i + 1}_{letter} [m]")
-                columns.append(self.tips[i, :, j])
-        names += ["energy [J]", "link_length [m]", "P [kg m2/s]"]
-        columns += [self.energy, self.link_length, self.joint_line_momentum]
-        rows = (",".join(map(repr, row)) for row in np.column_stack(columns).tolist())
-        return "\n".join([",".join(names), *rows, ""])
+        tips = {f"tip_{i + 1}_{x} [m]": self.tips[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
+        energy, length, P = self.energy, self.link_length, self.joint_line_momentum
+        held = {"t [s]": self.t, **tips, "energy [J]": energy, "link_length [m]": length, "P [kg m2/s]": P}
+        rows = (",".join(map(repr, row)) for row in np.column_stack(list(held.values())).tolist())
+        return "\n".join([",".join(held), *rows, ""])
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":

@@ -1,7 +1,7 @@
 """What a report says and in which order, before it is put into HTML or Markdown."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -15,7 +15,6 @@ from lagrotor.paper.readable import from_latex
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Relation, Verdict
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.errata import corrected
 
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
 # File of the report's folder → what it is.
@@ -140,17 +139,6 @@ class Report:
         return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in shown)
 
 
-@dataclass(frozen=True)
-class Fact:
-    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text; formulas in LaTeX."""
-
-    label: str
-    texts: tuple[str, ...] = ()
-    ids: tuple[str, ...] = ()
-    formulas: tuple[sp.Basic, ...] = ()
-    sources: tuple[str, ...] = ()
-
-
 def anchor(identifier: str) -> str:
     """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") is on the page."""
     if identifier.startswith("figure "):
@@ -215,67 +203,3 @@ def derived_heading(relations: Iterable[Relation]) -> str:
 def as_read(entry: Equation) -> tuple[str, ...]:
     """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
-
-
-def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """What is said of a verdict besides the two formulas; only what applies."""
-    statement = verdict.statement
-    if verdict.condition:
-        yield Fact("Condition", (verdict.condition,))
-    if verdict.order is not None and verdict.small is not None:
-        yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
-    if verdict.domain:
-        yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
-    if statement.correction:
-        answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
-        yield Fact("Correction", (answer,), sources=corrected(statement))
-    if verdict.reaches_result is not None:
-        yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
-    if verdict.evidence:
-        yield Fact("Evidence", verdict.evidence)
-    linked = {
-        "Uses": statement.depends_on,
-        "Used by": report.users(verdict.id),
-        "Claims": report.claims_about(verdict.id),
-        "Figures": report.figures_of(verdict.id),
-    }
-    for label, ids in linked.items():
-        if ids:
-            yield Fact(label, ids=ids)
-
-
-_REACHES = {
-    True: "yes: a result of the paper that depends on it is refuted too",
-    False: "no: no result of the paper depends on this error",
-}
-
-
-def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
-    """The equations and figures that a claim is about, as far as they are in the report."""
-    entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
-    drawn = {picture.key for picture in report.pictures}
-    if ids := tuple(i for i in entry.equations if i in judged):
-        yield Fact("Equations", ids=ids)
-    if ids := tuple(f"figure {number}" for number in entry.figures if number in drawn):
-        yield Fact("Figures", ids=ids)
-
-
-def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
-    """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
-    entry = report.paper.figures.get(int(picture.key)) if picture.key.isdigit() else None
-    judged = {verdict.id for verdict in report.verdicts}
-    if entry and (ids := tuple(i for i in entry.equations if i in judged)):
-        yield Fact("Equations", ids=ids)
-    if ids := tuple(r.test.id for r in report.claims if picture.key in report.paper.claims[r.test.id].figures):
-        yield Fact("Claims", ids=ids)
-
-
-def note(verdict: Verdict) -> str:
-    """What a table says beside the verdict's word: why it is refuted, or the order and the condition in short."""
-    if verdict.verdict == "refuted":
-        return verdict.statement.wrong
-    parts = [premise.says for premise in verdict.premises]
-    if verdict.order is not None and verdict.small is not None:
-        parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
-    broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(parts) + (". The paper's own scene breaks this." if broken else "")

@@ -17,22 +17,18 @@ from lagrotor.report.content import (
     CLAIM_MEANINGS,
     MEANINGS,
     SUBTITLE,
-    Fact,
     Report,
     ShownPart,
     anchor,
     contents,
     derived_heading,
     derived_lines,
-    facts,
-    figure_facts,
-    linked_facts,
     made_beside,
     notation,
-    note,
     word,
 )
 from lagrotor.report.errata import errata
+from lagrotor.report.facts import Fact, facts, figure_facts, linked_facts, note
 from lagrotor.report.results import balance, headlines, opening
 
 

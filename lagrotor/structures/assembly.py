@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite
+from math import hypot
 from operator import index
 from typing import Any
 
 from lagrotor.errors import InputError
+from lagrotor.pair.quantities import not_negative, number, numbers, vector
 from lagrotor.pair.scene import Link, Rotor
 
 Point = tuple[float, float, float]
@@ -50,12 +51,16 @@ class Assembly:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        put(self, "joints", tuple(_numbers(joint, 2, f"joints[{i}]", "m") for i, joint in enumerate(_row(self.joints))))
+        put(
+            self,
+            "joints",
+            tuple(numbers(joint, 2, f"Structure: joints[{i}]", "m") for i, joint in enumerate(_row(self.joints))),
+        )
         n = len(self.joints)
         if not n:
             raise InputError("Structure: joints is empty: give at least one ground joint (x, y) in m")
         put(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
-        put(self, "gravity", _number(self.gravity, "gravity", "m/s²"))
+        put(self, "gravity", number(self.gravity, "Structure: gravity", "m/s²"))
         put(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
         for name, unit in (
             ("load", "kg"),
@@ -86,7 +91,7 @@ class Assembly:
         reach = self.rotor[i].length, self.rotor[j].length
         apart = hypot(self.joints[i][0] - self.joints[j][0], self.joints[i][1] - self.joints[j][1])
         upright = hypot(apart, reach[0] - reach[1])
-        length = _number(items[2], f"bars[{k}] length", "m") if len(items) == 3 else upright
+        length = number(items[2], f"Structure: bars[{k}] length", "m") if len(items) == 3 else upright
         if length <= 0:
             raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart")
         low, high = apart - sum(reach), apart + sum(reach)
@@ -106,9 +111,9 @@ class Assembly:
             raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
         ground = isinstance(brace.to, Iterable)
-        to = _numbers(brace.to, 3, f"{where} to", "m") if ground else self._tip(brace.to, where)
-        stiffness = _not_negative(brace.stiffness, f"{where} stiffness", "N/m")
-        damping = _not_negative(brace.damping, f"{where} damping", "N s/m")
+        to = vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)
+        stiffness = not_negative(brace.stiffness, f"Structure: {where} stiffness", "N/m")
+        damping = not_negative(brace.damping, f"Structure: {where} damping", "N s/m")
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
         if tip == to or ends[0] == ends[1]:
             raise InputError(f"Structure: {where} has both ends at one place: join two different points")
@@ -145,37 +150,13 @@ def _row(value: Any) -> list[Any]:
     return list(value)
 
 
-def _number(value: Any, where: str, unit: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"Structure: {where} = {value!r} is not a number: give it in {unit}") from None
-    if isinstance(value, str | bool) or not isfinite(number) or abs(number) > 1e30:
-        raise InputError(f"Structure: {where} = {value!r} is not a finite number below 1e30: give it in {unit}")
-    return number
-
-
-def _not_negative(value: Any, where: str, unit: str) -> float:
-    number = _number(value, where, unit)
-    if number < 0:
-        raise InputError(f"Structure: {where} = {number:g} {unit} is below zero: give 0 or more")
-    return number
-
-
-def _numbers(value: Any, count: int, where: str, unit: str) -> tuple[Any, ...]:
-    items = _row(value)
-    if len(items) != count:
-        raise InputError(f"Structure: {where} = {value!r} must be {count} numbers in {unit}")
-    return tuple(_number(item, where, unit) for item in items)
-
-
 def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
     """One number for all, or n of them; refused below zero unless `signed`."""
-    check = _number if signed else _not_negative
+    check = number if signed else not_negative
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):
         raise InputError(f"Structure: {where} has {len(items)} numbers for {n} rotors: give one for all, or {n}")
-    found = [check(item, f"{where}[{i}]", unit) for i, item in enumerate(items)]
+    found = [check(item, f"Structure: {where}[{i}]", unit) for i, item in enumerate(items)]
     return tuple(found * n if len(found) == 1 else found)
 
 

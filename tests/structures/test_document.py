@@ -42,9 +42,9 @@ def test_every_field_is_kept() -> None:
         ("joints = [[0, 0]]\nspin = 3", "'spin' is no field"),
         ("joints = [[0, 0]]\n[rotor]\nweight = 3", "must be a table of mass"),
         ("joints = [[0, 0]]\n[[braces]]\ntip = 0", "lacks one"),
-        ("joints = [[0, 0]]\nload = -1", "below zero"),
+        ("joints = [[0, 0]]\nload = -1", "negative"),
         ("joints = 3", "must be a list"),
-        ('joints = [["a", 0]]', "not a number"),
+        ('joints = [["a", 0]]', "not a finite number"),
         ("joints = [[0, 0]]\nrotor = 3", "must be a table"),
     ],
 )

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, simulate
 from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.numerics import peak
-from lagrotor.numerics.spectrum import spectrum
+from lagrotor.numerics import peak, spectrum
 from lagrotor.theory import natural_rate_error
 from tests.theory.random_pairs import COUNTS, held, random_pair, swinging
 

@@ -12,7 +12,7 @@ from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 

@@ -9,8 +9,8 @@ from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joi
 from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
 from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
 from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import RigidBody
-from lagrotor.models.spring_link.run import paper_system
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STIFFNESS
 from lagrotor.pair.scene import Link, Scene

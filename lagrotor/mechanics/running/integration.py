@@ -20,9 +20,10 @@ from lagrotor.mechanics.running.programs import (
     projection_program,
 )
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.heyoka_programs import taylor_rhs
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.rhs import make_rhs
-from lagrotor.numerics.taylor import integrate_taylor, taylor_rhs
+from lagrotor.numerics.taylor import integrate_taylor
 
 Array = NDArray[np.float64]
 Engine = Literal["core", "fast"]

@@ -5,12 +5,14 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.run import SpringRun, paper_system, run_steps
+from lagrotor.models.spring_link.paper_bodies import paper_system
+from lagrotor.models.spring_link.run import SpringRun, run_steps
+from lagrotor.numerics.curves import peak, spectrum
 from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.numerics.pulse import PULSE_REACH
-from lagrotor.numerics.spectrum import peak, spectrum
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
-from lagrotor.pair.scene import Link, Scene, Shock, Vector
+from lagrotor.pair.quantities import Vector
+from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
 

@@ -5,17 +5,9 @@ from html import escape
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.content import (
-    Report,
-    anchor,
-    as_read,
-    derived_heading,
-    derived_lines,
-    facts,
-    figure_facts,
-    linked_facts,
-)
+from lagrotor.report.content import Report, anchor, as_read, derived_heading, derived_lines
 from lagrotor.report.errata import Erratum
+from lagrotor.report.facts import facts, figure_facts, linked_facts
 from lagrotor.report.page.derivation_pages import reached_in
 from lagrotor.report.page.embed import embedded, size
 from lagrotor.report.page.page_pieces import (

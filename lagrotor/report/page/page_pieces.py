@@ -9,7 +9,8 @@ import sympy as sp
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
-from lagrotor.report.content import Fact, Report, anchor, word
+from lagrotor.report.content import Report, anchor, word
+from lagrotor.report.facts import Fact
 from lagrotor.report.formulas.mathml_latex import from_latex
 
 # Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.

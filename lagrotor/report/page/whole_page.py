@@ -14,9 +14,9 @@ from lagrotor.report.content import (
     contents,
     made_beside,
     notation,
-    note,
 )
 from lagrotor.report.errata import errata
+from lagrotor.report.facts import note
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.page.page_parts import (
     claim_entry,

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lagrotor.models.spring_link.run import paper_system
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.models.spring_link.paper_bodies import paper_system
+from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.claims.precession_runs import (

@@ -6,7 +6,8 @@ from math import pi
 import numpy as np
 
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.paper_bodies import paper_system
+from lagrotor.models.spring_link.run import run_steps
 from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.pair.examples import HEAVY, LIGHT, STEP
 from lagrotor.pair.scene import Link, Scene

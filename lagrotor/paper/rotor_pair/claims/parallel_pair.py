@@ -6,9 +6,10 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.spectrum import mean_between
+from lagrotor.numerics.curves import mean_between
 from lagrotor.pair.examples import HEAVY
-from lagrotor.pair.scene import Link, Vector
+from lagrotor.pair.quantities import Vector
+from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.readable import scientific

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory

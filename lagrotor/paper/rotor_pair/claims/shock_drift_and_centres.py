@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import Harmonics, best_harmonics, harmonics_at
 from lagrotor.pair.examples import LIGHT
-from lagrotor.pair.scene import Vector
+from lagrotor.pair.quantities import Vector
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene, turned_about_joint_line

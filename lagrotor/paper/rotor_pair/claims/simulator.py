@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
+from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import (
     RigidBody,
     finite_rotation,
     inertia_transform,
     printed_inertia_transform,
 )
-from lagrotor.models.spring_link.run import paper_system, run_steps
+from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
-from lagrotor.numerics.convergence import measured_order
+from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene

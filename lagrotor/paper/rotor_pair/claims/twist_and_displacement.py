@@ -6,10 +6,10 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.convergence import measured_order
-from lagrotor.numerics.spectrum import mean_between
+from lagrotor.numerics.curves import mean_between, measured_order
 from lagrotor.pair.examples import HEAVY
-from lagrotor.pair.scene import Link, Vector
+from lagrotor.pair.quantities import Vector
+from lagrotor.pair.scene import Link
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import after_shock, angle_between, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from lagrotor.numerics import mean_between, peak, turn_means
-from lagrotor.numerics.spectrum import spectrum
+from lagrotor.numerics import mean_between, peak, spectrum, turn_means
 
 
 def test_the_peak_of_a_known_sine():

@@ -1,0 +1,68 @@
+"""Numbers and vectors that are given, checked: what makes no sense is refused with its value, the reason and the way out."""
+
+from collections.abc import Iterable
+from math import isfinite, nan
+
+from lagrotor.errors import InputError
+
+Vector = tuple[float, float, float]
+SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
+
+
+def number(value: object, where: str, unit: str) -> float:
+    """A finite number, no larger than LARGEST."""
+    try:
+        given = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
+    if isinstance(value, bool) or not isfinite(given):
+        raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
+    if abs(given) > LARGEST:
+        raise InputError(f"{where} = {given:g} {unit} is beyond {LARGEST:g}, where squares overflow; change the units")
+    return given
+
+
+def not_vanishing(value: object, where: str, unit: str) -> float:
+    """Zero, or a number no smaller than SMALLEST."""
+    given = number(value, where, unit)
+    if 0 < abs(given) < SMALLEST:
+        raise InputError(f"{where} = {given:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
+    return given
+
+
+def positive(value: object, where: str, unit: str) -> float:
+    """A number above zero, no smaller than SMALLEST."""
+    given = number(value, where, unit)
+    if given <= 0:
+        raise InputError(f"{where} = {given:g} {unit} must be greater than zero")
+    return not_vanishing(given, where, unit)
+
+
+def not_negative(value: object, where: str, unit: str) -> float:
+    """Zero, or a number above it."""
+    given = number(value, where, unit)
+    if given < 0:
+        raise InputError(f"{where} = {given:g} {unit} must not be negative: give 0 or more")
+    return given
+
+
+def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
+    """`count` numbers in a row."""
+    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
+    if items is None or len(items) != count:
+        raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
+    return tuple(number(item, f"{where}[{i}]", unit) for i, item in enumerate(items))
+
+
+def vector(value: object, where: str, unit: str) -> Vector:
+    """Three numbers in a row."""
+    x, y, z = numbers(value, 3, where, unit)
+    return x, y, z
+
+
+def two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
+    """A vector for each rotor."""
+    items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
+    if len(items) != 2:
+        raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")
+    return vector(items[0], f"{where}[0]", unit), vector(items[1], f"{where}[1]", unit)

@@ -1,0 +1,87 @@
+"""What the report says of a verdict, a claim and a figure besides formulas: labelled lines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.verdicts import Verdict
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.content import Report, word
+from lagrotor.report.errata import corrected
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text; formulas in LaTeX."""
+
+    label: str
+    texts: tuple[str, ...] = ()
+    ids: tuple[str, ...] = ()
+    formulas: tuple[sp.Basic, ...] = ()
+    sources: tuple[str, ...] = ()
+
+
+def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
+    """What is said of a verdict besides the two formulas; only what applies."""
+    statement = verdict.statement
+    if verdict.condition:
+        yield Fact("Condition", (verdict.condition,))
+    if verdict.order is not None and verdict.small is not None:
+        yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
+    if verdict.domain:
+        yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
+    if statement.correction:
+        answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
+        yield Fact("Correction", (answer,), sources=corrected(statement))
+    if verdict.reaches_result is not None:
+        yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
+    if verdict.evidence:
+        yield Fact("Evidence", verdict.evidence)
+    linked = {
+        "Uses": statement.depends_on,
+        "Used by": report.users(verdict.id),
+        "Claims": report.claims_about(verdict.id),
+        "Figures": report.figures_of(verdict.id),
+    }
+    for label, ids in linked.items():
+        if ids:
+            yield Fact(label, ids=ids)
+
+
+_REACHES = {
+    True: "yes: a result of the paper that depends on it is refuted too",
+    False: "no: no result of the paper depends on this error",
+}
+
+
+def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
+    """The equations and figures that a claim is about, as far as they are in the report."""
+    entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
+    drawn = {picture.key for picture in report.pictures}
+    if ids := tuple(i for i in entry.equations if i in judged):
+        yield Fact("Equations", ids=ids)
+    if ids := tuple(f"figure {number}" for number in entry.figures if number in drawn):
+        yield Fact("Figures", ids=ids)
+
+
+def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
+    """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
+    entry = report.paper.figures.get(int(picture.key)) if picture.key.isdigit() else None
+    judged = {verdict.id for verdict in report.verdicts}
+    if entry and (ids := tuple(i for i in entry.equations if i in judged)):
+        yield Fact("Equations", ids=ids)
+    if ids := tuple(r.test.id for r in report.claims if picture.key in report.paper.claims[r.test.id].figures):
+        yield Fact("Claims", ids=ids)
+
+
+def note(verdict: Verdict) -> str:
+    """What a table says beside the verdict's word: why it is refuted, or the order and the condition in short."""
+    if verdict.verdict == "refuted":
+        return verdict.statement.wrong
+    parts = [premise.says for premise in verdict.premises]
+    if verdict.order is not None and verdict.small is not None:
+        parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
+    broken = any(premise.broken for premise in verdict.premises)
+    return "; ".join(parts) + (". The paper's own scene breaks this." if broken else "")
