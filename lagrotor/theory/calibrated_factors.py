@@ -23,7 +23,7 @@ class Calibrated(NamedTuple):
 
 
 _DRIFT = "tests/theory/test_drift_after_shock.py::"
-_RATE = "tests/theory/test_natural_frequency.py::"
+_RATE = "tests/theory/test_natural_rate.py::"
 _SHOCKED = (
     "1400 opposite pairs with 0.4 < k < 2.5, m up to 2 kg, K up to m ell², widths up to 1.2/Omega_0, 24 swings; "
     "largest "
