@@ -1,16 +1,19 @@
 """Constants of the solvers that were found by trial: what each was calibrated on, and the test that holds it."""
 
 from math import pi
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
+
+Value = TypeVar("Value", float, tuple[float, ...])
 
 
-class Calibrated(NamedTuple):
-    """A constant, what it is, what it was calibrated on, and the test that fails when it is wrong."""
+class Calibrated(NamedTuple, Generic[Value]):
+    """value: a number, or factors c_1, c_2, … of: what it is, or what they multiply. on: what it was calibrated on. held_by:
+    the test that fails when it is wrong, file::name."""
 
-    value: float
-    what: str
-    calibrated_on: str
-    test: str
+    value: Value
+    of: str
+    on: str
+    held_by: str
 
 
 # LSODA leaves up to 200 times the error that it is given, and cannot be given much less than 1e-13. 10 s of the displaced

@@ -3,40 +3,23 @@
 The powers and the letters that they multiply are derived; the factors in front are empirical wherever they are used.
 """
 
-from typing import NamedTuple
+from lagrotor.numerics.solver_constants import Calibrated
 
-
-class Calibrated(NamedTuple):
-    """values: the number, or the factors c_1, c_2, … in order. of: what they multiply or bound. on: the runs that they were
-    found on. held_by: the test, file::name."""
-
-    values: tuple[float, ...]
-    of: str
-    on: str
-    held_by: str
-
-    @property
-    def value(self) -> float:
-        """The number, where it is one."""
-        (value,) = self.values
-        return value
-
-
-_DRIFT = "tests/theory/test_drift_after_shock.py::"
-_RATE = "tests/theory/test_natural_rate.py::"
+_DRIFT = "test_drift_after_shock.py::"
+_RATE = "test_natural_rate.py::"
 _SHOCKED = (
     "1400 opposite pairs with 0.4 < k < 2.5, m up to 2 kg, K up to m ell², widths up to 1.2/Omega_0, 24 swings; "
     "largest "
 )
 
 FREQUENCY_SHIFT = Calibrated(
-    (0.5,),
+    0.5,
     "(1 + 1/k²) r²: relative shift of the natural rate by a swing of amplitude r; r² for parallel axes is exact",
     "150 pairs with 0.5 < k < 2, any two spins, 0.01 < r < 0.2, 20 swings; largest 0.8 of it",
     _RATE + "test_natural_rate",
 )
 LARGEST_SWING = Calibrated(
-    (0.4,),
+    0.4,
     "amplitude beyond which the errors below are not estimated",
     "the same pairs; beyond it runs over 24 swings topple over",
     _RATE + "test_an_amplitude_out_of_range_is_refused",
@@ -54,13 +37,13 @@ FIFTH_ORDER = Calibrated(
     _DRIFT + "test_the_mean_x_after_a_shock",
 )
 CANCELLING = Calibrated(
-    (1.2,),
+    1.2,
     "q² (1 + 1/k²): relative distance of the second order's cancelling force from that of exact runs",
     "220 opposite pairs as above with q > 0.05, 8 to 40 swings; largest 0.65 of it",
     _DRIFT + "test_cancelling_force_of_random_pairs",
 )
 FARTHEST_TURN = Calibrated(
-    (3.0,),
+    3.0,
     "rad turned about the joint line beyond which a rate is no longer that of the start",
     "the same pairs; about there the estimates grow past the rates",
     _DRIFT + "test_what_is_out_of_range_is_refused",

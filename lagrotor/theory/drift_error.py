@@ -45,7 +45,7 @@ def toppling_error(scene: Scene, duration: float) -> float:
     q > 0.4, a turn by more than 3 rad, a mean x beyond 0.5.
     """
     d = _drift(scene, duration, "toppling_error")
-    c, k = FOURTH_ORDER.values, d.ratio
+    c, k = FOURTH_ORDER.value, d.ratio
     fourth = d.spin * d.size**4 * (c[0] / k + c[1] / k**3) + d.momentum * d.size**2 * (c[2] + c[3] / k**2)
     slow = (d.momentum + d.taken) * d.length**2 / 2 + d.spin * d.twist * d.change / (2 * k)
     return (fourth + slow) / d.inertia
@@ -57,7 +57,7 @@ def wander_error(scene: Scene, duration: float) -> float:
     Raises as `toppling_error`.
     """
     d = _drift(scene, duration, "wander_error")
-    c, k = FIFTH_ORDER.values, d.ratio
+    c, k = FIFTH_ORDER.value, d.ratio
     fifth = d.spin * d.size**5 * (c[0] + c[1] / k**4) + d.momentum * d.size**3 * (c[2] + c[3] / k**2)
     slow = (d.momentum + d.taken) / (2 * k) * (d.change + d.twist * d.length**2)
     return (fifth + slow) / d.inertia

@@ -3,7 +3,6 @@
 import json
 from collections import Counter
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 
 from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
-from lagrotor.benchmark.chart_constants import SAMPLE, TABLE
+from lagrotor.benchmark.chart_constants import SAMPLE
 from lagrotor.benchmark.method import Case, Method
 from lagrotor.benchmark.runner import Failure, Point, benchmark, front, listed, seconds_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
@@ -129,10 +128,3 @@ def test_the_front_keeps_what_nothing_beats() -> None:
     assert seconds_at(points, 0.1 / 10**0.5) == pytest.approx(8**0.5)
     assert seconds_at(points, 1e-3) is None
     assert seconds_at([], 1) is None
-
-
-def test_every_calibrated_number_names_a_test_that_holds_it() -> None:
-    root = Path(__file__).parents[2]
-    for name, row in TABLE.items():
-        file, test = row.held_by.split("::")
-        assert f"def {test}(" in (root / file).read_text(), name

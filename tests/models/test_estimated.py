@@ -2,7 +2,6 @@
 
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,10 +10,8 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, 
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import closed_form, conservation_defect, estimated, euler, minimal, parting, periodic_orbit
 from lagrotor.models.conserved import pulse_nodes
-from lagrotor.models.estimate_constants import TABLE
 from lagrotor.models.integrated import integrated
 from lagrotor.models.natural_units import natural_units, typical_rate
-from lagrotor.numerics import solver_constants
 
 SHOCKED = Scene(
     (10, -9), link=Link(0.8, 0.3, 0.05), shock=Shock((40, -11, 5), 0.6, 0.05, 2), rates=((0.4, 1, 0), (0.4, -0.5, 0))
@@ -146,10 +143,3 @@ def test_ten_thousand_turns_of_the_paired_precession() -> None:
     light = paired_scene(Scene((10, -10), link=Link(1, 0.01, 0.1)), 0.204)
     assert parting(periodic_orbit(light, 0.8543), 1e4 * orbit.period) > 1e10
     assert closed_form(light, 1e4 * orbit.period, 1e-6).error > 0.1
-
-
-def test_every_calibrated_constant_names_a_test_that_is_there() -> None:
-    folder = Path(__file__).parents[1]
-    for name, entry in (TABLE | solver_constants.TABLE).items():
-        file, test = entry.test.split("::")
-        assert any(f"def {test}(" in path.read_text() for path in folder.rglob(file)), name

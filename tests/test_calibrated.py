@@ -1,0 +1,18 @@
+"""Every number that was found by trial names the test that holds it."""
+
+from pathlib import Path
+
+import pytest
+
+from lagrotor.benchmark import chart_constants
+from lagrotor.models import estimate_constants
+from lagrotor.numerics import solver_constants
+from lagrotor.theory import calibrated_factors
+
+
+@pytest.mark.parametrize("room", [solver_constants, calibrated_factors, estimate_constants, chart_constants])
+def test_a_calibrated_number_names_the_test_that_holds_it(room) -> None:
+    assert room.TABLE
+    for name, entry in room.TABLE.items():
+        file, test = entry.held_by.split("::")
+        assert any(f"def {test}(" in path.read_text() for path in Path(__file__).parent.rglob(file)), name
