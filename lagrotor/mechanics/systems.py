@@ -11,8 +11,9 @@ from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.running.integration import Array, Engine, Rhs, Values
+    from lagrotor.mechanics.running.integration import Array, Rhs, Values
     from lagrotor.mechanics.running.simulation import Run
+    from lagrotor.numerics.integrate import Engine
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from lagrotor.models.chunk import MODELS, Array, Chunk, kind_of, run_chunk
 from lagrotor.models.chunk_files import chunk_folder
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.simulate import check_times
-from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
@@ -123,8 +123,7 @@ def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, .
         raise InputError("sweep: scenes must be a sequence of at least one Scene")
     if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
         raise InputError(f"sweep: chunk = {chunk!r} must be a whole number above zero")
-    if engine not in ("core", "fast"):
-        raise InputError(f"sweep: engine = {engine!r} is neither core nor fast")
+    check_engine(engine, "sweep")
     if engine == "fast" and any(scene.shock for scene in members):
         raise InputError("sweep: engine='fast' takes no shock: use engine='core'")
     return members

@@ -63,7 +63,8 @@ def integrated(
     if engine == "core":
         solution = integrate(problem_of(model, scene, float(times[-1]), bounded, companion), times, tol)
         return Integrated(model.observe(scene, solution.states), solution.nfev)
-    from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
+    from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor
+    from lagrotor.numerics.taylor_steps import taylor_order
 
     shock, project = scene.shock, model.projection(scene) if model.projection else None
     x, y, z = (scene.rotor.length * f for f in (shock.force if shock else (0.0, 0.0, 0.0)))

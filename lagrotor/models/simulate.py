@@ -17,7 +17,7 @@ from lagrotor.models.estimated import Estimated, run_at, run_within
 from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, constant_momenta
 from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
-from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
@@ -96,8 +96,7 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
     times, tolerance = check_times(t), check_tolerance(tol)
-    if engine not in ("core", "fast"):
-        raise InputError(f"simulate: engine = {engine!r} is neither core nor fast")
+    check_engine(engine)
     if model == "auto":
         return _automatic(scene, times, tolerance, engine)
     if model in DIRECT:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHand
 from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
+Engine = Literal["core", "fast"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,12 @@ def check_tolerance(tol: float) -> float:
     if not (isinstance(tol, int | float) and TIGHTEST <= tol <= 0.1):
         raise InputError(f"simulate: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
     return float(tol)
+
+
+def check_engine(engine: str, caller: str = "simulate") -> None:
+    """Raises InputError where it is neither "core" nor "fast"."""
+    if engine not in ("core", "fast"):
+        raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
 def integrate(problem: Problem, times: Array, tol: float) -> Solution:

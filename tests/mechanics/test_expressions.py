@@ -38,7 +38,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "a list of values": (lambda: PENDULUM.simulate([1, 2], (1,), (0,), TIMES), "must be {symbol: number, …}"),
     "one time": (lambda: PENDULUM.simulate(VALUES, (1,), (0,), 5), "t = 5 must be an increasing array.*linspace"),
     "times that fall": (lambda: PENDULUM.simulate(VALUES, (1,), (0,), (5, 0)), r"t = \(5, 0\) must be an increasing"),
-    "an unknown engine": (lambda: PENDULUM.rhs(VALUES, "gpu"), "engine = 'gpu' must be 'core' or 'fast'"),
+    "an unknown engine": (lambda: PENDULUM.rhs(VALUES, "gpu"), "engine = 'gpu' is neither core nor fast"),
     "a section in words": (lambda: run().crossings("theta"), "section = 'theta' is no expression"),
     "a section that is an inequality": (lambda: run().crossings(theta > 0), "is no expression"),
     "one coordinate of a section": (lambda: run().poincare(theta, theta), "of = theta must be 2 expressions"),

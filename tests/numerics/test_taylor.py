@@ -12,6 +12,7 @@ from lagrotor.models import minimal
 from lagrotor.models.integrated import integrated
 from lagrotor.models.programs.minimal_program import observation, program
 from lagrotor.numerics import heyoka_programs, taylor
+from lagrotor.numerics.taylor_steps import taylor_order
 from lagrotor.pair import SHOCK_PAIRED
 
 TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
@@ -54,7 +55,7 @@ def test_any_bar_at_any_times(heyoka, link: Link, times: list[float]) -> None:
 
 @pytest.mark.parametrize("tol", [0.1, 1e-3, 1e-7, 9e-8, 1e-11, 9e-12, 1e-13])
 def test_the_order_is_the_one_asked_for_and_a_step_leaves_what_is_asked(heyoka, tol: float) -> None:
-    order = taylor.taylor_order(tol)
+    order = taylor_order(tol)
     assert taylor._solver(program(False, "equal", 0), 6, False, order, 1, 0).order == order
     scene = Scene((10, -7), **MOVING)
     exact = simulate(scene, TIMES, "minimal", 1e-13)
@@ -66,7 +67,7 @@ def test_within_an_order_the_step_follows_the_tolerance(heyoka) -> None:
     """The component that stands still sets it: steps as tol^(−1/order), within the rounding of a few of them."""
     scene, times = Scene((10, -7), **MOVING), [20.0]
     spent = [integrated(minimal.MODEL, scene, np.array(times), tol, "fast").nfev for tol in (1e-2, 1e-4, 1e-6)]
-    assert taylor.taylor_order(1e-2) == taylor.taylor_order(1e-6) == 10
+    assert taylor_order(1e-2) == taylor_order(1e-6) == 10
     assert spent[1] / spent[0] == pytest.approx(100**0.1, rel=0.1)
     assert spent[2] / spent[1] == pytest.approx(100**0.1, rel=0.1)
 

@@ -4,7 +4,7 @@ from functools import partial
 
 from lagrotor.benchmark.mechanisms.chains import VALUES, Kind, chain
 from lagrotor.benchmark.mechanisms.tool import Array, Ready, Tool
-from lagrotor.mechanics.running.integration import Engine
+from lagrotor.numerics.integrate import Engine
 
 _TOLERANCES = tuple(10.0**-k for k in range(6, 14))
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -21,12 +21,11 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.heyoka_programs import taylor_rhs
-from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
 from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.taylor import integrate_taylor
 
 Array = NDArray[np.float64]
-Engine = Literal["core", "fast"]
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
 MOST = 10_000_000  # evaluations of one integration
@@ -132,11 +131,6 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     mass, slope = np.array(M(q, v), float), rows(q)
     particular = -np.linalg.pinv(slope) @ wanted
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
-
-
-def check_engine(engine: str) -> None:
-    if engine not in ("core", "fast"):
-        raise InputError(f"simulate: engine = {engine!r} must be 'core' or 'fast'")
 
 
 def vector(name: str, given: ArrayLike, n: int) -> Array:

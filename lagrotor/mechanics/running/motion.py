@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
-from lagrotor.mechanics.running.integration import Array, Engine, Values, increasing, rhs_factory, states
+from lagrotor.mechanics.running.integration import Array, Values, increasing, rhs_factory, states
 from lagrotor.mechanics.running.programs import (
     Generated,
     energy_program,
@@ -20,6 +20,7 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
 )
 from lagrotor.numerics.codegen import compile_program
+from lagrotor.numerics.integrate import Engine
 
 Kind = TypeVar("Kind", bound="Motion")
 

@@ -11,9 +11,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running import lyapunov, run_pictures, sections
 from lagrotor.mechanics.running.integration import (
     Array,
-    Engine,
     Values,
-    check_engine,
     consistent,
     increasing,
     states,
@@ -21,7 +19,7 @@ from lagrotor.mechanics.running.integration import (
 )
 from lagrotor.mechanics.running.motion import Motion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values
-from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 
 _OFF = 1e-7  # of a start from its constraints, in units of the state's size, beyond which it is refused
 

@@ -1,13 +1,14 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
 import warnings
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
@@ -26,6 +27,7 @@ def simulate(
     drive: Drive | None = None,
     ground: Drive | None = None,
     tol: float = 1e-9,
+    engine: Engine = "core",
 ) -> StructureRun:
     """The exact motion from t = 0, read at the increasing times t (n,), s.
 
@@ -34,17 +36,20 @@ def simulate(
     brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and `run.rates[:, 0]` show.
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
-    tolerance, and a LagrotorWarning says when it exceeds tol.
+    tolerance, and a LagrotorWarning says when it exceeds tol. engine: "core", or "fast" with heyoka (`pip install
+    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins, and no drive and no ground.
 
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
     where bars and axes are in line, IntegrationError where the motion cannot go on.
     """
     times, wanted = _times(t), check_tolerance(tol)
+    check_engine(engine)
     motion = exact_motion(s, _checked(drive, "drive", (len(s.joints), 3)), _checked(ground, "ground", (3,)))
     start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
-    coarse, first = _integrated(motion, start, times, local)
+    run = partial(_integrated, s, motion, start, times, engine)
+    coarse, first = run(local)
     while True:
-        fine, second = _integrated(motion, start, times, max(local / _APART, 1e-13))
+        fine, second = run(max(local / _APART, 1e-13))
         error = float(np.linalg.norm(fine[0] - coarse[0], axis=-1).max()) + 1e-15
         first += second
         if error <= wanted or local <= 3e-12:
@@ -60,12 +65,19 @@ def simulate(
     return StructureRun(s, times, fine[0], fine[1], error, first)
 
 
-def _integrated(motion: ExactMotion, start: Array, times: Array, local: float) -> tuple[Array, int]:
+def _integrated(
+    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float
+) -> tuple[Array, int]:
     """Axes and rates (2, N, n, 3), and evaluations."""
     rate, N = motion.c.rate, len(motion.c.R)
-    most = 50_000 + 2_000 * rate * float(times[-1])
-    problem: Any = Problem(motion.rhs, start, most, project=motion.projected, typical_rate=1.0)
-    found = integrate(problem, rate * times, local)
+    if engine == "fast":
+        from lagrotor.structures.exact.compiled_motion import integrate_compiled
+
+        found = integrate_compiled(s, motion, start, times, local)
+    else:
+        most = 50_000 + 2_000 * rate * float(times[-1])
+        problem: Any = Problem(motion.rhs, start, most, project=motion.projected, typical_rate=1.0)
+        found = integrate(problem, rate * times, local)
     states = found.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
     states[1] *= rate
     return states, found.nfev

@@ -159,7 +159,7 @@ def test_expressions_are_evaluated_along_a_run() -> None:
         ({"t": [0, 1, 1]}, "increasing"),
         ({"t": "soon"}, "array of times"),
         ({"tol": 1e-20}, "tol"),
-        ({"engine": "warp"}, "must be 'core' or 'fast'"),
+        ({"engine": "warp"}, "is neither core nor fast"),
     ],
 )
 def test_what_cannot_be_run_is_refused_before_it_runs(arguments: dict, message: str) -> None:

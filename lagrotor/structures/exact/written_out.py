@@ -1,0 +1,96 @@
+"""The equations of `exact_motion` written out, one component at a time, for numbers of any kind: what is compiled."""
+
+from collections.abc import Callable, Sequence
+from math import comb
+from typing import Any
+
+from lagrotor.structures.coefficients import Coefficients
+from lagrotor.structures.exact.levels import solve_in_levels
+
+Vector = list[Any]
+_TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
+
+
+def accelerations(
+    c: Coefficients,
+    r: Sequence[Vector],
+    v: Sequence[Vector],
+    G: Sequence[Any],
+    by: Any,
+    add: Callable[[Vector], Any] = sum,
+) -> list[Vector]:
+    """r'' of axes r and rates v, N lists of three each, with axial momenta G (N).
+
+    by: a module with sqrt for their kind of number; add: sums a list of them.
+    What a structure has not (hinges, friction, heavy bars) costs nothing.
+    """
+    N, B = len(c.R), len(c.i)
+    right = [x for F in _forces(c, r, v, G, by) for x in F] + [-_dot(w, w) for w in v]
+    diagonal = [c.A[k // 3] for k in range(3 * N)] + [0.0] * (N + B)
+    off: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i][k] for i in range(N) for k in range(3)}
+    for b, (i, j) in enumerate(zip(c.i.tolist(), c.j.tolist(), strict=True)):
+        d, swing = _apart(c, r, i, j), [c.R[j] * y - c.R[i] * x for x, y in zip(v[i], v[j], strict=True)]
+        for k in range(3):
+            off[3 * i + k, 4 * N + b], off[3 * j + k, 4 * N + b] = -c.R[i] * d[k], c.R[j] * d[k]
+            if c.coupling[b]:
+                off[3 * i + k, 3 * j + k] = c.coupling[b]
+        right.append(-_dot(swing, swing))
+    x = solve_in_levels(diagonal, off, right, 3 * N, add)
+    return [x[3 * i : 3 * i + 3] for i in range(N)]
+
+
+def _forces(c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequence[Any], by: Any) -> list[Vector]:
+    """What acts on the axes besides the constraints, N m."""
+    found = []
+    for i, ((x, y, z), (p, q, w)) in enumerate(zip(r, v, strict=True)):
+        F = [G[i] * (y * w - z * q), G[i] * (z * p - x * w), G[i] * (x * q - y * p)]
+        if c.friction[i]:
+            F = [f - c.friction[i] * speed for f, speed in zip(F, v[i], strict=True)]
+        if c.gravity:
+            F[2] = F[2] - c.gravity * c.S[i]
+        if c.hinge[i]:
+            F[2] = F[2] + c.hinge[i] * _angle_by_sine(z, by)
+        found.append(F)
+    for k in range(len(c.stiffness)):
+        _brace(c, k, found, r, v, by)
+    return found
+
+
+def _brace(c: Coefficients, k: int, F: list[Vector], r: Sequence[Vector], v: Sequence[Vector], by: Any) -> None:
+    i, j = int(c.brace_tip[k]), int(c.brace_to[k])
+    if j >= 0:
+        d, swing = _apart(c, r, j, i), [c.R[i] * x - c.R[j] * y for x, y in zip(v[i], v[j], strict=True)]
+    else:
+        d = [c.feet[i, m] + c.R[i] * r[i][m] - c.brace_point[k, m] for m in range(3)]
+        swing = [c.R[i] * x for x in v[i]]
+    length = by.sqrt(_dot(d, d))
+    pull = c.stiffness[k] * (length - c.brace_length[k]) / length
+    if c.damping[k]:
+        pull = pull + c.damping[k] * _dot(d, swing) / (length * length)
+    for m in range(3):
+        F[i][m] = F[i][m] - c.R[i] * (pull * d[m])
+        if j >= 0:
+            F[j][m] = F[j][m] + c.R[j] * (pull * d[m])
+
+
+def _angle_by_sine(z: Any, by: Any) -> Any:
+    """theta / sin(theta) from z = cos(theta), regular where the axis is upright.
+
+    theta = 8 b, and b / sin(b) is the arc sine's series in sin(b)²; sin(8 b) = 8 sin(b) cos(b) cos(2 b) cos(4 b).
+    """
+    half = by.sqrt((1.0 + z) / 2.0)
+    quarter = by.sqrt((1.0 + half) / 2.0)
+    eighth = by.sqrt((1.0 + quarter) / 2.0)
+    square, series = (1.0 - quarter) / 2.0, 0.0
+    for n in reversed(range(_TERMS)):
+        series = series * square + comb(2 * n, n) / 4**n / (2 * n + 1)
+    return series / (half * quarter * eighth)
+
+
+def _apart(c: Coefficients, r: Sequence[Vector], i: int, j: int) -> Vector:
+    """From tip i to tip j, m."""
+    return [c.feet[j, m] - c.feet[i, m] + (c.R[j] * r[j][m] - c.R[i] * r[i][m]) for m in range(3)]
+
+
+def _dot(one: Vector, other: Vector) -> Any:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

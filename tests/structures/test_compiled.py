@@ -1,0 +1,107 @@
+"""The fast extra on structures: the equations written out are those of the exact motion, and so are the runs."""
+
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lagrotor import Brace, Link, Structure
+from lagrotor.errors import InputError
+from lagrotor.structures import exact_motion
+from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact.written_out import accelerations
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+from tests.structures.test_exact_motion import LOADED, nine, started
+
+T = np.linspace(0, 2, 11)
+
+
+@pytest.mark.parametrize("s", [*LOADED.values(), nine()], ids=[*LOADED, "nine"])
+def test_the_equations_written_out_are_those_of_the_exact_motion(s) -> None:
+    motion, draw = exact_motion(s), np.random.default_rng(3)
+    r = motion.c.upright + 0.3 * draw.standard_normal((len(s.joints), 3))
+    r /= np.linalg.norm(r, axis=1, keepdims=True)
+    v = np.cross(r, draw.standard_normal(r.shape))
+    expected = motion.accelerations(0.0, r, v)
+    found = np.array(accelerations(motion.c, r.tolist(), v.tolist(), motion.c.G.tolist(), math))
+    assert np.abs(found - expected).max() < 1e-13 * np.abs(expected).max()
+    other = np.array(accelerations(replace(motion.c, gravity=1.0), r.tolist(), v.tolist(), motion.c.G.tolist(), math))
+    assert np.abs(other - expected).max() > 1e-3
+
+
+@pytest.mark.parametrize("theta", [0.0, 1e-9, 0.3, 1.5, 3.0])
+def test_the_hinge_is_exact_from_upright_to_hanging(theta: float) -> None:
+    s = Structure([(0, 0)], spins=1, hinge=2.0)
+    r = [math.sin(theta), 0.0, math.cos(theta)]
+    found = accelerations(exact_motion(s).c, [r], [[0.0] * 3], [0.0], math)[0]
+    assert 1.25 * np.hypot(found[0], found[2]) == pytest.approx(2 * theta, rel=1e-13, abs=1e-22)
+
+
+def same(s: Structure, tol: float, **more) -> None:
+    start = started(s, size=0.05)
+    core, fast = (s.simulate(T, **start, tol=tol, engine=engine) for engine in ("core", "fast"))
+    assert np.abs(core.axes - fast.axes).max() < core.error + fast.error < 2 * tol
+    assert np.abs(fast.bar_length - np.array([bar[2] for bar in s.bars])[:, None]).max(initial=0) < 1e-12
+    assert fast.axes[:, 0] == pytest.approx(core.axes[:, 0], abs=1e-15) and fast.nfev > 0
+
+
+@pytest.fixture
+def heyoka():
+    return pytest.importorskip("heyoka", reason="the fast extra is not installed")
+
+
+def test_a_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
+    same(Structure([(0, 0)], spins=20, gravity=9.81, spin_friction=0.3, friction=0.1), 1e-7)
+
+
+def test_it_is_compiled_once_for_all_spins(heyoka) -> None:
+    top = Structure([(0, 0)], spins=20, gravity=9.81)
+    top.simulate(T, tilt=[(0.1, 0)], tol=1e-7, engine="fast")
+    before = compiled_motion._solver.cache_info().misses
+    other = replace(top, spins=-30.0)
+    fast, core = (other.simulate(T, tilt=[(0.1, 0)], tol=1e-7, engine=engine) for engine in ("fast", "core"))
+    assert compiled_motion._solver.cache_info().misses == before
+    assert np.abs(core.axes - fast.axes).max() < 1e-7
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tol", [1e-6, 1e-10])
+@pytest.mark.parametrize("s", [*LOADED.values(), nine()], ids=[*LOADED, "nine"])
+def test_a_run_of_any_structure_is_that_of_the_core(heyoka, s, tol) -> None:
+    same(s, tol)
+
+
+@pytest.mark.slow
+def test_a_chain_of_4096_rotors_runs(heyoka) -> None:
+    from tests.structures.test_cost import chain
+
+    s = chain(4096, Link())
+    rates = np.zeros((4096, 2))
+    rates[:2] = 1e-3
+    fast, core = (s.simulate([0.0, 0.05], rates=rates, tol=1e-6, engine=engine) for engine in ("fast", "core"))
+    assert np.abs(fast.axes - core.axes).max() < 1e-10 and np.abs(fast.axes[0, 1, :2]).max() > 1e-5
+
+
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        ({"engine": "quick"}, "neither core nor fast"),
+        ({"engine": "fast", "drive": lambda t: np.zeros((1, 3))}, "no drive"),
+        ({"engine": "fast", "ground": lambda t: np.zeros(3)}, "no ground"),
+    ],
+)
+def test_what_it_does_not_take_is_refused(given, reason) -> None:
+    with pytest.raises(InputError, match=reason):
+        Structure([(0, 0)], spins=20).simulate([0.0, 1.0], **given)
+
+
+def test_a_wide_grid_is_refused() -> None:
+    L = 16
+    bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
+    s = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
+    with pytest.raises(InputError, match="up to 64 rotors, not of 256"):
+        s.simulate([0.0, 1.0], engine="fast")
