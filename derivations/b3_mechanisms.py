@@ -23,12 +23,12 @@ where = f"{machine['processor']}, {machine['cores']} cores, Python {machine['Pyt
 versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
 
 # %% [markdown]
-# ## What is wanted, and what was measured
+# ## Targets and measurements
 
 # %%
 tables = [
     Table(
-        "Mechanisms: wanted and measured",
+        "Mechanisms: targets and measurements",
         WANTED_HEAD,
         tuple(wanted(found.measured, found.decided, found.operations)),
         f"Multiples of processor time, from one run of {where}. Operations grow by the same number with each link more; the "

@@ -16,7 +16,7 @@ from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import C18, C19
 #
 # The formula's second harmonic in $x_1$, over the first and in its phase, is $-r_0/2$, in $x_2$ it is $+r_0/2$: valleys of
 # the left, peaks of the right are pinched. The same two numbers by least squares from the exact run, at the rate that
-# fits best within a tenth of the natural one. Shared, as an eye can tell it: the right signs, and a size of the formula's
+# fits best within a tenth of the natural one. Shared, as far as an eye can judge: the right signs, and a size of the formula's
 # order of magnitude, that is nearer to once than to ten times or a tenth of it.
 
 # %%

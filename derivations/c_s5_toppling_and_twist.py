@@ -60,7 +60,7 @@ C12
 # ## C13: no displacement in x on average
 #
 # Means over the first four cycles after small shocks, of each axis, and with which power of the shock they go. A displacement
-# that vanishes faster than the shock counts as none to first order: its power is above 1.5. Over a quarter of a cycle, which
+# that vanishes faster than the shock is none to first order: its power is above 1.5. Over a quarter of a cycle, which
 # is no average, the means go as the shock.
 
 # %%

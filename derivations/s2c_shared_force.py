@@ -68,7 +68,7 @@ rate_1, rate_2 = spinning_1 / (I3 * omega_1), spinning_2 / (I3 * omega_2)
 Formula(rate_1, r"\dot{\hat r}_1")
 
 # %% [markdown]
-# ## What parallel axes ask of the forces
+# ## The forces that parallel axes need
 #
 # With $\vec r_2 = \vec r$ at all times the accelerations are the same too, and the rates differ by
 
@@ -87,7 +87,7 @@ prove(
 )
 
 # %% [markdown]
-# They stay parallel if this vanishes: what stands beside $\vec r$ in the product then lies along $\vec r$. This fixes
+# They stay parallel if this vanishes: the other factor of the product then lies along $\vec r$. This fixes
 # $\vec f$ but for a part along $\vec r$.
 
 # %%

@@ -199,7 +199,7 @@ prove(
 )
 
 # %% [markdown]
-# The paper asks for the first of these only. Two particles a unit apart along $x$ that push each other across that line
+# The paper requires the first of these only. Two particles a unit apart along $x$ that push each other across that line
 # obey it, and turn by themselves:
 
 # %%
@@ -216,7 +216,7 @@ verdict(
     premises=[action_and_reaction, central],
     uses=["3.05", "3.06"],
     evidence=[
-        "The paper asks for f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N across the line between "
+        "The paper requires f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N across the line between "
         f"them obey that and turn by themselves: dL/dt = {tuple(spin_up)} N m without any torque from outside."
     ],
     written=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),

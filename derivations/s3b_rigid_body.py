@@ -187,7 +187,7 @@ verdict(
         "X*R' + X_cm says the same of R.",
         f"Principal inertias (1, 2, 3), a quarter turn about x and then one about z: along the diagonal "
         f"{tuple(right.diagonal())}, as printed {tuple(wrong.diagonal())}. With equal inertias, as in all the paper's runs, "
-        "both are the same: no run of the paper can tell.",
+        "both are the same: no run of the paper distinguishes them.",
     ],
     written=turned,
 )

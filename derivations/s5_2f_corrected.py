@@ -132,7 +132,7 @@ unvaried = (A - B * sp.cos(theta_0)) / (2 * J * s**2)
 prove(varied, unvaried, "the rate to first order in the correction, at constant A and B")
 
 # %% [markdown]
-# The paper multiplies the two derivatives where their difference is wanted; that its last line follows all the same is a
+# The paper multiplies the two derivatives where their difference is needed; that its last line follows all the same is a
 # second error, which cancels the first.
 #
 # ## The rate after the correction: the orbit's
@@ -206,7 +206,7 @@ verdict(
 # ## The trajectories
 #
 # The left joint is at $-\ell/2$, the right one at $+\ell/2$. In $x$ the paper has the right second harmonic and lacks a
-# constant of second order, by which the two centres stand apart. The mean of a polynomial of second degree in $\cos\Phi$ and
+# constant of second order, by which the two centres are apart. The mean of a polynomial of second degree in $\cos\Phi$ and
 # $\sin\Phi$ is that of its values at four phases a quarter turn apart:
 
 # %%

@@ -57,7 +57,7 @@ any_spins = (a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2) / (2 * (a + b) * (a**2 -
 prove(natural**2, any_spins, "the square of the natural frequency")
 
 # %% [markdown]
-# Opposite spins twist the bar, and its inertia $K$ counts as well as its mass:
+# Opposite spins twist the bar, and its inertia $K$ matters as well as its mass:
 
 # %%
 opposite = G / sp.sqrt(a**2 - b**2)

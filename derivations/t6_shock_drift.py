@@ -5,7 +5,7 @@
 # of section 5.2.1 that cancels it: the paper's $-11$ N, chosen without saying why.
 #
 # **Assumptions.** Opposite spins at rest upright; shock on rotor 1; second order in it. Just after the shock: how the rates
-# change later stands at the end.
+# change later is shown at the end.
 #
 # **Notation.** $p_x$, $p_y$ the impulses times $R$; $G=G_1=-G_2$; $A_w = e^{-(\Omega_0 w)^2/4}$;
 # $\sigma=(a+b)/(a-b)$; $P$ the momentum about the joint line; $\langle\cdot\rangle$ the mean over the swing.
@@ -46,7 +46,7 @@ Formula(joint_line_momentum(), "P")
 # ## The bar makes twisted axes lean
 #
 # With $z_i=\sqrt{1-x_i^2-y_i^2}$ and deviations of first order ($\epsilon$), the bar's constraint holds in first order if
-# $x_1=x_2$. In second order a difference of the $y_i$ asks for a difference of the $x_i$:
+# $x_1=x_2$. In second order a difference of the $y_i$ requires a difference of the $x_i$:
 
 # %%
 eps, apart = sp.symbols("epsilon x_12")

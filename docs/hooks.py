@@ -123,5 +123,5 @@ def called(node: ast.FunctionDef | ast.ClassDef) -> str:
 
 
 def fenced(text: str | None) -> str:
-    """A docstring as it stands: its lines and formulas are its own."""
+    """A docstring as it is: its lines and formulas are its own."""
     return f"```text\n{text.strip()}\n```" if text else ""

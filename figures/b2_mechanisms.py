@@ -63,7 +63,7 @@ CAPTION = (
     "Processor time on one machine, each tool in its own process, its right-hand side equal to the others' to 1e-9. "
     f"Between the smallest and the largest mechanism lagrotor's time to be ready grows as n to the power "
     f"{measure()['power of n, ready, rods']:.2f} for rods and {measure()['power of n, ready, gyroscopes']:.2f} for gyroscopes. "
-    "A line ends where a tool took longer than it was given. Engines know their mechanisms as data and derive nothing."
+    "A line ends at the time limit. Engines take their mechanisms as data and derive nothing."
 )
 
 

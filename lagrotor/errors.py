@@ -42,4 +42,4 @@ class IntegrationError(LagrotorError, ArithmeticError):
 
 
 class LagrotorWarning(UserWarning):
-    """A result that is given although it does not keep what was asked for; the message says what it keeps."""
+    """A result whose error may exceed the tolerance; the message says what it keeps."""

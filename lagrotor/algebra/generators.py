@@ -57,7 +57,7 @@ class Survey:
     angles: dict[Angle, Multiples] = field(default_factory=dict)
 
     def compact(self, angle: Angle) -> bool:
-        """Whether powers of one exponential stand for the multiples of this angle."""
+        """Whether powers of one exponential express the multiples of this angle."""
         multiples = self.angles[angle]
         return multiples.exponential or multiples.largest * multiples.step > self.largest
 

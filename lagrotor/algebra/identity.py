@@ -41,7 +41,7 @@ from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.scalar import scalar, sympified
 from lagrotor.errors import InputError, NotExactError
 
-# A divisor larger than this stands in the domain as it is: its factors may take hours to find.
+# A divisor larger than this is kept whole in the domain: its factors may take hours to find.
 _MOST_TERMS, _MOST_DEGREE = 40, 12
 # A normal form is not sought of larger polynomials: their common divisor may take hours to find.
 _MOST_NORMAL = 3000

@@ -22,7 +22,7 @@ SAMPLE = Calibrated(
 )
 LSODA_LEAST = Calibrated(
     3e-14,
-    "tolerance below which LSODA refuses to start",
+    "tolerance below which LSODA does not start",
     "scipy's odeint and ode",
     "test_limits.py::test_solvers_keep_an_orbit",
 )

@@ -67,7 +67,7 @@ CASES: dict[str, Callable[[bool], Case]] = {
 def _model(model: str, engine: str = "core") -> Prepare:
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         def run(tol: float) -> tuple[Array, int]:
-            closed_form.cache_clear()  # each run meets its scene for the first time
+            closed_form.cache_clear()  # each run derives its scene anew
             found = simulate(scene, t_eval, model, tol, engine)
             return found.tips, found.evaluations
 

@@ -1,4 +1,4 @@
-"""The commands' times in units of `python -c "import sympy"`, beside what is wanted: `python -m lagrotor.benchmark.units`.
+"""The commands' times in units of `python -c "import sympy"`, beside the targets: `python -m lagrotor.benchmark.units`.
 
 Each command runs in processes of its own, five times, and the median counts; the unit is measured between them, so that a
 machine that is busy slows both. `--whole` adds the long commands: the whole audit, the main job and the tests, once each.
@@ -24,7 +24,7 @@ REPEATS = 5
 
 @dataclass(frozen=True)
 class Command:
-    """What `python` is given, and the units wanted. prepare: what is done to the copy of the sources before it is run."""
+    """What `python` is given, and the target in these units. prepare: what is done to the copy of the sources first."""
 
     name: str
     arguments: tuple[str, ...]

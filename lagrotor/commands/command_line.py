@@ -55,7 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return say("interrupted", 130)
     except MemoryError:
-        return say("not enough memory: ask for fewer samples", 2)
+        return say("not enough memory: take fewer samples", 2)
     except (LagrotorError, OSError) as error:
         return say(str(error), 2)
 

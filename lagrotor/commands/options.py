@@ -73,7 +73,7 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
     start = {
         name: (tuple(values[:3]), tuple(values[3:]))
         for name in ("axes", "rates")
-        if (values := vars(given).get(name)) is not None  # rate asks for no start
+        if (values := vars(given).get(name)) is not None  # rate takes no start
     }
     return Scene(
         spins=tuple(given.spins),

@@ -99,7 +99,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
         return _compared(made.changes, bool(paper.recorded))
     print(f"{sum(made.equations.values())} equations: {counted(made.equations) or 'none'}")
     if made.claims:
-        print(f"{sum(made.claims.values())} claims tried: {counted(made.claims)}")
+        print(f"{sum(made.claims.values())} claims tested: {counted(made.claims)}")
     if made.taken == ["report"]:
         print("all taken from the last run (same inputs); to run it again, delete the folder")
     elif made.taken:

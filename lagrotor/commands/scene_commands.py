@@ -155,7 +155,7 @@ def simulate_command(given: argparse.Namespace) -> int:
 
 
 def _started(scene: Scene, given: argparse.Namespace) -> Scene:
-    """The scene on its paired precession where that is wanted, and written where that is. Raises InputError for two starts."""
+    """The scene, on its paired precession with `--paired`, written with `--write-scene`. Raises InputError for two starts."""
     if given.paired is not None:
         if given.axes is not None or given.rates is not None:
             raise InputError("--paired and --axes or --rates: each is a start; give one")

@@ -25,7 +25,7 @@ from lagrotor.numerics.rotations import Array
 
 SUFFIXES = (".gif", ".mp4")
 FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
-SIZE = (720, 420)  # of a frame, in pixels; even, as MP4 wants them
+SIZE = (720, 420)  # of a frame, in pixels; even, as MP4 needs them
 SPOKES, ARCS = 5, 8  # few spokes, so that a turn of 0.4 rad from frame to frame is not seen as one backwards
 LONGEST = 600  # s of a film
 _DPI = 100

@@ -40,7 +40,7 @@ def _seen(line: Array, flat: int | None) -> Array:
 
 
 def _frames(t: Array, lines: Sequence[Array]) -> Iterator[Pixels]:
-    """The frames (height, width, 3): what stands still is drawn once."""
+    """The frames (height, width, 3): what does not move is drawn once."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)

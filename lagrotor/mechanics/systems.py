@@ -1,4 +1,4 @@
-"""A mechanical system, and what can be asked of it."""
+"""A mechanical system, and what can be derived from it."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,7 +23,7 @@ class System(Equations):
         c = coordinates("theta")
         pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]), dissipation=k * c.v[0]**2 / 2)
 
-    The arguments are those of `Equations`, which this class adds its questions to.
+    The arguments are those of `Equations`, to which this class adds what is derived from them.
     """
 
     @cached_property

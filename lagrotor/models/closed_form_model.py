@@ -3,7 +3,7 @@
 - at rest and left alone, nothing moves: there is no gravity;
 - a free rotor turns about its angular momentum L = J r × r' + G r at the rate |L|/J, exactly;
 - equal spins with parallel axes are one such rotor of inertia a + b, exactly;
-- opposite spins on their paired precession follow its periodic series, of the order that the tolerance asks for.
+- opposite spins on their paired precession follow its periodic series, of the order that the tolerance needs.
 """
 
 from functools import lru_cache
@@ -12,27 +12,18 @@ from math import pi
 import numpy as np
 
 from lagrotor.errors import DomainError
-from lagrotor.models.model import Answer, Array, Observed, constant_momenta
+from lagrotor.models.model import Answer, Array
 from lagrotor.models.orbits.paired_fit import ROUND, paired_answer
 from lagrotor.pair.scene import Scene
 
-FARTHEST_APART = 1e-14  # of two axes that count as parallel: rounding; a twist grows in ways that depend on the bar
+FARTHEST_APART = 1e-14  # distance below which two axes are treated as parallel: rounding
 FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
 
 
-def closed_form_run(scene: Scene, t: Array, tol: float) -> Observed:
-    """Axes and rates at times t (n,), within `tol` if any order is, else the best there is.
-
-    Raises DomainError where no closed form holds the scene.
-    """
-    axes, rates = closed_form(scene, float(t[-1]), tol, best=True).motion(t)
-    return Observed(axes, rates, constant_momenta(scene, len(t)))
-
-
 @lru_cache(maxsize=64)
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> Answer:
-    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` asks for, at most 15.
+    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` needs, at most 15.
 
     The answer's error may exceed `tol`; with `best` it is then the least that can be had, from a series through r0^21.
     Raises DomainError, with the reason, where no closed form holds the scene.

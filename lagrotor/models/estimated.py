@@ -1,4 +1,4 @@
-"""Runs that know their error: two integrations at different tolerances, held to what the motion conserves.
+"""Runs with an estimated error: two integrations at different tolerances, held to what the motion conserves.
 
 The difference of the two bounds the error of the better one. It is also how far neighbouring motions part: where it exceeds
 what was promised, the run has reached its horizon.

@@ -4,7 +4,6 @@ Oscillations are averaged out by the weight exp(−1/(u (1 − u))) over the win
 it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the window besides, as the rate itself changes.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -81,30 +80,18 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
     return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
 
 
-def time_to_lean(scene: Scene, angle: float, longest: float) -> float:
-    """Time (s) from the shock's peak until the mean of both alpha, averaged over six swings, reaches ± `angle` (rad).
-
-    Raises DomainError when it does not within `longest` s.
-    """
-    return _first_time(scene, angle, longest, lambda run: np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2])))
-
-
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     """Time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
     Raises DomainError when it does not within `longest` s.
     """
-    return _first_time(scene, bound, longest, lambda run: run.axes[..., 0])
-
-
-def _first_time(scene: Scene, bound: float, longest: float, read: Callable[[Trajectory], Array]) -> float:
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
         raise InputError("time_to_wander: the scene needs a shock and a spin")
     turn = 2 * np.pi / response.frequency
     begin = scene.shock.end
     t = np.arange(begin, begin + longest + 6 * turn, turn / _SAMPLES)
-    values = read(simulate(scene, t, "minimal", 1e-9)).mean(0)
+    values = simulate(scene, t, "minimal", 1e-9).axes[..., 0].mean(0)
     u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.convolve(values, weight / weight.sum(), "valid")

@@ -99,20 +99,7 @@ def _start(scene: Scene) -> Array:
 
 def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
-    return _observed(scene, np.stack(_axes(ratio)(*states.T, value)))
-
-
-def observe_fast(scene: Scene, states: Array) -> Observed:
-    """What the model observes, by the fast extra."""
-    from lagrotor.models.programs.minimal_program import observation
-    from lagrotor.numerics.heyoka_programs import compile_taylor
-
-    value, ratio = _ratio(scene)
-    return _observed(scene, compile_taylor(observation(ratio), 6)(states, (value,)))
-
-
-def _observed(scene: Scene, columns: Array) -> Observed:
-    parts = columns.reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
+    parts = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 

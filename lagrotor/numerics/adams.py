@@ -137,7 +137,7 @@ def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
 
 
 def adams(segment: Segment, error: float) -> Run:
-    """Adams predictor and corrector in equal steps, changed where the pair's own difference asks for it.
+    """Adams predictor and corrector in equal steps, changed where the pair's own difference requires it.
 
     Raises StopError with what was reached, also where far more than its share of `max_nfev` is spent.
     """

@@ -1,6 +1,6 @@
 """From expressions to fast functions: a straight-line program, its operation count, and code for it.
 
-A `Program` is a list of named stages and the outputs made of them. Stages keep what a derivation already knows to be
+A `Program` is a list of named stages and the outputs made of them. Stages keep what a derivation has already shown to be
 one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
 """
 

@@ -13,7 +13,6 @@ from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
 
 Array = NDArray[np.float64]
-_BLOCK = 512  # points at once: for more, heyoka wakes threads, which do not pay
 
 
 def heyoka_module() -> Any:
@@ -58,28 +57,6 @@ def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
 
 def _product(parts: Sequence[Any]) -> Any:
     return reduce(mul, parts)
-
-
-@lru_cache(maxsize=16)
-def compile_taylor(program: Program, states: int) -> Callable[[Array, tuple[float, ...]], Array]:
-    """The program on states (n, d), its first `states` arguments, and the rest as numbers: outputs (q, n).
-
-    Some times faster than numpy for a thousand points.
-    """
-    compiled = _compiled(program)
-
-    def evaluate(points: Array, parameters: tuple[float, ...]) -> Array:
-        found = []
-        for i in range(0, len(points), _BLOCK):
-            block = points[i : i + _BLOCK]
-            arguments = np.empty((len(program.arguments), len(block)))
-            arguments[:states] = block.T
-            for row, value in zip(arguments[states:], parameters, strict=True):
-                row[:] = value
-            found.append(compiled(arguments))
-        return np.concatenate(found, axis=1)
-
-    return evaluate
 
 
 def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:

@@ -1,4 +1,4 @@
-"""The trial of printed mathematics, for any paper.
+"""The test of printed mathematics, for any paper.
 
 `Paper` is a folder; `judge` needs none. A derivation uses `prove`, `verdict`, `Premise`, `Formula`, `Remark`, `Table`; the test
 of a claim `ClaimTest`, `Finding`, `Part`; and `symbols.py` `Glossary`.

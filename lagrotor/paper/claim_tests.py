@@ -60,11 +60,6 @@ class Finding:
         needed = dict.fromkeys(part.only_if for part in self.parts if not part.holds)
         return "; ".join(needed) if self.outcome == "confirmed-if" else None
 
-    @property
-    def failing(self) -> tuple[str, ...]:
-        """The parts that hold under no condition."""
-        return tuple(part.says for part in self.parts if not part.holds and not part.only_if)
-
 
 @dataclass(frozen=True)
 class ClaimTest:

@@ -93,7 +93,7 @@ def _fewest_premises(
 ) -> tuple[_Finding, tuple[Premise, ...]]:
     """The finding under the fewest premises that suffice.
 
-    Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted tells
+    Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted shows
     most about what is wrong. Where the premises do not contradict each other, that case is looked at first, since no choice
     of them can mend what it refutes.
     """

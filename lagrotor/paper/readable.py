@@ -17,7 +17,7 @@ _SIGNS = {
 }
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-_END = "[\\w)\u0307\u0308]"  # of what stands before an operator
+_END = "[\\w)\u0307\u0308]"  # of what is before an operator
 _NAME = re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])")
 _NUMBER = re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w|\.\d)")
 # A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.

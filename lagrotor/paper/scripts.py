@@ -122,7 +122,7 @@ class Scripts:
             for identifier, line in verdicts_in(self.path("derivations", stem)):
                 if identifier in found:
                     first = "{}.py:{}".format(*found[identifier])
-                    raise InputError(f"{stem}.py:{line}: a verdict on {identifier} stands in {first} already")
+                    raise InputError(f"{stem}.py:{line}: a verdict on {identifier} is in {first} already")
                 found[identifier] = stem, line
         return found
 

@@ -56,7 +56,7 @@ def verdict(
     """What the paper prints as `identifier` is to be judged against what was derived under no premise.
 
     derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is
-    given without any premise put in. correction: likewise, what should stand there; it is judged against `derived`, which
+    given without any premise put in. correction: likewise, what should be printed; it is judged against `derived`, which
     may hold quantities besides the printed ones. uses: ids of equations that this one rests on, or what was stated of them,
     which gives the letters that are defined there their derived meaning. written: what was derived, as a physicist writes
     it; a correction may be given as a form too. It is checked against the paper when it is judged.

@@ -129,6 +129,6 @@ def _checked(found: Any, where: str) -> Any:
         list(Formatter().parse(getattr(found, "text", "")))
     except ValueError as error:
         raise InputError(
-            f"{where}: text: {error}: numbers stand in braces, {{C01[name]:.3f}}; a brace alone is {{{{"
+            f"{where}: text: {error}: numbers go in braces, {{C01[name]:.3f}}; a brace alone is {{{{"
         ) from None
     return found

@@ -53,7 +53,7 @@ class Statement:
     """What one equation of a paper is held to; id: its id, empty where it belongs to none; title: what it is about.
 
     relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
-    correction: what should stand there, as relations of their own. wrong: what is wrong, in a line. names: the line only
+    correction: what should be printed, as relations of their own. wrong: what is wrong, in a line. names: the line only
     introduces a letter. measured: it is a number read off a run. depends_on: ids of the equations that this one uses.
     evidence: sentences with the numbers that were computed.
     """
@@ -79,7 +79,7 @@ class Verdict:
     """What was decided of one equation. premises: the fewest under which it holds, or, of a refuted one, under which its
     correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
 
-    `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: nothing to ask).
+    `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: not refuted).
     """
 
     statement: Statement

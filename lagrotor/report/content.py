@@ -130,7 +130,7 @@ class Report:
         return tuple(v.id for v in self.verdicts if identifier in v.statement.depends_on)
 
     def claims_about(self, identifier: str) -> tuple[str, ...]:
-        """Ids of the claims, among those tried, that are about this equation."""
+        """Ids of the claims, among those tested, that are about this equation."""
         return tuple(r.test.id for r in self.claims if identifier in self.paper.claims[r.test.id].equations)
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
@@ -196,7 +196,7 @@ def derived_lines(relations: Iterable[Relation]) -> tuple[str, ...]:
 
 
 def derived_heading(relations: Iterable[Relation]) -> str:
-    """What stands over the derived lines: whether the premises are put in."""
+    """The heading of the derived lines: whether the premises are put in."""
     return "As derived, under the premises" if any(r.granted for r in relations) else "As derived"
 
 

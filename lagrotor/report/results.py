@@ -60,7 +60,7 @@ def headlines(report: Report) -> list[Headline]:
 
 
 class _Numbers(Formatter):
-    """Fills in what stands in braces: {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1}, {2.1[correction]}."""
+    """Fills in what is in braces: {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1}, {2.1[correction]}."""
 
     def __init__(self, report: Report) -> None:
         self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
@@ -87,7 +87,7 @@ class _Numbers(Formatter):
         return Headline(given.title, self.format(given.text), ids, self._formula(given), given.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
-        """The value of what stands in braces. Raises InputError for a number that a test does not measure."""
+        """The value of what is in braces. Raises InputError for a number that a test does not measure."""
         if field_name in self.counts:
             return self.counts[field_name], field_name
         match = _FIELD.fullmatch(field_name)

@@ -1,4 +1,4 @@
-"""The letters of the paper with meanings and units: they stand in its printed lines, its derivations and its notation."""
+"""The letters of the paper with meanings and units: they are used in its printed lines, its derivations and its notation."""
 
 from lagrotor.mechanics import coordinates
 from lagrotor.paper import Glossary

@@ -10,8 +10,8 @@ from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.integrated import integrated
-from lagrotor.models.programs.minimal_program import observation, program
-from lagrotor.numerics import heyoka_programs, taylor
+from lagrotor.models.programs.minimal_program import program
+from lagrotor.numerics import taylor
 from lagrotor.numerics.taylor_steps import taylor_order
 from lagrotor.pair import SHOCK_PAIRED
 
@@ -83,19 +83,6 @@ def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
     assert taylor._cyclic(form, 6) == [2]
     driven, _ = minimal.MODEL.program(Scene((10, -7), shock=SHOCK_PAIRED), True)
     assert taylor._cyclic(driven, 6) == []
-
-
-def test_more_points_than_a_block_are_observed_alike(heyoka) -> None:
-    """Blocks are put together in order; as numpy has them, with a bar's length that matters."""
-    states = np.random.default_rng(3).uniform(-0.5, 0.5, (2 * heyoka_programs._BLOCK + 3, 6))
-    scene = Scene((10, -7), link=Link(0.8))
-    fast, plain = minimal.observe_fast(scene, states), minimal.MODEL.observe(scene, states)
-    assert fast.axes == pytest.approx(plain.axes, abs=1e-14)
-    assert fast.rates == pytest.approx(plain.rates, abs=1e-14)
-    assert np.abs(minimal.observe_fast(Scene((10, -7), link=Link(0.9)), states).axes - plain.axes).max() > 1e-3
-    assert heyoka_programs.compile_taylor(observation("equal"), 6) is heyoka_programs.compile_taylor(
-        observation("equal"), 6
-    )
 
 
 def test_what_reaches_the_joint_line_stops_and_says_so(heyoka) -> None:

@@ -82,7 +82,7 @@ DOORS = {
     "no equations": ("equations.toml", "", "", r"equations\.toml: .*every paper has this file"),
     "no TOML": ("paper.toml", "results =", "results", r"paper\.toml: .*line \d"),
     "no title": ("paper.toml", 'title = "The simple pendulum"', "", r"paper\.toml: .*'title' is missing"),
-    "brace": ("paper.toml", "{1.1}", "{1.1", r"headline: text: .*numbers stand in braces"),
+    "brace": ("paper.toml", "{1.1}", "{1.1", r"headline: text: .*numbers go in braces"),
     "unknown key": ("equations.toml", "title =", "titel =", r"equation 1\.1: 'titel' means nothing here"),
     "unknown section": ("equations.toml", 'section = "1"', 'section = "7"', r"1\.1: section '7' is not"),
     "unknown table": (
@@ -151,7 +151,7 @@ def test_a_script_that_fails_is_named_with_file_and_line(
 
 def test_two_verdicts_on_one_equation_are_refused(folder: Path) -> None:
     shutil.copy(folder / "derivations/s1_motion.py", folder / "derivations/s2_again.py")
-    with pytest.raises(LagrotorError, match=r"s2_again\.py:\d+: a verdict on 1\.1 stands in s1_motion\.py:\d+ already"):
+    with pytest.raises(LagrotorError, match=r"s2_again\.py:\d+: a verdict on 1\.1 is in s1_motion\.py:\d+ already"):
         Paper(folder).audit()
 
 

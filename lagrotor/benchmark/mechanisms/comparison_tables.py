@@ -1,4 +1,4 @@
-"""What was measured on the mechanisms, as tables, and beside what is wanted."""
+"""What was measured on the mechanisms, as tables, and beside the targets."""
 
 from collections.abc import Sequence
 

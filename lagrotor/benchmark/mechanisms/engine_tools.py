@@ -1,6 +1,6 @@
 """Multibody engines on a mechanism: MuJoCo, Pinocchio and Drake, in the same joint coordinates.
 
-MuJoCo wants mass in every body that moves: where there is none, 10⁻¹⁴ kg and 10⁻¹⁴ kg m² take its place.
+MuJoCo needs mass in every body that moves: where there is none, 10⁻¹⁴ kg and 10⁻¹⁴ kg m² take its place.
 """
 
 from typing import Any

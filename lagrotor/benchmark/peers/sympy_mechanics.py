@@ -97,7 +97,7 @@ def _pydy(generator: str) -> Prepare:
         import sympy as sp
         from pydy.system import System
 
-        mass = sp.Symbol("M")  # the generators want a constant
+        mass = sp.Symbol("M")  # the generators need a constant
         made = _bodies(scene, mass)
         me, q, u, bar = made["me"], made["q"], made["u"], made["bar"]
         kinematic = [s.diff() - w for s, w in zip(q, u, strict=True)]

@@ -1,4 +1,4 @@
-"""Rigid bodies, and the energies that remember of which bodies they are made.
+"""Rigid bodies, and the energies that keep the bodies they are made of.
 
     T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
 

@@ -26,7 +26,7 @@ _OFF = 1e-7  # of a start from its constraints, in units of the state's size, be
 
 @dataclass(frozen=True, eq=False)
 class Run(Motion):
-    """A simulated motion, and what can be asked of it."""
+    """A simulated motion, and what can be computed from it."""
 
     crossings = sections.crossings
     poincare = sections.poincare
@@ -46,7 +46,7 @@ def simulate(
 ) -> Run:
     """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s.
 
-    values: {symbol or name: number} for every parameter. tol: the error asked of the whole run, relative to the state's
+    values: {symbol or name: number} for every parameter. tol: the largest error of the whole run, relative to the state's
     size; a motion whose neighbours part fast is off by more. engine: "core", or "fast" with heyoka.
 
     Raises InputError for a value that is missing or makes no sense, ConstraintError for a start off the constraints,

@@ -58,7 +58,7 @@ def trace_family(
 
     step: length of the first step along the curve; it grows to five times that, and is halved where Newton fails.
     The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
-    meets a singular position.
+    reaches a singular position.
     Raises InputError unless the spins are opposite.
     """
     curve = QuarterPeriod(scene)

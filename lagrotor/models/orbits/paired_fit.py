@@ -144,7 +144,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
     error += (mismatch + ROUND) * (turned + growth)
-    error = error if error < _SMALL else 2.0  # a large slip says nothing but that two axes are at most opposite
+    error = error if error < _SMALL else 2.0  # beyond it only the bound holds: two axes are at most opposite
     frequency = signed * float(powers @ series.frequency)
     answer = _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
     return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)

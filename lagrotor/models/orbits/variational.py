@@ -76,7 +76,7 @@ class Flow:
 def flow(scene: Scene) -> Callable[[Array, float], Flow]:
     """(state (U, chi, alpha, rates), time in s) → Flow, for the scene's rotor, bar and spins, without shock.
 
-    Raises SingularError without a bar; IntegrationError when the motion meets a singular position.
+    Raises SingularError without a bar; IntegrationError when the motion reaches a singular position.
     """
     if scene.link is None:
         raise SingularError("flow: the scene has no bar to eliminate")

@@ -66,7 +66,7 @@ def printed_inertia_transform(R: Array, tensor: Array) -> Array:
     """Rᵀ I₀ R, (n, 3, 3) each, as printed in 3.12, 3.17 and 3.18.
 
     Wrong for R ← dR R (3.15), whose R takes body to world: it would be right for the inverse rotation. An isotropic
-    body, all that the paper runs, cannot tell the two apart.
+    body, all that the paper runs, does not distinguish the two.
     """
     return R.swapaxes(-1, -2) @ tensor @ R
 

@@ -103,7 +103,7 @@ def run_solver(
 
     State X, U, R, L of every body, with R' = [Omega]× R. tol: relative and absolute local error / 20. The run is cut at
     the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
-    method where damping asks for it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
+    method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
 
     Raises InputError for bad times, tolerance or method, IntegrationError when the solver cannot go on.
     """

@@ -45,7 +45,7 @@ def converter() -> str:
 def from_latex(source: str, display: bool = True) -> str | None:
     """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed.
 
-    What a wide space parts, and a continuation `\\quad = …`, stands on a line of its own.
+    What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
     """
     try:
         from latex2mathml.converter import Converter
@@ -134,7 +134,7 @@ def _leaf(child: Element, text: str, before: Element | None) -> None:
 
 
 def _raised(child: Element) -> None:
-    """A prime is raised by the font already; over an accent a power stands no higher than over a letter."""
+    """A prime is raised by the font already; over an accent a power is set no higher than over a letter."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
     elif child[0].tag == "mover":

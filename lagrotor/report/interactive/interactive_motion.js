@@ -1,5 +1,5 @@
 // The three motions of a choice: the exact one by stepping, the series, the paper's formula. The functions that they are
-// made of stand above, generated.
+// made of are above, generated.
 
 const STEPS = 48; // of the exact run, a turn
 const RATES = { short: rate_short, equal: rate_equal, long: rate_long };
@@ -74,7 +74,7 @@ function periodic(rate, state, natural) {
   return close ? { state: from(u), rate: Math.PI / 2 / u[2] * natural } : null;
 }
 
-// A run that grows as far as it is asked for. `states[n]` at n h; `turns[n]` the angles of the wheels about their axes.
+// A run that is extended as far as it is needed. `states[n]` at n h; `turns[n]` the angles of the wheels about their axes.
 function exactRun(rate, axesOf, start, h, spins) {
   const states = [start], axes = [axesOf(start)], turns = [[0, 0]];
   const run = { h, states, axes, turns, end: Infinity };
@@ -165,7 +165,7 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   found.turn = natural > 0 ? 2 * Math.PI / Math.abs(found.exactRate) : Infinity;
   const run = (from) => exactRun(rate, axesOf, from, fastest > 0 ? 2 * Math.PI / (STEPS * fastest) : 0.1, spins);
   found.exact = run(start);
-  // The motion from a time on, after an impulse on tip 1: only the exact model knows it.
+  // The motion from a time on, after an impulse on tip 1: only the exact model has it.
   found.after = (time, impulse) => {
     const state = found.exact.stateAt(time);
     if (!state) return null;

@@ -64,7 +64,7 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
 
 
 def _values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
-    """The values of the names that are wanted, as far as they can be handed to another process."""
+    """The values of the names that are used, as far as they can be handed to another process."""
     values = {}
     for name in names.keys() & set(wanted):
         with suppress(pickle.PicklingError, TypeError, AttributeError):

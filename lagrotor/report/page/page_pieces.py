@@ -46,7 +46,7 @@ def rows(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "p
 
 
 def _under(head: str, cell: str) -> str:
-    """A cell that knows its column's heading, which a narrow screen shows before it."""
+    """A cell with its column's heading, which a narrow screen shows before it."""
     return f'<td data-head="{head}">{cell}</td>' if head else f"<td>{cell}</td>"
 
 

@@ -126,6 +126,6 @@ verdict(
     "4.1",
     least,
     correction=4 * m * g * l * I_1 / I_3**2,
-    wrong="The axial inertia stands there without its square: the right side is no rate squared.",
+    wrong="The axial inertia is printed without its square: the right side is no rate squared.",
     uses=["1.6"],
 )

@@ -24,7 +24,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     precession,
 )
 
-WITHIN = 0.05  # "agrees", "constant": to one part in twenty, what two curves drawn over each other still hide
+WITHIN = 0.05  # "agrees", "constant": to one part in twenty, the difference that two curves drawn over each other do not show
 VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order
 ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms
 
