@@ -113,11 +113,11 @@ def rhs_source(program: Program, states: int, driven: bool = False, bounded: boo
         f"return [{', '.join(map(show.doprint, outputs))}]",
     ]
     given = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
-    return _made(body, fixed, [*given, "width"] if driven else given, len(outputs))
+    return rhs_text(body, fixed, [*given, "width"] if driven else given, len(outputs))
 
 
-def _made(body: list[str], fixed: list[str], given: list[str], outputs: int) -> str:
-    """The function of the lines `body`, made for given parameters once the lines `fixed` are evaluated."""
+def rhs_text(body: list[str], fixed: list[str], given: list[str], outputs: int) -> str:
+    """Source of parameters `given` → rhs(s, y) of the lines `body`; the lines `fixed` are evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",

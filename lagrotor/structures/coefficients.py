@@ -9,7 +9,7 @@ and the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -68,7 +68,7 @@ class Coefficients:
         """All axes upright, (N, 3)."""
         return np.tile([0.0, 0.0, 1.0], (len(self.R), 1))
 
-    @property
+    @cached_property
     def rate(self) -> float:
         """The largest of the rates (rad/s) at which a single axis precesses, falls or swings; never zero."""
         pull = np.abs(self.gravity) * np.abs(self.S) + self.hinge

@@ -2,6 +2,7 @@
 
 import sys
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.structures import exact_motion
+from lagrotor.structures import exact_motion, right_hand_side
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.oracle import by_lagrange
@@ -55,6 +56,25 @@ def test_under_load_it_is_what_lagranges_equations_say(name) -> None:
     run = s.simulate(np.linspace(0, 1, 11), **started(s), tol=1e-10)
     assert np.abs(run.axes - by_lagrange(s, run)).max() < 1e-11 + run.error
     assert run.error < 1e-10
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_in_single_numbers_it_is_the_same_right_hand_side(name) -> None:
+    s, N = replace(LOADED[name], spin_friction=0.4), len(LOADED[name].joints)
+    drives = (
+        (lambda t: np.arange(3.0 * N).reshape(N, 3) * np.sin(t)),
+        (lambda t: np.array([0.5, -0.3, 0.2]) * np.cos(t)),
+    )
+    for given in ((None, None), drives):
+        motion = exact_motion(s, *given)
+        draw = np.random.default_rng(4).standard_normal((2, N, 3))
+        axes = motion.c.upright + 0.1 * draw[0]
+        state = np.concatenate([axes / np.linalg.norm(axes, axis=1, keepdims=True), draw[1]]).ravel()
+        found, kept = right_hand_side(motion)(1.3, state), motion.rhs(1.3, state)
+        assert isinstance(found, list)
+        assert found == pytest.approx(kept, rel=1e-13, abs=1e-13)
+        other = exact_motion(replace(s, friction=0.201), *given)
+        assert right_hand_side(other)(1.3, state) != pytest.approx(kept, rel=1e-6)
 
 
 @pytest.mark.parametrize("changed", ["load", "hinge", "friction"])

@@ -13,6 +13,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
+from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from lagrotor.structures.exact.structure_run import StructureRun
 
 _APART = 30.0  # the two runs' tolerances: the difference is the error of the looser one
@@ -76,7 +77,7 @@ def _integrated(
         found = integrate_compiled(s, motion, start, times, local)
     else:
         most = 50_000 + 2_000 * rate * float(times[-1])
-        problem: Any = Problem(motion.rhs, start, most, project=motion.projected, typical_rate=1.0)
+        problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
         found = integrate(problem, rate * times, local)
     states = found.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
     states[1] *= rate

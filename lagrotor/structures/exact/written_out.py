@@ -18,14 +18,18 @@ def accelerations(
     G: Sequence[Any],
     by: Any,
     add: Callable[[Vector], Any] = sum,
+    more: Sequence[Vector] = (),
 ) -> list[Vector]:
     """r'' of axes r and rates v, N lists of three each, with axial momenta G (N).
 
-    by: a module with sqrt for their kind of number; add: sums a list of them.
+    by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
     What a structure has not (hinges, friction, heavy bars) costs nothing.
     """
     N, B = len(c.R), len(c.i)
-    right = [x for F in _forces(c, r, v, G, by) for x in F] + [-_dot(w, w) for w in v]
+    forces = _forces(c, r, v, G, by)
+    if more:
+        forces = [[x + y for x, y in zip(F, other, strict=True)] for F, other in zip(forces, more, strict=True)]
+    right = [x for F in forces for x in F] + [-_dot(w, w) for w in v]
     diagonal = [c.A[k // 3] for k in range(3 * N)] + [0.0] * (N + B)
     off: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i][k] for i in range(N) for k in range(3)}
     for b, (i, j) in enumerate(zip(c.i.tolist(), c.j.tolist(), strict=True)):

@@ -1,0 +1,89 @@
+"""Numbers that record what is computed with them, so that a function of numbers of any kind becomes a line of source each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+Term: TypeAlias = "Recorded | float"
+_LONGEST = 160  # characters of an expression that is not given a name of its own
+
+
+@dataclass(eq=False)
+class Recorded:
+    """A sum "+", difference "-", product "*", quotient "/", negative "neg", a function's value, or, without parts, a name.
+
+    tape: every number of one record, in the order in which they were computed.
+    """
+
+    tape: list[Recorded] = field(repr=False)
+    kind: str
+    parts: tuple[Term, ...] = ()
+
+    def __post_init__(self) -> None:
+        self.tape.append(self)
+
+    def _with(self, kind: str, *parts: Term) -> Recorded:
+        return Recorded(self.tape, kind, parts)
+
+    def __add__(self, other: Term) -> Recorded:
+        return self if other == 0 else self._with("+", self, other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Term) -> Recorded:
+        return self if other == 0 else self._with("-", self, other)
+
+    def __rsub__(self, other: Term) -> Recorded:
+        return -self if other == 0 else self._with("-", other, self)
+
+    def __mul__(self, other: Term) -> Recorded:
+        return self if other == 1 else -self if other == -1 else self._with("*", other, self)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Term) -> Recorded:
+        return self._with("/", self, other)
+
+    def __rtruediv__(self, other: Term) -> Recorded:
+        return self._with("/", other, self)
+
+    def __neg__(self) -> Recorded:
+        return self._with("neg", self)
+
+
+def sqrt(x: Recorded) -> Recorded:
+    """The square root, recorded."""
+    return Recorded(x.tape, "sqrt", (x,))
+
+
+def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], list[str]]:
+    """Assignments to what is used more than once, and the text of each output."""
+    wanted, used = list(outputs), dict[Recorded, int]()
+    for x in wanted:
+        _count(x, used)
+    for x in reversed(tape):
+        if x in used:
+            for part in x.parts:
+                _count(part, used)
+    texts, found = dict[Recorded, str](), list[str]()
+    for x in tape:
+        if x in used:
+            texts[x] = _text(x, texts)
+            if x.parts and (used[x] > 1 or len(texts[x]) > _LONGEST):
+                found.append(f"t{len(found)} = {texts[x]}")
+                texts[x] = f"t{len(found) - 1}"
+    return found, [texts[x] if isinstance(x, Recorded) else repr(float(x)) for x in wanted]
+
+
+def _count(x: Term, used: dict[Recorded, int]) -> None:
+    if isinstance(x, Recorded):
+        used[x] = used.get(x, 0) + 1
+
+
+def _text(x: Recorded, texts: dict[Recorded, str]) -> str:
+    parts = [texts[part] if isinstance(part, Recorded) else repr(float(part)) for part in x.parts]
+    if x.kind in "+-*/":
+        return f"({x.kind.join(parts)})"
+    return f"(-{parts[0]})" if x.kind == "neg" else f"{x.kind}({parts[0]})" if parts else x.kind
