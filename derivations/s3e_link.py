@@ -88,7 +88,12 @@ other_way = D * (U_1 - U_2).dot(-e_hat) * -e_hat
 gained = other_way.dot(U_1) - other_way.dot(U_2)
 opening = {**dict.fromkeys((*U_1, *U_2), 0), U_1[2]: 1, theta: 0, phi: 0}  # at 1 m/s
 fed = gained.subs(opening)
-Formula(gained, "P")
+prove(
+    gained,
+    D * (U_1 - U_2).dot(e_hat) ** 2,
+    "what the damper would feed",
+    written=r"P = D\,\big((\vec U_1 - \vec U_2)\cdot\hat e\big)^2",
+)
 
 # %%
 pull = form("-(S*s + D*dot(U_1 - U_2, hat_e))*hat_e", hat_e=e_hat)

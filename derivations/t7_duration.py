@@ -122,6 +122,7 @@ mean = sum(
     ),
     sp.Integer(0),
 )
+mean = sp.collect(sp.expand(mean), (X, TWIST, SWING, P), func=sp.factor)
 prove(averaged_routhian(), mean, "the mean of the Routhian over the swing", names=r"\langle R_4\rangle")
 
 # %% [markdown]

@@ -1,5 +1,7 @@
 """What can go wrong, said once: each message names where, the value, the reason and the way out."""
 
+from collections.abc import Iterable
+
 
 class LagrotorError(Exception):
     """Every error this package raises on purpose."""
@@ -43,3 +45,12 @@ class IntegrationError(LagrotorError, ArithmeticError):
 
 class LagrotorWarning(UserWarning):
     """A result whose error may exceed the tolerance; the message says what it keeps."""
+
+
+def near(name: object, names: Iterable[str]) -> str:
+    """The end of a refusal of a name: those of `names` that are near it, as a question; nothing where none is."""
+    from difflib import get_close_matches
+
+    known = {each.lower(): each for each in names}
+    found = get_close_matches(str(name).lower(), known, 2, 0.7)
+    return f": {' or '.join(known[each] for each in found)}?" if found else ""

@@ -3,6 +3,7 @@
 import json
 import os
 import tempfile
+import tomllib
 from collections.abc import Callable, Mapping
 from hashlib import sha256
 from pathlib import Path
@@ -43,6 +44,24 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
     finally:
         Path(name).unlink(missing_ok=True)
     return target
+
+
+def read_text(path: str | Path) -> str:
+    """The UTF-8 text of a file. Raises InputError where there is none."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path} is no text in UTF-8: give a file that is") from None
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """What a TOML file holds. Raises InputError where it cannot be read."""
+    try:
+        return tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path} is no TOML: {error}") from None
 
 
 def write_text(target: Path, text: str) -> Path:

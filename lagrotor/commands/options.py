@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
@@ -23,7 +23,9 @@ class Parser(argparse.ArgumentParser):
         self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
     def error(self, message: str) -> NoReturn:
-        raise InputError(f"{message}; see {self.prog} --help")
+        choice = re.search(r"invalid choice: (.*) \(choose from (.*)\)", message)
+        hint = near(choice[1].strip("'"), re.findall(r"[\w-]+", choice[2])) if choice else ""
+        raise InputError(f"{message}{hint}; see {self.prog} --help")
 
 
 def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more: Any) -> None:

@@ -78,7 +78,7 @@ def init_command(given: argparse.Namespace) -> int:
 
     made = begin(given.folder, given.source)
     print(
-        f"{made.folder}: {made.equations} equation{'s' * (made.equations != 1)}, of which the print of {made.read} is read"
+        f"{made.folder}: {made.equations} equation{'s' * (made.equations != 1)}; sympy reads the print of {made.read}"
     )
     if not can_read():
         print("to have the print read from LaTeX: pip install 'lagrotor[latex]', and begin again")
@@ -91,6 +91,8 @@ def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce
 
+    if given.jobs is not None and given.jobs < 1:
+        raise InputError(f"--jobs {given.jobs} must be at least 1: it is how many processes run")
     paper = _paper(given)
     made = reproduce(paper, given.out, progress, given.jobs)
     page = given.out / "index.html"
@@ -115,6 +117,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
 def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import verdict_text
     from lagrotor.paper.audit import NOT_YET
+    from lagrotor.paper.readable import readable
     from lagrotor.report.content import counted, word
     from lagrotor.report.facts import note
 
@@ -130,7 +133,7 @@ def audit_command(given: argparse.Namespace) -> int:
         print("\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}
-        rows = [(v.id, word(v.verdict), ": ".join(filter(None, (titles[v.id], note(v))))) for v in shown]
+        rows = [(v.id, word(v.verdict), readable(": ".join(filter(None, (titles[v.id], note(v)))))) for v in shown]
         rows += [(i, word(NOT_YET), titles[i]) for i in waiting]
         print(table(("id", "verdict", "equation: order, premises"), rows))
         if found is not None and waiting:
@@ -156,6 +159,7 @@ def _known(identifier: str, ids: Collection[str]) -> str:
 
 def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import claim_tests
+    from lagrotor.paper.readable import readable
     from lagrotor.report.content import word
 
     paper = _paper(given)
@@ -169,8 +173,8 @@ def claims_command(given: argparse.Namespace) -> int:
     else:
         for result in results:
             identifier, finding = result.test.id, result.finding
-            print(wrapped(f"{identifier}  {paper.claims[identifier].text}", 5))
-            print(wrapped(f"     {word(finding.outcome)}: {finding.explanation}", 5), end="\n\n")
+            print(wrapped(f"{identifier}  {readable(paper.claims[identifier].text)}", 5))
+            print(wrapped(f"     {word(finding.outcome)}: {readable(finding.explanation)}", 5), end="\n\n")
     if untested := sorted(wanted - {result.test.id for result in results}):
         say(f"not yet tested: {', '.join(untested)}", 0)
     if given.record:

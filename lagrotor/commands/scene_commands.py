@@ -117,6 +117,8 @@ def simulate_command(given: argparse.Namespace) -> int:
         raise InputError(f"--t-end {given.t_end:g} must be greater than zero and finite, in s")
     if not 2 <= given.samples <= _MOST_SAMPLES:
         raise InputError(f"--samples {given.samples} must lie between 2 and {_MOST_SAMPLES}")
+    if given.write_scene and given.write_scene.suffix != ".toml":
+        raise InputError(f"--write-scene {given.write_scene}: the name must end in .toml")
     if given.out:
         check_file(given.out)
     if given.out and given.out.suffix in FILMS:

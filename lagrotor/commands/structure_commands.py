@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES
 
 _ENDINGS = (*PICTURES, *FILMS, ".toml")
+_json = partial(json.dumps, indent=1, ensure_ascii=False)
 
 
 def add_structure_commands(command: Command) -> None:
@@ -36,7 +38,8 @@ def structure_command(given: argparse.Namespace) -> int:
     from lagrotor.structures.gallery import GALLERY, example
 
     if given.structure == "list":
-        print(table(("name", "what it shows"), [(name, each.says) for name, each in GALLERY.items()]))
+        listed = {name: each.says for name, each in GALLERY.items()}
+        print(_json(listed) if given.json else table(("name", "what it shows"), list(listed.items())))
         return 0
     if given.out and given.out.suffix not in _ENDINGS:
         raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
@@ -47,7 +50,9 @@ def structure_command(given: argparse.Namespace) -> int:
         ready = GALLERY.get(given.structure)
         _write(s, given.out, given.t_end or (ready.duration if ready else 5.0))
     found = _summary(s)
-    print(json.dumps(found, indent=1, ensure_ascii=False) if given.json else _table(found))
+    print(_json(found) if given.json else _table(found))
+    if given.out and not given.json:
+        print(given.out)
     return 0
 
 

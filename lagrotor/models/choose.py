@@ -10,6 +10,7 @@ from lagrotor.models.integrated import check_range
 from lagrotor.models.linear import linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL
 from lagrotor.models.natural_units import typical_rate
+from lagrotor.numerics.shown import scientific
 from lagrotor.pair.scene import Scene
 
 
@@ -38,14 +39,14 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         try:
             answer = closed_form(scene, t_end, tol)
             if answer.error <= tol:
-                return Choice("closed_form", answer.error, f"{answer.reason}; error {answer.error:.1e}")
+                return Choice("closed_form", answer.error, f"{answer.reason}; error {scientific(answer.error, 1)}")
         except LagrotorError:
             pass
         try:
             error = linear_bound(linear_error(scene, t_end))
             if error <= tol:
-                return Choice("linear", error, f"small motion: normal modes, whose next term is {error:.1e}")
-            missed = f"normal modes have an error of {error:.1e}"
+                return Choice("linear", error, f"small motion: normal modes, whose next term is {scientific(error, 1)}")
+            missed = f"normal modes have an error of {scientific(error, 1)}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]
     try:

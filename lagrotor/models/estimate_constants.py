@@ -75,8 +75,8 @@ LINEAR_MARGIN, LINEAR_MARGIN_LARGE, LINEAR_SMALL = _LINEAR
 
 
 def linear_bound(error: float) -> float:
-    """A bound on the linear model's error, from that error to leading order."""
-    return (LINEAR_MARGIN if error <= LINEAR_SMALL else LINEAR_MARGIN_LARGE) * error
+    """A bound on the linear model's error, from that error to leading order; two unit vectors are never farther apart than 2."""
+    return min((LINEAR_MARGIN if error <= LINEAR_SMALL else LINEAR_MARGIN_LARGE) * error, 2.0)
 
 
 def gathered_error(tol: float, angle: float) -> float:

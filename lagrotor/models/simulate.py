@@ -8,7 +8,7 @@ from math import inf, nan
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorWarning
+from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorWarning, near
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.choose import choose
 from lagrotor.models.closed_form_model import closed_form
@@ -19,6 +19,7 @@ from lagrotor.models.model import Model, Observed, constant_momenta
 from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.shown import scientific
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 
@@ -39,7 +40,9 @@ def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     answer = closed_form(scene, float(times[-1]), tol, best)
     seen = Observed(*answer.motion(times), constant_momenta(scene, len(times)))
     missed = ", more than tol" if answer.error > tol else ""
-    return Direct(seen, answer.error, f"by name; {answer.reason}; estimated error {answer.error:.1e}{missed}")
+    return Direct(
+        seen, answer.error, f"by name; {answer.reason}; estimated error {scientific(answer.error, 1)}{missed}"
+    )
 
 
 def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
@@ -103,7 +106,8 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
         direct = DIRECT[model](scene, times, tolerance, True)
         return _direct(scene, model, direct.reason, times, direct, tolerance)
     if model not in MODELS:
-        raise InputError(f"simulate: model = {model!r} is not one of auto, {', '.join((*DIRECT, *MODELS))}")
+        known = "auto", *DIRECT, *MODELS
+        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
     return _by_name(MODELS[model], scene, times, tolerance, engine)
 
 
@@ -194,8 +198,9 @@ def _trajectory(
 def _not_kept(model: str, tol: float, error: float, reached: float, horizon: float) -> str:
     apart = error / reached
     reason = (
-        f"neighbouring motions part about {apart:.0e}-fold, and tol can be meant only up to"
+        f"neighbouring motions part about {scientific(apart)}-fold, and tol can be meant only up to"
         if apart > 1e5
         else "it is below what the solver can give after"
     )
-    return f"simulate: {model} does not keep tol = {tol:g}: the estimated error is {error:.1e}; {reason} t = {horizon:.6g} s"
+    estimated = f"the estimated error is {scientific(error, 1)}"
+    return f"simulate: {model} does not keep tol = {tol:g}: {estimated}; {reason} t = {horizon:.6g} s"

@@ -1,6 +1,21 @@
-"""What a notebook shows of a result: its `summary`, name → words, as a table."""
+"""What people see of a result: numbers in powers of ten, and in a notebook its `summary`, name → words, as a table."""
 
 from html import escape
+
+_HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def raised(power: int) -> str:
+    """A whole power as people write it: −14 as ⁻¹⁴."""
+    return str(power).translate(_HIGH)
+
+
+def scientific(value: float, digits: int = 0) -> str:
+    """A number in powers of ten: 3e-14 as 3×10⁻¹⁴, with `digits` after the point; 0 as 0, 2 as 2."""
+    if value == 0:
+        return "0"
+    mantissa, _, power = f"{value:.{digits}e}".partition("e")
+    return mantissa.replace("-", "−") + (f"×10{raised(int(power))}" if int(power) else "")
 
 
 class Shown:

@@ -1,13 +1,12 @@
 """A scene as TOML: the fields of `Scene`, read and written; what is not one of them is refused."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from lagrotor.errors import InputError
-from lagrotor.files import write_text
+from lagrotor.errors import InputError, near
+from lagrotor.files import read_toml, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 _PARTS: dict[str, type] = {"rotor": Rotor, "link": Link, "shock": Shock}
@@ -18,12 +17,9 @@ def read_scene(path: str | Path) -> Scene:
 
     `link = "none"` is a pair without a bar. Raises InputError with the reason where there is none.
     """
+    given = read_toml(path)
     try:
-        return scene_of(tomllib.loads(Path(path).read_text(encoding="utf-8")))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path} is no TOML: {error}") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}: give a TOML file that can be read") from None
+        return scene_of(given)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -32,7 +28,8 @@ def scene_of(given: Mapping[str, Any]) -> Scene:
     """The scene of a table with the fields' names. Raises InputError for names that are none, or values that make no sense."""
     names = [field.name for field in fields(Scene)]
     if unknown := [name for name in given if name not in names]:
-        raise InputError(f"{unknown[0]!r} is no field of a scene: they are {', '.join(names)}")
+        known = ", ".join(names)
+        raise InputError(f"{unknown[0]!r} is no field of a scene: they are {known}{near(unknown[0], names)}")
     if "spins" not in given:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
     made = dict(given) | {name: _part(name, kind, given[name]) for name, kind in _PARTS.items() if name in given}

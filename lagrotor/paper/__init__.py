@@ -10,6 +10,7 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.glossary import Glossary as Glossary
+    from lagrotor.numerics.shown import scientific as scientific
     from lagrotor.paper.audit import Audit as Audit
     from lagrotor.paper.claim_tests import ClaimTest as ClaimTest
     from lagrotor.paper.claim_tests import Finding as Finding
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.proof import Remark as Remark
     from lagrotor.paper.proof import Step as Step
     from lagrotor.paper.proof import prove as prove
-    from lagrotor.paper.readable import scientific as scientific
     from lagrotor.paper.stating import Stated as Stated
     from lagrotor.paper.stating import verdict as verdict
     from lagrotor.paper.tables import FigureLink as FigureLink

@@ -4,6 +4,8 @@ import re
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
+from lagrotor.numerics.shown import raised
+
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _SIGNS = {
     "times": " × ",
@@ -50,16 +52,8 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
         return "0"
     if int(power) == 0:
         return f"{sign}{mantissa}"
-    raised = f"10{'⁻' * (int(power) < 0)}{str(abs(int(power))).translate(_HIGH)}"
-    return sign.replace("-", "−") + (raised if float(mantissa) == 1 else f"{mantissa}×{raised}")
-
-
-def scientific(value: float, digits: int = 0) -> str:
-    """A number in powers of ten: 3e-14 as 3×10⁻¹⁴, with `digits` after the point; 0 as 0."""
-    if value == 0:
-        return "0"
-    mantissa, _, power = f"{value:.{digits}e}".partition("e")
-    return f"{mantissa.replace('-', '−')}×10{'⁻' * (int(power) < 0)}{str(abs(int(power))).translate(_HIGH)}"
+    ten = f"10{raised(int(power))}"
+    return sign.replace("-", "−") + (ten if float(mantissa) == 1 else f"{mantissa}×{ten}")
 
 
 def from_latex(source: str) -> str:
@@ -77,9 +71,8 @@ def from_latex(source: str) -> str:
     text = re.sub(r"_\{?(\d+)\}?", lambda m: m[1].translate(_LOW), text)
     text = re.sub(r" ?\^\{?(\d+)\}?", lambda m: m[1].translate(_HIGH), text).replace("^T", "ᵀ")
     text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", text)
-    return " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).replace("( ", "(").replace(" )", ")").split()).replace(
-        " - ", " − "
-    )
+    text = " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).replace("( ", "(").replace(" )", ")").split())
+    return re.sub(r"(^|\()- ", r"\1−", text).replace(" - ", " − ")
 
 
 def _quotients(text: str) -> str:

@@ -25,7 +25,7 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("wrong", readable(statement.wrong))] if statement.wrong and verdict.verdict == "refuted" else []
     rows += [("right", line) for line in _lines(statement.correction)]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
-    rows += [("if", premise.sentence) for premise in verdict.premises]
+    rows += [("if", readable(premise.sentence)) for premise in verdict.premises]
     rows += [("domain", f"{readable(str(factor))} ≠ 0") for factor in verdict.domain]
     if verdict.reaches_result is not None:
         reach = (

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.files import write_beside
 from lagrotor.paper.scripts import Scripts
 
@@ -44,7 +44,8 @@ def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
     wanted = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
     for key in wanted:
         if key not in drawn:
-            raise InputError(f"figure {key!r} has no script: those drawn are {', '.join(drawn) or 'none'}")
+            listed = ", ".join(drawn) or "none"
+            raise InputError(f"figure {key!r} has no script: those drawn are {listed}{near(key, drawn)}")
     return wanted
 
 

@@ -59,7 +59,7 @@ def _summary(report: Report) -> Iterator[str]:
         yield "\n".join(f"- {_prose(change)}" for change in report.changes)
     yield balance(report)
     if fallen := [v.id for v in report.verdicts if v.verdict == "refuted"]:
-        yield f"Those that fall: {_links(fallen)}"
+        yield f"Refuted: {_links(fallen)}"
     for number, headline in enumerate(headlines(report), 1):
         yield f"### {number}. {_prose(headline.title)}"
         yield _prose(headline.text)

@@ -32,7 +32,7 @@ def opening(report: Report) -> list[tuple[str, str]]:
 
 
 def balance(report: Report) -> str:
-    """How many equations hold and how many fall, and what becomes of those that fall."""
+    """How many equations hold and how many are refuted, and what becomes of those."""
     counts = report.counts
     hold = sum(counts.get(answer, 0) for answer in ("holds", "holds-if", "holds-to-order"))
     fallen = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
@@ -46,9 +46,10 @@ def balance(report: Report) -> str:
     if fallen:
         whole = corrected == len(fallen)
         how = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
-        text += f"{len(fallen)} fall{how} that itself holds, and {reaching} take a result of the paper with them."
+        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted{how} that itself holds; "
+        text += f"results of the paper depend on {reaching} of them."
     else:
-        text += "None falls."
+        text += "None is refuted."
     text += f" The other {other} give a name or a measured number." if other else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 

@@ -1,12 +1,11 @@
 """Structures as TOML: the fields of `Structure`, read and written; what is not one of them is refused."""
 
-import tomllib
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from lagrotor.errors import InputError
-from lagrotor.files import write_text
+from lagrotor.errors import InputError, near
+from lagrotor.files import read_toml, write_text
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.structure import Structure
@@ -16,14 +15,9 @@ _PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
 
 def read_structure(path: str | Path) -> Structure:
     """The structure that a TOML file describes. Raises InputError with the reason where there is none."""
+    given = read_toml(path)
     try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}: give a TOML file that can be read") from None
-    try:
-        return structure_of(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path} is no TOML: {error}") from None
+        return structure_of(given)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -33,7 +27,8 @@ def structure_of(given: dict[str, Any]) -> Structure:
     no sense."""
     names = [field.name for field in fields(Assembly)]
     if unknown := [name for name in given if name not in names]:
-        raise InputError(f"{unknown[0]!r} is no field of a structure: they are {', '.join(names)}")
+        known = ", ".join(names)
+        raise InputError(f"{unknown[0]!r} is no field of a structure: they are {known}{near(unknown[0], names)}")
     if "joints" not in given:
         raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")
     made = dict(given)

@@ -6,7 +6,7 @@ from functools import cache
 from math import cos, pi, sin
 from typing import Any
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.pair.scene import Link
 from lagrotor.structures.assembly import Brace
 from lagrotor.structures.structure import Structure
@@ -80,5 +80,7 @@ GALLERY = {
 def example(name: str) -> Structure:
     """The structure of that name. Raises InputError where there is none."""
     if name not in GALLERY:
-        raise InputError(f"structure: {name!r} is neither a .toml file nor one of {', '.join(GALLERY)}")
+        raise InputError(
+            f"structure: {name!r} is neither a .toml file nor one of {', '.join(GALLERY)}{near(name, GALLERY)}"
+        )
     return GALLERY[name].make()

@@ -50,8 +50,8 @@ def limit_formulas() -> dict[str, tuple[str, str]]:
     return {
         "equal": (_formula({_G1: _G, _G2: _G}), ""),
         "opposite": (_formula({_G1: _G, _G2: -_G}), ""),
-        "massless": (_formula({_B: 0}), f"a = {dumbbell.subs(m, 0)}, b = 0"),
-        "dumbbell": (_formula({_B: 0}), f"a = {dumbbell}, b = 0"),
+        "massless": (_formula({_B: 0}), f"a = {_text(dumbbell.subs(m, 0))}, b = 0"),
+        "dumbbell": (_formula({_B: 0}), f"a = {_text(dumbbell)}, b = 0"),
     }
 
 
@@ -60,4 +60,9 @@ def _formula(put: dict[sp.Symbol, sp.Expr]) -> str:
     squared = sp.factor((natural_frequency().expressions[0] ** 2).subs(plain).subs(put))
     squared = sp.factor(sp.expand(squared).subs(_G1**2, 2 * _G**2 - _G2**2))
     above, below = (sp.sqrt(part) for part in sp.fraction(squared))
-    return str(above / (below if below.is_polynomial() else sp.sqrt(sp.expand(below**2))))
+    return _text(above / (below if below.is_polynomial() else sp.sqrt(sp.expand(below**2))))
+
+
+def _text(expression: sp.Expr) -> str:
+    """On one line, as people write it."""
+    return str(expression).replace("**2", "²").replace("*", " ").replace("sqrt(", "√(").replace(" - ", " − ")

@@ -79,7 +79,7 @@ class RateLimit:
 def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
     """Limits of the natural rate near a scene with a bar: equal, opposite, massless, dumbbell.
 
-    equal and opposite: both momenta as large as their root mean square G, G/(a + b) and G/sqrt(a² − b²). massless:
+    equal and opposite: both momenta as large as their root mean square G, G/(a + b) and G/√(a² − b²). massless:
     a = J, b = 0. dumbbell: the bar's mass in its ends, K = m ell²/4, so that b = 0, a = J + m R²/2. The formulas are
     those of `natural_frequency` with the limit put in. Raises InputError without a bar.
     """
@@ -91,7 +91,7 @@ def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
         "equal": (replace(scene, spins=(mean, mean)), "spins equal, of the root mean square G"),
         "opposite": (replace(scene, spins=(mean, -mean)), "spins opposite, of the same G"),
         "massless": (replace(scene, link=Link(length)), "a bar without mass: {}"),
-        "dumbbell": (replace(scene, link=Link(length, mass, mass * length**2 / 4)), "K = m ell**2/4: {}"),
+        "dumbbell": (replace(scene, link=Link(length, mass, mass * length**2 / 4)), "K = m ℓ²/4: {}"),
     }
     formulas = _formulas()()
     return {

@@ -72,6 +72,11 @@ def found() -> dict[str, str]:
 
 BAD: dict[str, tuple[list[str], str]] = {
     "unknown command": (["prove"], "invalid choice"),
+    "near a command": (["rates"], ": rate"),
+    "near a model": ([*SCENE, "--model", "Minimal"], "euler: minimal?"),
+    "near a structure": (["structure", "cornr"], ": corner?"),
+    "no process": (["reproduce", "--jobs", "0"], "--jobs 0 must be at least 1"),
+    "a scene no TOML by its name": ([*SCENE, "--write-scene", "scene.json"], "must end in .toml"),
     "unknown option": (["audit", "--fast"], "--fast"),
     "abbreviated option": ([*SCENE, "--samp", "10"], "--samp"),
     "unknown equation": (["audit", "9.99"], "9.99"),
@@ -265,7 +270,7 @@ def test_rate_with_its_limits(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rate", "--spins", "20", "-20", *bar]) == 0
     shown = capsys.readouterr().out
     assert "G/(a + b)" in shown
-    assert "G/sqrt(a**2 - b**2)" in shown
+    assert "G/√(a² − b²)" in shown
     assert main(["rate", "--spins", "0", "0"]) == 0
     assert "no oscillation" in capsys.readouterr().out
 

@@ -25,7 +25,7 @@ def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_new_paper_is_green_at_once(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["init", "my-paper"]) == 0
-    assert "1 equation, of which the print of 1 is read" in capsys.readouterr().out
+    assert "1 equation; sympy reads the print of 1" in capsys.readouterr().out
     for command in (["audit"], ["audit", "1.1", "--json"], ["claims"], ["figure", "1"]):
         assert main([*command, "--paper", "my-paper"]) == 0, command
     capsys.readouterr()
@@ -161,7 +161,7 @@ def test_a_latex_file_becomes_a_paper_that_is_judged(work: Path, capsys: pytest.
     pytest.importorskip("antlr4", reason="sympy's parser of LaTeX needs the extra `latex`")
     (work / "chain.tex").write_text(CHAIN, encoding="utf-8")
     assert main(["init", "chain", "--from", "chain.tex"]) == 0
-    assert "6 equations, of which the print of 5 is read" in capsys.readouterr().out
+    assert "6 equations; sympy reads the print of 5" in capsys.readouterr().out
     paper = Paper(work / "chain")
     assert (paper.title, paper.about.authors) == ("Two coupled oscillators", ("A. Student",))
     assert [(e.id, e.title) for e in paper.equations.values()][1] == ("2", "eq:first")

@@ -11,6 +11,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import InputError, IntegrationError, SingularError
 from lagrotor.mechanics import project_velocity
+from lagrotor.models import linear_bound, linear_error
 
 UPRIGHT = Scene((10, -10))
 TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
@@ -57,7 +58,7 @@ def test_auto_takes_the_least_model_and_says_why() -> None:
     """See test_choose for the choice itself."""
     run = simulate(UPRIGHT, [0, 1])
     assert run.model == "closed_form"
-    assert run.why == "at rest and left alone: nothing moves; error 0.0e+00"
+    assert run.why == "at rest and left alone: nothing moves; error 0"
     assert simulate(UPRIGHT, [0, 1], "minimal").why == "by name"
 
 
@@ -145,3 +146,9 @@ def test_a_shock_that_is_not_felt_costs_no_digit(at: float) -> None:
     assert (runs[0] == runs[1]).all()
     near = replace(scene, shock=Shock((1, 0, 0), 5.0, 0.1))
     assert np.abs(simulate(near, [1.0, 10.0], "minimal", 1e-10).axes - runs[0]).max() > 1e-2  # twin
+
+
+def test_no_error_is_above_what_two_unit_vectors_can_miss_each_other_by() -> None:
+    wide = paired_scene(Scene((10, -10)), 0.204)
+    assert linear_bound(linear_error(wide, 10.0)) == 2.0 < 5 * linear_error(wide, 10.0)
+    assert "normal modes have an error of 2.0" in simulate(wide, [0, 10.0]).why

@@ -52,5 +52,5 @@ def test_what_is_no_scene_is_refused(tmp_path, text: str, reason: str) -> None:
 
 
 def test_a_file_that_is_not_there_is_refused(tmp_path) -> None:
-    with pytest.raises(InputError, match="give a TOML file that can be read"):
+    with pytest.raises(InputError, match="No such file or directory: give a file that can be read"):
         read_scene(tmp_path / "none.toml")

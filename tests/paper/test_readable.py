@@ -49,7 +49,14 @@ def test_words_are_left_alone(text: str) -> None:
 
 @pytest.mark.parametrize(
     ("value", "digits", "read"),
-    [(3e-14, 0, "3×10⁻¹⁴"), (-1.57e-162, 1, "−1.6×10⁻¹⁶²"), (2.5e10, 1, "2.5×10¹⁰"), (0, 0, "0"), (1.0, 0, "1×10⁰")],
+    [
+        (3e-14, 0, "3×10⁻¹⁴"),
+        (-1.57e-162, 1, "−1.6×10⁻¹⁶²"),
+        (2.5e10, 1, "2.5×10¹⁰"),
+        (0, 0, "0"),
+        (1.0, 0, "1"),
+        (-2.0, 1, "−2.0"),
+    ],
 )
 def test_a_number_in_powers_of_ten(value: float, digits: int, read: str) -> None:
     assert scientific(value, digits) == read

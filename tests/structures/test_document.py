@@ -63,8 +63,11 @@ def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     assert main(["structure", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["stands"] and found["freedoms"] == 4 and len(found["modes"]) == 4 and found["critical_spin"] < 1
+    assert main(["structure", "list", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out).keys() == GALLERY.keys()
     assert main(["structure", "list"]) == 0
-    assert all(name in capsys.readouterr().out + " ".join(GALLERY) for name in GALLERY)
+    listed = capsys.readouterr().out
+    assert all(f"\n{name} " in listed for name in GALLERY)
     assert main(["structure", "loaded-pair"]) == 0
     assert "none holds it" in capsys.readouterr().out
 
@@ -73,6 +76,7 @@ def test_the_command_draws(tmp_path, capsys) -> None:
     for name in ("square.png", "square.gif"):
         assert main(["structure", "square", "--out", str(tmp_path / name), "--t-end", "0.2"]) == 0
         assert (tmp_path / name).stat().st_size > 1000
+        assert capsys.readouterr().out.endswith(f"{tmp_path / name}\n")
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from lagrotor.errors import InputError
+from lagrotor.files import read_text
 
 _ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")  # each row is an equation
 _ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath")
@@ -48,10 +49,7 @@ def read_source(file: Path) -> Source:
     """Reads a .tex or .md file. Raises InputError for another one, and for one without a displayed equation."""
     if file.suffix not in (".tex", ".md"):
         raise InputError(f"--from {file}: give a .tex or an .md file")
-    try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"--from {file}: {error}: give a file of UTF-8 text") from None
+    text = read_text(file)
     if file.suffix == ".tex":
         text = re.sub(r"(?<!\\)%[^\n]*", "", text)
         found = Source(_plain(_argument(text, r"\title")) or file.stem)

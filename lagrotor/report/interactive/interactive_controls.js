@@ -3,7 +3,8 @@
 function show(root) {
   const part = (name) => root.querySelector(`[data-model="${name}"]`);
   const choices = ["r0", "bar", "ell", "opposite", "first", "second", "order", "rate", "speed"];
-  const controls = Object.fromEntries([...choices, "time"].map((name) => [name, part(name)]));
+  const settings = [...choices, "push-x", "push-y"]; // what a link holds
+  const controls = Object.fromEntries([...settings, "time"].map((name) => [name, part(name)]));
   const canvases = { space: part("space"), top: part("top"), length: part("length") };
   const longest = Number(controls.time.max); // s
   const eye = { azimuth: -1.25, elevation: 0.3 };
@@ -156,7 +157,7 @@ function show(root) {
   function fromAddress() {
     if (!location.hash.startsWith("#model?")) return;
     const given = new URLSearchParams(location.hash.slice("#model?".length));
-    for (const name of choices.filter((each) => given.has(each))) {
+    for (const name of settings.filter((each) => given.has(each))) {
       if (controls[name].type === "checkbox") controls[name].checked = given.get(name) === "1";
       else controls[name].value = given.get(name);
     }
@@ -196,7 +197,7 @@ function show(root) {
   });
   part("play").addEventListener("click", () => play(!playing));
   part("strike").addEventListener("click", () => {
-    const impulse = [Number(part("push-x").value), Number(part("push-y").value), 0];
+    const impulse = [number("push-x"), number("push-y"), 0];
     const next = impulse.every(Number.isFinite) ? run.after(now, impulse) : null;
     if (!next) return;
     [run, now] = [next, 0];
@@ -204,7 +205,7 @@ function show(root) {
   });
   part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
   part("link").addEventListener("click", () => {
-    history.replaceState(null, "", `#model?${new URLSearchParams(choices.map((name) => [name, chosen(name)]))}`);
+    history.replaceState(null, "", `#model?${new URLSearchParams(settings.map((name) => [name, chosen(name)]))}`);
     copied(location.href, "The link is on the clipboard:");
   });
   part("again").addEventListener("click", () => {

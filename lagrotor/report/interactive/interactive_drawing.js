@@ -10,7 +10,7 @@ function small(value) {
   if (Math.abs(value) < 2e-15) return "0";
   if (Math.abs(value) >= 1e-3) return fixed(value, 4);
   const [digits, power] = value.toExponential(1).split("e");
-  return `${digits.replace("-", "−")} × 10${[...power].map((c) => SUPERSCRIPTS[c]).join("")}`;
+  return `${digits.replace("-", "−")}×10${[...power].map((c) => SUPERSCRIPTS[c]).join("")}`;
 }
 
 const LAYERS = ["exact", "series", "paper"];

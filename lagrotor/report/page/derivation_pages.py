@@ -19,10 +19,10 @@ from lagrotor.report.page.page_pieces import badge, link, prose, rows, typeset
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
-    """One derivation, cell by cell; `answers` holds the verdicts by equation."""
-    cells = script.cells
-    parts = [written(c.text) if c.kind == "prose" else "".join(_shown(v, answers) for v in c.shown) for c in cells]
-    return "".join(parts)
+    """One derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
+    prose = (re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "" for cell in script.cells)
+    shown = ("".join(_shown(value, answers) for value in cell.shown) for cell in script.cells)
+    return "".join(written(text) + found for text, found in zip(prose, shown, strict=True))
 
 
 def title(script: Script, stem: str) -> str:
@@ -42,8 +42,8 @@ def written(text: str) -> str:
     renderer = MarkdownIt("commonmark").enable("table")
     renderer.use(dollarmath_plugin, renderer=_formula, allow_space=False)
     html: str = renderer.render(text)
-    for level in (3, 2, 1):  # the page's own headings end at the third level
-        html = html.replace(f"<h{level}>", f"<h{level + 3}>").replace(f"</h{level}>", f"</h{level + 3}>")
+    for level in (3, 2, 1):  # below a heading of the page
+        html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
 
 

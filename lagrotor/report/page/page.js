@@ -94,14 +94,17 @@ function setUpFigures() {
   }
 }
 
-// A formula wider than its box is drawn smaller, down to three fifths; what is then still too wide scrolls.
-function fitFormulas(narrowest) {
+// A formula wider than its box is drawn smaller, down to 0.44 of its size; what is then still too wide scrolls.
+const NARROWEST = 0.44;
+function fitFormulas() {
   for (const box of document.querySelectorAll(".wide")) {
     for (const formula of box.querySelectorAll("math[display=block]")) {
       formula.style.fontSize = "";
-      const share = box.clientWidth / formula.scrollWidth;
-      if (box.clientWidth && share < 1) {
-        formula.style.fontSize = Math.max(narrowest, share) * parseFloat(getComputedStyle(formula).fontSize) + "px";
+      const natural = parseFloat(getComputedStyle(formula).fontSize);
+      // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
+      for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
+        share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
+        if (share < 1) formula.style.fontSize = Math.max(NARROWEST, share) * natural + "px";
       }
     }
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; // the keyboard must reach what scrolls
@@ -117,8 +120,9 @@ function setUpPage() {
   contents.addEventListener("click", (event) => {
     if (event.target.closest("a") && !wide.matches) contents.open = false;
   });
-  fitFormulas(0.6);
-  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", () => fitFormulas(0.6));
+  fitFormulas();
+  addEventListener("resize", fitFormulas);
+  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", fitFormulas);
   setUpFigures();
   let opened = [];
   addEventListener("beforeprint", () => {

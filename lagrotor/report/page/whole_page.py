@@ -96,7 +96,7 @@ def _summary(report: Report) -> str:
     equations = "".join(count_entry(answer, count, MEANINGS[answer]) for answer, count in report.counts.items())
     tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
     fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
-    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Those that fall: {fallen}</p>" if fallen else "")
+    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {fallen}</p>" if fallen else "")
     results = "".join(headline_entry(headline, report) for headline in headlines(report))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)

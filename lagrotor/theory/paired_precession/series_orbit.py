@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError
-from lagrotor.numerics.shown import Shown
+from lagrotor.numerics.shown import Shown, raised
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
@@ -111,6 +111,6 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
         copysign(natural * series.relative_frequency(amplitude), scene.spins[0]),
         natural * (rest.frequency + ROUNDING),
         rest.axes + ROUNDING,
-        f"series through r0^{order}",
+        f"series through r₀{raised(order)}",
         series.harmonics(amplitude),
     )

@@ -7,11 +7,11 @@ import numpy as np
 
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.numerics.curves import measured_order
+from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.readable import scientific
 from lagrotor.paper.rotor_pair.claims.precession_runs import (
     AMPLITUDES,
     EQUAL,

@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.curves import mean_between
+from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.readable import scientific
 from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,

@@ -10,11 +10,11 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_solver
 from lagrotor.numerics.curves import measured_order
+from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STIFFNESS
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.readable import scientific
 from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,
