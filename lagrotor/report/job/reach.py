@@ -3,9 +3,9 @@
 The digest of all this, with the versions of the tools, is what a product of the last run must agree with to be taken again.
 """
 
-import ast
 import hashlib
 import platform
+import re
 from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import version
@@ -20,6 +20,10 @@ _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
 _NO_DATA = {"recorded.json"}
+# Read off the text, since parsing takes ten times as long; what looks like an import or a string and is none does no harm.
+_IMPORT = re.compile(r"^[ ]*(?:from ([\w.]+) import (\([^)]*\)|.*)|import (.*))$", re.MULTILINE)
+_NAME = re.compile(r"[\w.]+")
+_WORD = re.compile(r"""["'](\w+)["']""")
 
 
 def digest(*parts: bytes | str) -> str:
@@ -38,8 +42,8 @@ def versions() -> dict[str, str]:
 
 
 @cache
-def _tree(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
 
 
 @cache
@@ -53,13 +57,10 @@ def _face(package: str) -> dict[str, str]:
 def imports(path: Path, folder: Path) -> frozenset[Path]:
     """The files of the package, and of a paper's folder, that one file imports, wherever in it."""
     names: set[str] = set()
-    for node in ast.walk(_tree(path)):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            handed = _face(node.module)
-            names |= {handed.get(alias.name, f"{node.module}.{alias.name}") for alias in node.names}
-            names |= set() if handed else {node.module}
+    for module, inside, line in _IMPORT.findall(_text(path)):
+        handed = _face(module)
+        names |= {handed.get(name, f"{module}.{name}") for name in _NAME.findall(inside)} if inside else set()
+        names |= set() if handed else {module, *_NAME.findall(line)}
     return frozenset(file for name in names if (file := _file_of(name, folder)))
 
 
@@ -71,14 +72,19 @@ def _file_of(module: str, folder: Path) -> Path | None:
 
 @cache
 def _texts(path: Path) -> frozenset[str]:
-    """Every string in a script."""
-    return frozenset(n.value for n in ast.walk(_tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str))
+    """Every string of one word in a script."""
+    return frozenset(_WORD.findall(_text(path)))
+
+
+@cache
+def _stems(paper: Paper) -> frozenset[str]:
+    return frozenset(paper.scripts.names("derivations"))
 
 
 @cache
 def named(path: Path, paper: Paper) -> tuple[str, ...]:
     """Stems of the derivations that a script names: it may run them."""
-    stems = _texts(path) & set(paper.scripts.names("derivations"))
+    stems = _texts(path) & _stems(paper)
     return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
 
 

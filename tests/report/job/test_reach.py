@@ -23,7 +23,7 @@ def fresh():
 
 def clear() -> None:
     for cached in (
-        reach._tree,
+        reach._text,
         reach._face,
         reach.imports,
         reach._texts,
