@@ -36,10 +36,13 @@ def _bodies(scene: Scene, mass: Any) -> dict[str, Any]:
     return {"q": q, "u": u, "N": ground, "bodies": bodies, "bar": bar, "me": me}
 
 
-def angles(scene: Scene) -> list[float]:
-    """The bodies' angles and their rates at the start: r = (sin b, −sin a cos b, cos a cos b), spin c' + a' sin b."""
+def angles(given: Any) -> list[float]:
+    """The bodies' angles and their rates at the start: r = (sin b, −sin a cos b, cos a cos b), spin c' + a' sin b.
+
+    given: axes, rates and spins of any number of rotors.
+    """
     places, rates = [], []
-    for r, v, spin in zip(scene.axes, scene.rates, scene.spins, strict=True):
+    for r, v, spin in zip(given.axes, given.rates, given.spins, strict=True):
         angle_a, angle_b = atan2(-r[1], r[2]), asin(r[0])
         rate_a = (r[1] * v[2] - r[2] * v[1]) / (r[1] ** 2 + r[2] ** 2)
         places += [angle_a, angle_b, 0.0]
@@ -48,8 +51,9 @@ def angles(scene: Scene) -> list[float]:
 
 
 def axes_of(states: Array) -> Array:
-    """Axes (2, n, 3) of states (n, 12) whose first six are these angles."""
-    a, b = states[:, [0, 3]].T, states[:, [1, 4]].T
+    """Axes (N, n, 3) of states (n, 6 N) whose first half is these angles."""
+    places = states[:, : states.shape[1] // 2].T
+    a, b = places[0::3], places[1::3]
     return np.stack([np.sin(b), -np.sin(a) * np.cos(b), np.cos(a) * np.cos(b)], axis=-1)
 
 

@@ -41,6 +41,7 @@ from lagrotor.pair.notation import (
 from lagrotor.pair.notation import r0 as amplitude
 from lagrotor.pair.notation import sigma as shape
 from lagrotor.pair.scene import Rotor
+from lagrotor.report.interactive.grid import grid_section
 from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
@@ -51,9 +52,14 @@ _HERE = Path(__file__).parent
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
 
-@cache
 def interactive() -> str:
-    """The section as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
+    """The report's two models, the pair and the grid, as an HTML fragment."""
+    return pair_section() + "\n" + grid_section()
+
+
+@cache
+def pair_section() -> str:
+    """The pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
 
     def part(name: str) -> str:
         return (_HERE / f"interactive{name}").read_text(encoding="utf-8")

@@ -22,7 +22,7 @@ _BETWEEN = 10.0  # radians at the structure's rate between two projections onto 
 
 
 def integrate_compiled(s: Assembly, motion: ExactMotion, start: Array, times: Array, tol: float) -> Solution:
-    """States (n, 6 N) as of `motion.rhs` at times in s, and steps times order for evaluations.
+    """States (n, 6 N) as of `motion.rhs` at times in s, off the constraints by its error; steps times order for evaluations.
 
     Raises InputError without heyoka, for what it cannot compile, and StopError where it stops.
     """
@@ -39,7 +39,7 @@ def integrate_compiled(s: Assembly, motion: ExactMotion, start: Array, times: Ar
     solver, span = _solver(bare, order, get_ident()), (0.0, float(times[-1]))
     solver.pars[: len(c.R)], solver.pars[len(c.R)] = c.G, c.rate
     states, _, nfev = march(solver, start, times, span, dummy_size(tol, order), motion.projected, _BETWEEN / c.rate)
-    return Solution(motion.projected(states.T).T, nfev)
+    return Solution(states, nfev)
 
 
 @lru_cache(maxsize=16)

@@ -51,9 +51,9 @@ class ExactMotion:
         return self.saddle.solve(r, self.pulls(r), right)
 
     def pulls(self, r: Array) -> tuple[Array, Array]:
-        """−R_i d and R_j d of the bars (B, 3), d from tip i to tip j: half the gradients of |d|²."""
+        """−R_i d and R_j d of the bars (…, B, 3), d from tip i to tip j: half the gradients of |d|²; r (…, N, 3)."""
         c = self.c
-        d = c.feet[c.j] - c.feet[c.i] + c.R[c.j, None] * r[c.j] - c.R[c.i, None] * r[c.i]
+        d = c.feet[c.j] - c.feet[c.i] + c.R[c.j, None] * r[..., c.j, :] - c.R[c.i, None] * r[..., c.i, :]
         return -c.R[c.i, None] * d, c.R[c.j, None] * d
 
     def forces(self, t: float, r: Array, v: Array) -> Array:
@@ -102,28 +102,25 @@ class ExactMotion:
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
     def off(self, r: Array) -> Array:
-        """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (N + B,)."""
+        """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
         c = self.c
         d = self.pulls(r)[1] / c.R[c.j, None]
-        return np.concatenate([(r * r).sum(1) - 1, (d * d).sum(1) - c.ell**2]) / 2
-
-    def rows_times(self, r: Array, v: Array) -> Array:
-        """G v, the rates of the constraints, (N + B,)."""
-        first, second = self.pulls(r)
-        return np.concatenate([(r * v).sum(1), (first * v[self.c.i]).sum(1) + (second * v[self.c.j]).sum(1)])
+        return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
 
     def projected(self, y: Array) -> Array:
         """One Newton step onto the constraints and their rates in the metric of the masses: states (6 N,) or (6 N, n)."""
-        if y.ndim == 2 and not y.shape[1]:
-            return y
-        if y.ndim == 2:
-            return np.column_stack([self.projected(column) for column in y.T])
-        N = len(self.c.R)
-        r, v = y[: 3 * N].reshape(N, 3), y[3 * N :].reshape(N, 3)
-        right = np.zeros((4 * N + len(self.c.i), 2))
-        right[3 * N :, 0], right[3 * N :, 1] = -self.off(r), -self.rows_times(r, v)
-        moved = self.saddle.solve(r, self.pulls(r), right)[: 3 * N]
-        return y + moved.T.ravel()
+        c, N = self.c, len(self.c.R)
+        states = np.atleast_2d(y.T)
+        r, v = states.reshape(-1, 2, N, 3).swapaxes(0, 1)
+        first, second = self.pulls(r)
+        rates = (first * v[:, c.i]).sum(-1) + (second * v[:, c.j]).sum(-1)
+        right = np.zeros((len(states), 4 * N + len(c.i), 2))
+        right[:, 3 * N :, 0], right[:, 3 * N : 4 * N, 1], right[:, 4 * N :, 1] = -self.off(r), -(r * v).sum(-1), -rates
+        moved = [
+            self.saddle.solve(*each)[: 3 * N].T.ravel()
+            for each in zip(r, zip(first, second, strict=True), right, strict=True)
+        ]
+        return (states + np.reshape(moved, states.shape)).T.reshape(y.shape)
 
 
 def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
+from lagrotor.numerics.integrate import Engine, Problem, Solution, check_engine, check_tolerance, integrate
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
@@ -48,11 +48,12 @@ def simulate(
     motion = exact_motion(s, _checked(drive, "drive", (len(s.joints), 3)), _checked(ground, "ground", (3,)))
     start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
     run = partial(_integrated, s, motion, start, times, engine)
-    coarse, first = run(local)
+    coarse, N = run(local), len(s.joints)
+    nfev = coarse.nfev
     while True:
-        fine, second = run(max(local / _APART, 1e-13))
-        error = float(np.linalg.norm(fine[0] - coarse[0], axis=-1).max()) + 1e-15
-        first += second
+        fine = run(max(local / _APART, 1e-13))
+        off = (fine.states - coarse.states)[:, : 3 * N].reshape(-1, N, 3)
+        error, nfev = float(np.linalg.norm(off, axis=-1).max()) + 1e-15, nfev + fine.nfev
         if error <= wanted or local <= 3e-12:
             break
         local, coarse = max(local / _APART, 3e-12), fine
@@ -63,25 +64,21 @@ def simulate(
             LagrotorWarning,
             stacklevel=2,
         )
-    return StructureRun(s, times, fine[0], fine[1], error, first)
+    states = motion.projected(fine.states.T).T if engine == "fast" else fine.states
+    axes, velocities = states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
+    return StructureRun(s, times, axes, motion.c.rate * velocities, error, nfev)
 
 
-def _integrated(
-    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float
-) -> tuple[Array, int]:
-    """Axes and rates (2, N, n, 3), and evaluations."""
-    rate, N = motion.c.rate, len(motion.c.R)
+def _integrated(s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float) -> Solution:
+    """States (n, 6 N) of (r, r'/rate); the core's are on the constraints, those of the fast extra off by their error."""
+    rate = motion.c.rate
     if engine == "fast":
         from lagrotor.structures.exact.compiled_motion import integrate_compiled
 
-        found = integrate_compiled(s, motion, start, times, local)
-    else:
-        most = 50_000 + 2_000 * rate * float(times[-1])
-        problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
-        found = integrate(problem, rate * times, local)
-    states = found.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
-    states[1] *= rate
-    return states, found.nfev
+        return integrate_compiled(s, motion, start, times, local)
+    most = 50_000 + 2_000 * rate * float(times[-1])
+    problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
+    return integrate(problem, rate * times, local)
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:

@@ -26,7 +26,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import compile_program, measured_order
 from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, programs
+from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, pair_section, programs
 from lagrotor.theory import series_orbit
 
 NODE = shutil.which("node")
@@ -52,7 +52,7 @@ CASES = [
 
 def script() -> str:
     """What is computed in the browser, and the drawing, as it stands in the fragment but for the call that starts it."""
-    text = re.search(r"<script>\n(.*)\n</script>", interactive(), re.DOTALL)
+    text = re.search(r"<script>\n(.*)\n</script>", pair_section(), re.DOTALL)
     assert text
     lines = text[1].splitlines()
     assert (lines[0], lines[1], lines[-1]) == ("(() => {", '"use strict";', "})();")
@@ -318,7 +318,7 @@ class Reader(HTMLParser):
 
 
 def test_the_fragment_is_one_section_that_needs_nothing_else() -> None:
-    text, reader = interactive(), Reader()
+    text, reader = pair_section(), Reader()
     reader.feed(text)
     assert not reader.open
     tag, attributes, _ = reader.seen[0]
@@ -349,7 +349,7 @@ def test_the_fragment_is_the_same_in_every_process() -> None:
         env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[3]), "PYTHONUTF8": "1"},
     )  # fmt: skip
     assert ran.stdout == interactive()
-    assert formulas() in interactive()
+    assert formulas() in pair_section()
 
 
 # ---- in a browser
@@ -414,7 +414,7 @@ onload = async () => {
 def test_the_fragment_lives_in_a_browser(tmp_path: Path, motion_is_welcome: bool) -> None:
     page = tmp_path / "page.html"
     page.write_text(
-        f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><body>{LISTENER}{interactive()}{TRIAL}</body></html>',
+        f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><body>{LISTENER}{pair_section()}{TRIAL}</body></html>',
         encoding="utf-8",
     )
     command = [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]

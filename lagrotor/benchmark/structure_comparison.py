@@ -1,0 +1,175 @@
+"""Chains of rotors by this tool and by multibody engines: processor time to one error, all in one run, in turns.
+
+`python -m lagrotor.benchmark.structure_comparison` writes the record that the report shows; some minutes, in one thread. A
+tool's time is that of its coarsest setting whose tips are within ERROR of the reference at all times: the exact model at
+10⁻¹², with which every engine agrees. `simulate` integrates twice, for its error estimate; the engines give none, so that one
+integration stands beside it.
+"""
+
+import json
+import os
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from importlib.util import find_spec
+from multiprocessing import get_context
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from lagrotor.benchmark.method import Array, Runner
+from lagrotor.benchmark.peers.multibody_engines import ENGINES
+from lagrotor.benchmark.peers.rig import Rig
+from lagrotor.benchmark.recorded_speed import machine, versions
+from lagrotor.errors import LagrotorError
+from lagrotor.files import write_text
+from lagrotor.numerics.integrate import Engine
+from lagrotor.pair.scene import Link
+from lagrotor.structures.exact.compiled_motion import integrate_compiled
+from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures.exact.structure_run import StructureRun
+from lagrotor.structures.structure import Structure
+
+RECORDED = Path(__file__).with_name("recorded_structures.json")
+SIZES = (16, 64, 256)
+ERROR = 1e-6
+TIMES = np.linspace(0, 3, 31)
+_LONGEST = 40.0  # s of a run, after which no finer setting is tried
+_ROUNDS = 3
+_TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(3, 24))
+_MODULES = {"MuJoCo": "mujoco", "Pinocchio": "pinocchio", "Drake": "pydrake"}
+Run = Callable[[float], Array]
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
+
+    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached.
+    """
+
+    n: int
+    tool: str
+    setting: float
+    error: float
+    seconds: float | None
+    first: float
+
+
+def staircase(n: int) -> Structure:
+    """n equal rotors, spins 10 rad/s, joined in a staircase by massless bars of 1 m."""
+    return Structure(
+        [((k + 1) // 2, k // 2) for k in range(n)], [(k, k + 1) for k in range(n - 1)], 10.0, link=Link(1, 0, 0)
+    )
+
+
+def begun(s: Structure, tol: float, engine: Engine = "core", seed: int = 0) -> StructureRun:
+    """Its run through TIMES from random tilts of 0.05 and rates of 0.5/s."""
+    draw = np.random.default_rng(seed)
+    tilt, rates = (size * draw.standard_normal((len(s.joints), 2)) for size in (0.05, 0.5))
+    return s.simulate(TIMES, tilt, rates, tol=tol, engine=engine)
+
+
+def tools(n: int) -> dict[str, tuple[Run, tuple[float, ...]]]:
+    """What is installed: runs, setting → tips (n, 31, 3), and settings from coarse to fine."""
+    s = staircase(n)
+    at_start = begun(s, 1e-3)
+    rig = Rig(
+        s.rotor[0], np.array(s.joints), tuple((i, j) for i, j, _ in s.bars), np.array(s.spins), at_start.axes[:, 0],
+        at_start.rates[:, 0],
+    )  # fmt: skip
+    found: dict[str, tuple[Run, tuple[float, ...]]] = {"lagrotor": (lambda tol: begun(s, tol).tips, _TOLERANCES)}
+    if find_spec("heyoka"):
+        found["lagrotor, fast"] = (lambda tol: begun(s, tol, "fast").tips, _TOLERANCES)
+        found["lagrotor, fast, one integration"] = (_once(s, at_start), _TOLERANCES[3:])
+    for name, (prepare, steps) in ENGINES.items():
+        if find_spec(_MODULES[name.split(",")[0]]):
+            found[name] = (_tips_only(prepare(rig, TIMES)), steps or _TOLERANCES[7:])
+    return found
+
+
+def _tips_only(run: Runner) -> Run:
+    return lambda setting: run(setting)[0]
+
+
+def _once(s: Structure, at_start: StructureRun) -> Run:
+    """The integration of the fast extra without a second one for its error, as the engines integrate."""
+    motion = exact_motion(s)
+    start = np.concatenate([at_start.axes[:, 0].ravel(), at_start.rates[:, 0].ravel() / motion.c.rate])
+
+    def run(tol: float) -> Array:
+        states = motion.projected(integrate_compiled(s, motion, start, TIMES, tol).states.T).T
+        axes = states[:, : len(start) // 2].reshape(len(TIMES), -1, 3).swapaxes(0, 1)
+        return np.asarray(motion.c.feet[:, None] + motion.c.R[:, None, None] * axes)
+
+    return run
+
+
+def compared(n: int, say: Callable[[str], None]) -> list[Timed]:
+    """Every tool on a chain of n rotors."""
+    truth = begun(staircase(n), 1e-12).tips
+    found, chosen = dict[str, Timed](), dict[str, tuple[Run, float, list[float]]]()
+    for name, (run, settings) in tools(n).items():
+        found[name], seconds = _reached(n, name, run, settings, truth), list[float]()
+        if found[name].error <= ERROR:
+            chosen[name] = (run, found[name].setting, seconds)
+        say(f"{n} {name}: error {found[name].error:.1e} at {found[name].setting:g}")
+    for _ in range(_ROUNDS):
+        for run, setting, seconds in chosen.values():
+            seconds.append(_timed(run, setting)[1])
+    return [
+        Timed(**{**asdict(each), "seconds": median(chosen[name][2]) if name in chosen else None})
+        for name, each in found.items()
+    ]
+
+
+def _reached(n: int, name: str, run: Run, settings: tuple[float, ...], truth: Array) -> Timed:
+    """The first setting within ERROR, or the best of those that were tried."""
+    best = Timed(n, name, settings[0], np.inf, None, 0.0)
+    for setting in settings:
+        tips, seconds = _timed(run, setting)
+        error = float(np.abs(tips - truth).max())
+        if error < best.error:
+            best = Timed(n, name, setting, error, None, seconds)
+        if error <= ERROR or seconds > _LONGEST:
+            break
+    return best
+
+
+def _timed(run: Run, setting: float) -> tuple[Array, float]:
+    import warnings
+
+    begin = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a tolerance that is not kept: the error is measured here
+        tips = run(setting)
+    return tips, time.process_time() - begin
+
+
+def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any]:
+    """All of it: machine, versions, and the rows."""
+    rows = [asdict(each) for n in SIZES for each in compared(n, say)]
+    return {"machine": machine(), "versions": versions(), "rows": rows}
+
+
+def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
+    """What is on record: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
+    try:
+        data = json.loads(RECORDED.read_text(encoding="utf-8"))
+        return data, [Timed(**row) for row in data["rows"]]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise LagrotorError(f"{RECORDED} cannot be read ({error}): renew it") from None
+
+
+def _in_one_thread() -> None:
+    write_text(RECORDED, json.dumps(measure_all(print), indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    os.environ |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+    process = get_context("spawn").Process(target=_in_one_thread)
+    process.start()
+    process.join()
+    raise SystemExit(process.exitcode)

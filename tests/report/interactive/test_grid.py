@@ -1,0 +1,104 @@
+"""The model of nine rotors: its JavaScript against the library, and the section in a browser."""
+
+import json
+import shutil
+import subprocess
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Structure
+from lagrotor.report.interactive import grid as module
+from lagrotor.report.interactive.grid import grid_section
+
+NODE = shutil.which("node")
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+SOURCE = (Path(module.__file__).with_name("grid_standing.js")).read_text(encoding="utf-8")
+
+
+def run_node(expression: str) -> object:
+    code = f"{SOURCE}\nconsole.log(JSON.stringify({expression}));"
+    ran = subprocess.run([str(NODE), "-"], input=code, capture_output=True, text=True, timeout=60)
+    assert ran.returncode == 0, ran.stderr[-800:]
+    return json.loads(ran.stdout)
+
+
+def random_boards(n: int) -> list[tuple[list[float | None], list[int], list[int], float]]:
+    """Places with a spin, none, or no spin; bars between neighbours that are there."""
+    draw, found = np.random.default_rng(5), []
+    while len(found) < n:
+        spins = [draw.choice([None, 0.0, 25.0, -25.0, 40.0], p=[0.25, 0.1, 0.3, 0.2, 0.15]) for _ in range(9)]
+        here = [spin is not None for spin in spins]
+        right = [i for i in range(9) if i % 3 < 2 and here[i] and here[i + 1] and draw.random() < 0.7]
+        up = [i for i in range(6) if here[i] and here[i + 3] and draw.random() < 0.7]
+        if any(here):
+            found.append((spins, right, up, float(draw.choice([0.0, 1.0, 4.0]))))
+    return found
+
+
+def structure(spins, right, up, load) -> Structure:
+    places = [i for i, spin in enumerate(spins) if spin is not None]
+    at = {place: k for k, place in enumerate(places)}
+    bars = [(at[i], at[i + 1]) for i in right] + [(at[i], at[i + 3]) for i in up]
+    given = [spins[i] for i in places]
+    return Structure([(i % 3, i // 3) for i in places], bars, given, link=Link(1, 0, 0), gravity=9.81, load=load)
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed")
+def test_a_board_stands_where_the_structure_does() -> None:
+    boards = random_boards(20)
+    verdicts = run_node(f"{json.dumps(boards)}.map(board => standing(...board))")
+    seen = set()
+    for board, found in zip(boards, verdicts, strict=True):
+        expected = structure(*board).stands()
+        assert found["stands"] == bool(expected)
+        assert found["growth"] == pytest.approx(expected.growth, abs=1e-6)
+        assert (np.inf if found["factor"] is None else found["factor"]) == pytest.approx(
+            expected.critical_spin, rel=1e-6
+        )
+        seen.add((found["stands"], found["factor"] is None))
+    assert seen == {(True, False), (False, False), (False, True)}
+    other = [(*board[:3], board[3] + 0.1) for board in boards]
+    moved = run_node(f"{json.dumps(other)}.map(board => standing(...board))")
+    assert all(a["growth"] != b["growth"] for a, b in zip(verdicts, moved, strict=True) if a["growth"])
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed")
+def test_the_plan_moves_as_the_structure_does() -> None:
+    """A corner of three: its small motion, and that of the exact model from a hundred-thousandth of its push."""
+    spins, board = [30.0, 30.0, None, None, 30.0, None, None, None, None], ([0], [1], 2.0)
+    tilts, pushed = run_node(
+        f"""(() => {{
+        const found = standing(...{json.dumps([spins, *board])}), motion = stepper(found, {json.dumps(spins)});
+        let y = motion.pushed(), n = y.length / 2;
+        const pushed = motion.tilts(y.slice(n));
+        for (let k = 0; k < 500; k++) y = motion.step(y, 0.002);
+        return [motion.tilts(y), pushed];
+        }})()"""
+    )
+    moved, rates = (1e-5 * np.array([of[place] for place in "014"]) for of in (tilts, pushed))
+    exact = structure(spins, *board).simulate([1.0], rates=rates, tol=1e-11)
+    assert moved == pytest.approx(exact.axes[:, 0, :2], abs=1e-11)
+
+
+def test_the_section_needs_nothing_else() -> None:
+    text = grid_section()
+    assert "/* script */" not in text and "http" not in text and text.count("<script>") == 1
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+def test_the_board_in_a_browser(tmp_path) -> None:
+    page = tmp_path / "page.html"
+    press = """document.querySelector(".grid-rotor").click();
+        document.body.dataset.pressed = document.querySelectorAll("[data-kind]").length;"""
+    page.write_text(
+        f"<!doctype html><meta charset=utf-8><body>{grid_section()}<script>{press}</script>", encoding="utf-8"
+    )
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", f"file://{page}"]
+    shown = subprocess.run(command, capture_output=True, text=True, timeout=60).stdout
+    assert 'data-pressed="9"' in shown
+    assert "It stands" in shown or "It falls" in shown
+    for row, place in product((1, 2, 3), repeat=2):
+        assert f'aria-label="row {row} from below, place {place}: ' in shown
