@@ -15,8 +15,7 @@ from matplotlib.patches import FancyBboxPatch
 
 from lagrotor.drawing import CORRECTED, MODEL, OKABE_ITO
 from lagrotor.models import RigidBody, RigidBodySystem
-from lagrotor.models.spring_link import run as spring_run
-from lagrotor.models.spring_link import system as spring_link
+from lagrotor.models.spring_link import paper_bodies, run, system
 from lagrotor.pictures import arrow, bare
 
 TITLE = "Object design of the rigid-body simulator"
@@ -26,8 +25,8 @@ CAPTION = (
     "computeForces, step); names and arguments are read off the classes."
 )
 ALT = (
-    "Four boxes. Left, RigidBody with its seven fields. Middle, RigidBodySystem with its public methods, the paper's in "
-    "bold. Right, above, the force laws and the step limit; below, the functions that set a scene up and run it. Arrows "
+    "Four boxes. Above, left, RigidBody with its seven fields; right, RigidBodySystem with its public methods, the paper's "
+    "in bold. Below, left, the force law and the step limit; right, the functions that set a scene up and run it. Arrows "
     "lead from the bodies to the system, from the force law to it, and from the system to the runs."
 )
 PAPER = ("RigidBodySystem", "add_external", "link", "ground", "compute_forces", "step")
@@ -56,54 +55,53 @@ def data() -> dict[str, np.ndarray]:
     return {
         "RigidBody": np.array([field.name for field in fields(RigidBody)]),
         "RigidBodySystem": np.array([signature(RigidBodySystem.__init__, "RigidBodySystem"), *methods]),
-        "spring_link": public(spring_link, ("link_force", "step_limit")),
-        "spring_run": public(spring_run, ("paper_system", "run_steps", "run_solver")),
+        "Force": public(system, ("link_force", "step_limit")),
+        "Runs": np.concatenate([public(paper_bodies, ("paper_system",)), public(run, ("run_steps", "run_solver"))]),
     }
 
 
 # %%
-PLACES = {  # left, top, width in the picture, and what the box is
-    "RigidBody": (0.0, 7.6, 3.0, "a body as it starts", MODEL),
-    "RigidBodySystem": (4.0, 9.0, 5.3, "bodies, links, ground", CORRECTED),
-    "spring_link": (10.3, 9.0, 4.2, "the law of a link", OKABE_ITO["orange"]),
-    "spring_run": (10.3, 4.9, 4.2, "scenes and runs", OKABE_ITO["reddish purple"]),
+PLACES = {  # left, top, width in inches, and what the box is
+    "RigidBody": (0.0, 4.5, 2.2, "a body as it starts", MODEL),
+    "RigidBodySystem": (2.9, 5.0, 4.1, "bodies, links, ground", CORRECTED),
+    "Force": (0.0, 1.3, 2.7, "the law of a link", OKABE_ITO["orange"]),
+    "Runs": (3.0, 1.6, 4.0, "scenes and runs", OKABE_ITO["reddish purple"]),
 }
-LINE = 0.55
+LINE, LETTER = 0.21, 0.088  # inches
 
 
 def figure() -> Figure:
     """The boxes, and who uses whom."""
-    drawn = Figure(figsize=(7.4, 4.9))
+    drawn = Figure(figsize=(7.4, 5.4))
     axes = drawn.subplots()
-    bare(axes, np.array([[0.0, 0.9], [14.5, 9.0]]), 0.25)
+    bare(axes, np.array([[0.0, 0.0], [7.0, 5.0]]), 0.1)
     side = {}
     for name, lines in data().items():
         left, top, width, says, colour = PLACES[name]
         lines = [(part, line.split("(")[0] in PAPER) for line in lines for part in wrapped(line, width)]
-        height = LINE * (len(lines) + 2.4)
+        height = LINE * (len(lines) + 3.1)
         axes.add_patch(
-            FancyBboxPatch((left, top - height), width, height, boxstyle="round,pad=0,rounding_size=0.15",
+            FancyBboxPatch((left, top - height), width, height, boxstyle="round,pad=0,rounding_size=0.08",
                            facecolor="white", edgecolor=colour, linewidth=1.8)
         )  # fmt: skip
-        axes.text(left + 0.2, top - 0.42, name, fontsize=10, fontweight="bold", color=colour, va="center")
-        axes.text(left + 0.2, top - 0.92, says, fontsize=8.5, fontstyle="italic", va="center")
+        axes.text(left + 0.1, top - 0.2, name, fontsize=12, fontweight="bold", color=colour, va="center")
+        axes.text(left + 0.1, top - 0.42, says, fontsize=10.5, fontstyle="italic", va="center")
         for i, (line, bold) in enumerate(lines):
-            axes.text(left + 0.2, top - LINE * (i + 2.75), line, fontsize=7, family="DejaVu Sans Mono", va="center",
+            axes.text(left + 0.1, top - LINE * (i + 3.3), line, fontsize=10, family="DejaVu Sans Mono", va="center",
                       fontweight="bold" if bold else "normal")  # fmt: skip
-        side[name] = (left, left + width, top - height / 2)
-    for start, end in (("RigidBody", "RigidBodySystem"), ("spring_link", "RigidBodySystem")):
-        (a, b, y), (c, d, _) = side[start], side[end]
-        arrow(axes, (b if b < c else a, y), (c if b < c else d, y), width=1.4)
-    (_, b, _), (a, _, y) = side["RigidBodySystem"], side["spring_run"]
-    arrow(axes, (b, y), (a, y), width=1.4)
+        side[name] = (left, left + width, top, top - height)
+    (_, right, top, bottom), (left, end, _, foot) = side["RigidBody"], side["RigidBodySystem"]
+    arrow(axes, (right, (top + bottom) / 2), (left, (top + bottom) / 2), width=1.4)
+    arrow(axes, (side["Force"][1], side["Force"][2] - 0.2), (left + 0.4, foot), width=1.4)
+    arrow(axes, ((left + end) / 2 + 0.2, foot), ((left + end) / 2 + 0.2, side["Runs"][2]), width=1.4)
     return drawn
 
 
 def wrapped(line: str, width: float) -> list[str]:
     """The line cut at commas where it is longer than its box."""
-    most, parts = int(width * 7.6), [""]
+    most, parts = int((width - 0.2) / LETTER), [""]
     for piece in line.replace(", ", ",§").split("§"):
-        if len(parts[-1]) + len(piece) > most:
+        if len(parts[-1]) + len(piece) >= most:
             parts.append("    ")
         parts[-1] += piece if not parts[-1].strip() else f" {piece}"
     return parts

@@ -61,7 +61,7 @@ CAPTION = (
 def figure() -> Figure:
     """The plan."""
     d = data()
-    drawn = Figure(figsize=(7.4, 5.0))
+    drawn = Figure(figsize=(7.4, 4.4))
     axes = drawn.subplots()
     turn = np.linspace(0, 2 * np.pi, 121)
     for i, ink in enumerate(ROTORS):

@@ -68,7 +68,7 @@ CAPTION = (
 def figure() -> Figure:
     """Top view with bars and senses of turning; bar length; distance."""
     d = data()
-    picture = Figure(figsize=(7.0, 6.3))
+    picture = Figure(figsize=(7.0, 6.05))
     axes = picture.subplot_mosaic([["top", "top"], ["length", "distance"]], height_ratios=(1.5, 1))
     top, length, distance = axes["top"], axes["length"], axes["distance"]
     bars = "#999999"

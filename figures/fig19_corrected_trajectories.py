@@ -59,7 +59,7 @@ CAPTION = (
 def figure() -> Figure:
     """Top view, and the distance from the exact orbit."""
     d = data()
-    picture = Figure(figsize=(7.0, 6.2))
+    picture = Figure(figsize=(7.0, 6.0))
     top, residual = picture.subplots(2, 1, height_ratios=(1.4, 1))
     for i in (0, 1):
         first = i == 0

@@ -81,7 +81,7 @@ def figure() -> Figure:
     rate.set(xlabel="force along y [N]", ylabel="mean turning rate [rad/s]", title="Drift", xlim=(-20.5, 5.5))
     residual.plot(d["tried"], d["closed_tried"] - d["exact"], "o-", color=CORRECTED, mfc="none")
     residual.axhline(0, color="#777777", lw=0.8)
-    residual.set(xlabel="force along y [N]", ylabel="difference [rad/s]", title="Residual: closed form less exact")
+    residual.set(xlabel="force along y [N]", ylabel="difference [rad/s]", title="Closed form less exact")
     residual.set_xlim(-20.5, 5.5)
     picture.legend(loc="outside lower center", ncols=2)
     return picture

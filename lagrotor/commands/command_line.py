@@ -4,6 +4,7 @@ import argparse
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
@@ -48,7 +49,10 @@ def main(argv: Sequence[str] | None = None) -> int:
             parser.print_help()
             return 0
         arguments = parser.parse_args(given)
-        status = int(arguments.run(arguments))
+        with warnings.catch_warnings(record=True) as caught:
+            status = int(arguments.run(arguments))
+        for warning in caught:
+            say(f"warning: {warning.message}", 0)
         sys.stdout.flush()
         return status
     except SystemExit as done:  # --help, --version

@@ -129,10 +129,12 @@ def simulate_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
+    from lagrotor.commands.terminal import reached
     from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
-    run = simulate(scene, times, given.model, given.tol, given.engine)
+    with reached(given.t_end) as at:
+        run = simulate(scene, times, given.model, given.tol, given.engine, at)
     if given.out:
         run.save(given.out)
     summary = {

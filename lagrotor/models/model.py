@@ -49,7 +49,8 @@ class Model:
     side, its first `size` arguments the state. rhs: (*kind, bounded) → its function, generated. start: the state (d,) of a
     scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
     projection: brings states that drifted off the constraints back onto them. outside: whether a state lies where the
-    model must not be integrated; time_to_singular: the time after which a state may be there, at the earliest.
+    model must not be integrated; time_to_singular: the time after which a state may be there, at the earliest. progress:
+    called with the time of each evaluation of the right-hand side.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Model:
     projection: Callable[[Scene], Projection] | None = None
     outside: Callable[[Array], bool] | None = None
     time_to_singular: Callable[[Array], float] | None = None
+    progress: Callable[[float], None] | None = None
 
     def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
         """The scene's program, and the values of its parameters but for the torque."""
@@ -79,7 +81,11 @@ class Model:
         if shock:
             values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
-        return rate if self.outside is None else _guarded(rate, self.outside, self.size)
+        if self.outside is not None:
+            rate = _guarded(rate, self.outside, self.size)
+        return (
+            rate if self.progress is None else _reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
+        )
 
 
 def _guarded(rate: RightHandSide, outside: Callable[[Array], bool], size: int) -> RightHandSide:
@@ -87,6 +93,16 @@ def _guarded(rate: RightHandSide, outside: Callable[[Array], bool], size: int) -
         return [float("nan")] * size if outside(y) else rate(s, y)
 
     return guarded
+
+
+def _reporting(rate: RightHandSide, progress: Callable[[float], None], at: float) -> RightHandSide:
+    def reporting(s: float, y: Array) -> list[float]:
+        progress(s + at)
+        return rate(s, y)
+
+    if bare := getattr(rate, "bare", None):
+        reporting.bare = _reporting(bare, progress, at)  # type: ignore[attr-defined]
+    return reporting
 
 
 def constant_momenta(scene: Scene, n: int) -> Array:

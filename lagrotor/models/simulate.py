@@ -78,7 +78,14 @@ def check_times(t: ArrayLike) -> Array:
     raise InputError("simulate: the times must increase; sort them and drop repeated ones")
 
 
-def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9, engine: str = "core") -> Trajectory:
+def simulate(
+    scene: Scene,
+    t: ArrayLike,
+    model: str = "auto",
+    tol: float = 1e-9,
+    engine: str = "core",
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
     """Run `scene` from t = 0 and read it at the times `t` (n,), in s.
 
     model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
@@ -92,6 +99,9 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
     "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
 
+    progress: called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each
+    of the runs that are compared begins anew.
+
     Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
     DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on,
     or did not conserve what it must.
@@ -101,14 +111,14 @@ def simulate(scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9,
     times, tolerance = check_times(t), check_tolerance(tol)
     check_engine(engine)
     if model == "auto":
-        return _automatic(scene, times, tolerance, engine)
+        return _automatic(scene, times, tolerance, engine, progress)
     if model in DIRECT:
         direct = DIRECT[model](scene, times, tolerance, True)
         return _direct(scene, model, direct.reason, times, direct, tolerance)
     if model not in MODELS:
         known = "auto", *DIRECT, *MODELS
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
-    return _by_name(MODELS[model], scene, times, tolerance, engine)
+    return _by_name(MODELS[model], scene, times, tolerance, engine, progress)
 
 
 def _direct(scene: Scene, model: str, why: str, times: Array, direct: Direct, tol: float) -> Trajectory:
@@ -118,7 +128,9 @@ def _direct(scene: Scene, model: str, why: str, times: Array, direct: Direct, to
     )
 
 
-def _by_name(model: Model, scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
+def _by_name(
+    model: Model, scene: Scene, times: Array, tol: float, engine: str, progress: Callable[[float], None] | None
+) -> Trajectory:
     if engine == "fast" and not _fast_runs(model, scene):
         raise InputError(
             f"simulate: engine='fast' does not run model={model.name!r} with this scene: a Taylor step may pass where its "
@@ -127,13 +139,15 @@ def _by_name(model: Model, scene: Scene, times: Array, tol: float, engine: str) 
     units = _in_units(scene, times)
     promised = gathered_error(tol, float(times[-1]) * units.rate * PACE)
     try:
-        found = run_at(model, units.scene, times * units.rate, tol, engine, promised)
+        found = run_at(_reporting(model, units, progress), units.scene, times * units.rate, tol, engine, promised)
     except StopError as stopped:
         raise _in_seconds(stopped, units) from None
     return _trajectory(scene, model.name, "by name", times, found, units, promised, tol)
 
 
-def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajectory:
+def _automatic(
+    scene: Scene, times: Array, tol: float, engine: str, progress: Callable[[float], None] | None
+) -> Trajectory:
     choice = choose(scene, float(times[-1]), tol, engine)
     if choice.model in DIRECT:
         direct = DIRECT[choice.model](scene, times, tol, False)
@@ -142,13 +156,18 @@ def _automatic(scene: Scene, times: Array, tol: float, engine: str) -> Trajector
     for model in LADDER[[model.name for model in LADDER].index(choice.model) :]:
         last, runs_by = model is LADDER[-1], engine if _fast_runs(model, scene) else "core"
         try:
-            found = run_within(model, units.scene, times * units.rate, tol, runs_by, not last)
+            reporting = _reporting(model, units, progress)
+            found = run_within(reporting, units.scene, times * units.rate, tol, runs_by, not last)
             return _trajectory(scene, model.name, why, times, found, units, tol, tol)
         except IntegrationError as refusal:
             if last:
                 raise _in_seconds(refusal, units) from None
             why = f"regular everywhere; {_in_seconds(refusal, units)}"
     raise AssertionError("the last model returns or raises")
+
+
+def _reporting(model: Model, units: NaturalUnits, progress: Callable[[float], None] | None) -> Model:
+    return model if progress is None else replace(model, progress=lambda t: progress(t / units.rate))
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:

@@ -1,12 +1,18 @@
 """The shell's scenes: the help alone, the paired start, a scene's file, a sweep, JSON everywhere."""
 
 import json
+from argparse import Namespace
+from warnings import warn
 
 import numpy as np
 import pytest
 
 from lagrotor import Scene, paired_scene, read_scene, simulate
+from lagrotor.commands import command_line
 from lagrotor.commands.command_line import main
+from lagrotor.commands.options import Parser
+from lagrotor.commands.terminal import reached
+from lagrotor.errors import LagrotorWarning
 
 PAIR = ["--spins", "10", "-10"]
 
@@ -59,3 +65,22 @@ def test_what_makes_no_sense_is_refused_in_a_line(capsys, tmp_path, words: list[
     assert main([str(file) if word == "FILE" else word for word in words]) == 2
     said = capsys.readouterr().err
     assert reason in said and said.count("\n") == 1
+
+
+def test_a_run_that_takes_long_says_where_it_is(capsys, monkeypatch) -> None:
+    seconds = iter(range(100))
+    monkeypatch.setattr("time.perf_counter", lambda: next(seconds))
+    with reached(10.0) as at:
+        for t in (*[1.0] * 256, *[2.0] * 256, *[0.5] * 256):
+            at(t)
+    assert capsys.readouterr().err == "[2 s] integration 1: t = 2 of 10 s\n"
+
+
+def test_a_warning_is_a_line(capsys, monkeypatch) -> None:
+    class Command(Parser):
+        def parse_args(self, *_: object) -> Namespace:
+            return Namespace(run=lambda _: warn("tol is not kept", LagrotorWarning, stacklevel=2) or 0)
+
+    monkeypatch.setattr(command_line, "_parser", Command)
+    assert main(["simulate"]) == 0
+    assert capsys.readouterr().err == "lagrotor: warning: tol is not kept\n"

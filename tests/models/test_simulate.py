@@ -152,3 +152,12 @@ def test_no_error_is_above_what_two_unit_vectors_can_miss_each_other_by() -> Non
     wide = paired_scene(Scene((10, -10)), 0.204)
     assert linear_bound(linear_error(wide, 10.0)) == 2.0 < 5 * linear_error(wide, 10.0)
     assert "normal modes have an error of 2.0" in simulate(wide, [0, 10.0]).why
+
+
+@pytest.mark.parametrize("model", ["auto", "spheres"])
+def test_progress_is_the_time_that_is_reached_and_changes_nothing(model: str) -> None:
+    scene = Scene((10, -10), shock=Shock((40, -11, 0), 0.5, 0.05))
+    reached: list[float] = []
+    run = simulate(scene, [0, 1.0], model, 1e-6, progress=reached.append)
+    assert len(reached) >= run.evaluations / 2 and 0 <= min(reached) < 0.01 and max(reached) > 0.99
+    assert (run.axes == simulate(scene, [0, 1.0], model, 1e-6).axes).all()
