@@ -219,22 +219,23 @@ prove(
 
 # %%
 through_second = {
-    "x_1": "-(ell/2) + R*(r_0*cos(Phi) + r_0**2*sigma/k*sin(Phi)**2",
-    "x_2": "ell/2 + R*(r_0*cos(Phi) - r_0**2*sigma/k*sin(Phi)**2",
-    r"y_1/\sqrt\sigma": "R*(r_0*sin(Phi) - r_0**2/(2*k)*sin(Phi)*cos(Phi)",
-    r"y_2/\sqrt\sigma": "R*(-r_0*sin(Phi) - r_0**2/(2*k)*sin(Phi)*cos(Phi)",
+    "x_1": "-(ell/2) + A_x*(cos(Phi) + r_0*sigma/k*sin(Phi)**2",
+    "x_2": "ell/2 + A_x*(cos(Phi) - r_0*sigma/k*sin(Phi)**2",
+    "y_1": "A_y*(sin(Phi) - r_0/(2*k)*sin(Phi)*cos(Phi)",
+    "y_2": "A_y*(-sin(Phi) - r_0/(2*k)*sin(Phi)*cos(Phi)",
 }
-of_x = " - r_0**3*(3*sigma + k**2*(sigma**2 + sigma - 2))/(48*k**2)*(cos(Phi) - cos(3*Phi))"
+of_x = " - r_0**2*(3*sigma + k**2*(sigma**2 + sigma - 2))/(48*k**2)*(cos(Phi) - cos(3*Phi))"
 of_y = "((8*k**2 + 5*k**2*sigma - 13*k**2*sigma**2 - 39*sigma)*sin(Phi) + 3*sigma*(k**2*(sigma - 1) + 3)*sin(3*Phi))"
 third = {"x_1": of_x, "x_2": of_x}
-third |= {rf"y_{i}/\sqrt\sigma": f" {sign} r_0**3/(48*k**2)*{of_y}" for i, sign in ((1, "+"), (2, "-"))}
+third |= {f"y_{i}": f" {sign} r_0**2/(48*k**2)*{of_y}" for i, sign in ((1, "+"), (2, "-"))}
+short = {"k": ell / R, "A_x": R * r0, "A_y": R * width * r0}
 in_words = "; ".join(f"{name}: {x:.2f} in x, {y:.2f} in y" for name, (x, y) in slopes.items())
 verdict(
     "5.22",
-    {"x_1": tips[0], "x_2": tips[1], r"y_1/\sqrt\sigma": R * y_1 / width, r"y_2/\sqrt\sigma": R * y_2 / width},
+    {"x_1": tips[0], "x_2": tips[1], "y_1": R * y_1, "y_2": R * y_2},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
-    correction={name: form(text + ")", rest="r_0^3", k=ell / R) for name, text in through_second.items()},
-    written={name: form(text + third[name] + ")", k=ell / R) for name, text in through_second.items()},
+    correction={name: form(text + ")", rest="r_0^3", **short) for name, text in through_second.items()},
+    written={name: form(text + third[name] + ")", **short) for name, text in through_second.items()},
     wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
     uses=["5.20", "5.21"],
     evidence=[
