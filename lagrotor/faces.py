@@ -29,4 +29,4 @@ def face(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], l
 def _handed(package: str, names: dict[str, str], name: str) -> Any:
     if name in names:
         return getattr(import_module(names[name]), name)
-    raise AttributeError(f"module {package!r} has no attribute {name!r}")
+    raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])

@@ -6,7 +6,6 @@ Without --paper they are about the paper that lagrotor was written for.
 import argparse
 import json
 from collections import Counter
-from collections.abc import Collection
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -117,12 +116,13 @@ def reproduce_command(given: argparse.Namespace) -> int:
 def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import verdict_text
     from lagrotor.paper.audit import NOT_YET
+    from lagrotor.paper.catalogue import known_id
     from lagrotor.paper.readable import readable
     from lagrotor.report.content import counted, word
     from lagrotor.report.facts import note
 
     paper = _paper(given)
-    identifiers = [_known(identifier, paper.equations) for identifier in given.ids]
+    identifiers = [known_id(identifier, paper.equations) for identifier in given.ids]
     with progress(len(identifiers) or len(paper.stating_scripts)) as step:
         found = None if identifiers else paper.audit(progress=step)
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
@@ -144,28 +144,16 @@ def audit_command(given: argparse.Namespace) -> int:
     return _compared(changes, bool(paper.recorded))
 
 
-def _known(identifier: str, ids: Collection[str]) -> str:
-    """An id that the paper has. Raises InputError that names near ones: 5.1 may be 5.01 or 5.10."""
-    if identifier in ids:
-        return identifier
-    if not ids:
-        raise InputError(f"{identifier!r} is not in the catalogue: it is empty")
-    section, _, place = identifier.rpartition(".")
-    near = [i for i in (f"{section}.0{place}", f"{section}.{place}0", f"C{identifier.lstrip('Cc'):0>2}") if i in ids]
-    first, last = next(iter(ids)), list(ids)[-1]
-    hint = f"{' or '.join(near)}?" if near else f"ids run from {first} to {last}"
-    raise InputError(f"{identifier!r} is not in the catalogue: {hint}")
-
-
 def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import claim_tests
+    from lagrotor.paper.catalogue import known_id
     from lagrotor.paper.readable import readable
     from lagrotor.report.content import word
 
     paper = _paper(given)
     if not paper.claims:
         return say(f"{paper.title} has no claims.toml: there is nothing to test", 0)
-    wanted = frozenset(_known(identifier, paper.claims) for identifier in given.ids) or frozenset(paper.claims)
+    wanted = frozenset(known_id(identifier, paper.claims) for identifier in given.ids) or frozenset(paper.claims)
     with progress(len(wanted)) as step:
         results = paper.evaluate(step, wanted)
     if given.json:

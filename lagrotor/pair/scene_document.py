@@ -60,6 +60,8 @@ def scene_toml(scene: Scene) -> str:
 
 def write_scene(scene: Scene, path: str | Path) -> Path:
     """Write the scene as TOML, whole or not at all. Raises InputError where that cannot be."""
+    if not isinstance(scene, Scene):
+        raise InputError(f"write_scene: scene = {scene!r} must be a Scene")
     return write_text(Path(path), scene_toml(scene))
 
 

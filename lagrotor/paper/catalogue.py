@@ -1,7 +1,7 @@
 """The scope of an audit as data: every equation, claim and figure of a paper, in its order, and the letters it is written in."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
@@ -85,6 +85,19 @@ class Figure:
 def is_claim(identifier: str) -> bool:
     """Whether an id is that of a claim, C and a number, not that of an equation."""
     return _CLAIM.fullmatch(identifier) is not None
+
+
+def known_id(identifier: str, ids: Collection[str]) -> str:
+    """An id that the paper has. Raises InputError that names near ones: 5.1 may be 5.01 or 5.10."""
+    if identifier in ids:
+        return identifier
+    if not ids:
+        raise InputError(f"{identifier!r} is not in the catalogue: it is empty")
+    section, _, place = str(identifier).rpartition(".")
+    near_ones = [i for i in (f"{section}.0{place}", f"{section}.{place}0", f"C{place.lstrip('Cc'):0>2}") if i in ids]
+    first, last = next(iter(ids)), list(ids)[-1]
+    hint = f"{' or '.join(near_ones)}?" if near_ones else f"ids run from {first} to {last}"
+    raise InputError(f"{identifier!r} is not in the catalogue: {hint}")
 
 
 @dataclass(frozen=True)
@@ -179,11 +192,7 @@ class Catalogue:
 
     def equation(self, identifier: str) -> Equation:
         """One equation; refuses an id that the paper does not have."""
-        if identifier in self.equations:
-            return self.equations[identifier]
-        ids = list(self.equations)
-        known = f"ids run from {ids[0]} to {ids[-1]}" if ids else "it has no equations yet"
-        raise InputError(f"equation {identifier!r} is not in the catalogue: {known}")
+        return self.equations[known_id(identifier, self.equations)]
 
     def importable(self) -> Any:
         """A context in which modules of the paper's folder can be imported by their names."""

@@ -103,6 +103,8 @@ def _dotted(match: re.Match[str]) -> str:
 
 
 def _letter(match: re.Match[str]) -> str:
+    if match[0] == "Delta_t":  # a difference of t, not an index
+        return "Δt"
     name, index, dots = match[1], match[2], match[3] or ""
     if name not in _LETTERS and (len(name) > 1 or (not index and not dots)):
         return match[0]
