@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import DomainError, IntegrationError
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
+from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
@@ -23,6 +24,10 @@ Array = NDArray[np.float64]
 # by tests/models/test_orbit_errors.py, against collocation.
 INTEGRATED = 3e-14
 _LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
+_COARSE, _NEAR = (
+    1e-9,
+    1e-5,
+)  # tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost
 _SAME_SLOPE = 1e-6  # distance within which the Jacobian is taken for the same
 _NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
 FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
@@ -57,10 +62,10 @@ class QuarterPeriod:
         """(U, chi, alpha and their rates) at Phi = 0."""
         return np.array([z[0], 0.0, 0.0, 0.0, z[1] * self.natural, z[2] * self.natural])
 
-    def __call__(self, z: Array) -> tuple[Array, Array]:
-        """The conditions (3,) and their Jacobian (3, 4)."""
+    def __call__(self, z: Array, tol: float = TIGHTEST) -> tuple[Array, Array]:
+        """The conditions (3,) and their Jacobian (3, 4), from a flow integrated at `tol`."""
         scale = self.natural
-        now = self._flow(self.state(z), z[3] / abs(scale))
+        now = self._flow(self.state(z), z[3] / abs(scale), tol)
         rows, weights = [0, 2, 4], np.array([1.0, 1.0, 1 / scale])
         slope = np.column_stack(
             [now.slope[rows, 0], now.slope[rows, 4] * scale, now.slope[rows, 5] * scale, now.rate[rows] / abs(scale)]
@@ -79,12 +84,14 @@ class QuarterPeriod:
 
     def correct(self, z: Array, row: Array, value: float) -> Array:
         """Newton's method to the curve, on the plane row . z = value. Raises DomainError when it does not converge."""
+        tol = _COARSE
         for _ in range(9):
-            miss, slope = self(z)
+            miss, slope = self(z, tol)
             error = np.append(miss, row @ z - value)
             z = z - np.linalg.solve(np.vstack([slope, row]), error)
-            if np.abs(error).max() < _LAST_MISS:
+            if np.abs(error).max() < _LAST_MISS and tol == TIGHTEST:
                 return z
+            tol = TIGHTEST if np.abs(error).max() < _NEAR else tol
             if not np.isfinite(z).all() or np.abs(z).max() > 60:
                 break
         raise DomainError("the periodic orbit: Newton's method does not converge")

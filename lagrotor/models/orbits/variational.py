@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from lagrotor.errors import SingularError
 from lagrotor.models.minimal import MODEL, RATIOS, program
 from lagrotor.numerics.generated import generated
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.numerics.segment import LOST
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -73,8 +74,8 @@ class Flow:
     rate: Array
 
 
-def flow(scene: Scene) -> Callable[[Array, float], Flow]:
-    """(state (U, chi, alpha, rates), time in s) → Flow, for the scene's rotor, bar and spins, without shock.
+def flow(scene: Scene) -> Callable[..., Flow]:
+    """(state (U, chi, alpha, rates), time in s, tol = the tightest) → Flow, for the scene's rotor, bar and spins, without shock.
 
     Raises SingularError without a bar; IntegrationError when the motion reaches a singular position.
     """
@@ -90,17 +91,17 @@ def flow(scene: Scene) -> Callable[[Array, float], Flow]:
     function = _tangents(inertia_b != 0, ratio)
     plain = MODEL.rate(scene, False)
 
-    def rate(s: float, y: Array) -> list[float]:
+    def rate(s: float, y: Array) -> Any:
         try:
-            out = function(*y[:6].tolist(), *parameters)
-        except (ValueError, ZeroDivisionError, OverflowError):
-            return [float("nan")] * 42
-        jacobian = np.array(out[6:]).reshape(6, 6)
-        return [*out[:6], *(jacobian @ y[6:].reshape(6, 6)).ravel().tolist()]
+            velocity = np.array(function(*y[:6].tolist(), *parameters))
+        except LOST:
+            return np.full(42, np.nan)
+        velocity[6:] = (velocity[6:].reshape(6, 6) @ y[6:].reshape(6, 6)).ravel()
+        return velocity
 
-    def through(state: Array, time: float) -> Flow:
+    def through(state: Array, time: float, tol: float = TIGHTEST) -> Flow:
         start = np.concatenate([state, np.eye(6).ravel()])
-        end = integrate(Problem(rate, start, 12_000), np.array([time]), TIGHTEST).states[0]
+        end = integrate(Problem(rate, start, 12_000), np.array([time]), tol).states[0]
         return Flow(end[:6], end[6:].reshape(6, 6), np.array(plain(time, end[:6])))
 
     return through
