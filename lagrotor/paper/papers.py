@@ -64,15 +64,18 @@ class Paper(Catalogue):
         record of the last whole audit. `progress` is called with the name of each script before it runs. Raises InputError
         for an equation that the paper does not have, or that no derivation states, and ScriptError for a script that fails.
         """
-        self._check_scripts()
+        self.check_scripts()
         if identifier is not None:
             return self._one(identifier, progress)
-        verdicts = [v for stem in self.stating_scripts for v in self.judged(stem, progress)]
+        return self.audit_of(v for stem in self.stating_scripts for v in self.judged(stem, progress))
+
+    def audit_of(self, verdicts: Iterable[Verdict]) -> Audit:
+        """The audit that consists of these verdicts."""
         found = tuple(self.with_reach(verdicts))
         judged = {verdict.id for verdict in found}
         return Audit(found, tuple(i for i in self.equations if i not in judged))
 
-    def _check_scripts(self) -> None:
+    def check_scripts(self) -> None:
         """Before anything runs: the letters can be read, no equation has two verdicts, and none that there is not."""
         _ = self.glossary
         for identifier, (stem, line) in self.scripts.stating.items():

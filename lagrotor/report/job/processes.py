@@ -4,14 +4,15 @@ import multiprocessing
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
-# Loaded once, before the processes part.
-_HEAVY = ["lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate"]
+# Loaded once, before the processes part: what every step takes, and what figures and runs take besides.
+STEPS = ("lagrotor.report.job.steps",)
+ALL = (*STEPS, "matplotlib.figure", "scipy.integrate")
 
 
 def cores() -> int:
@@ -27,10 +28,12 @@ def results(
     jobs: int,
     begins: Callable[[Task], None],
     given: Callable[[Task], Any] = lambda task: (),
+    loaded: Sequence[str] = ALL,
 ) -> Iterator[tuple[Task, Any]]:
     """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
 
-    given: what a task takes from the results of others; None while they are not there, and the task waits.
+    given: what a task takes from the results of others; None while they are not there, and the task waits. loaded: modules
+    that each process begins with.
     """
     left, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
@@ -39,7 +42,7 @@ def results(
             begins(task)
             yield task, run(task, *more)
         return
-    with _pool(jobs) as pool:
+    with _pool(jobs, loaded) as pool:
         while left or running:
             while len(running) < jobs and any(given(task) is not None for task in left):
                 task, more = _next(left, given)
@@ -59,12 +62,12 @@ def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
 
 
 @contextmanager
-def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
+def _pool(jobs: int, loaded: Sequence[str]) -> Iterator[ProcessPoolExecutor]:
     """Processes that leave interrupts to their parent, and that end with it."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):
-        context.set_forkserver_preload(_HEAVY)
+        context.set_forkserver_preload(list(loaded))
     pool = ProcessPoolExecutor(
         jobs, mp_context=context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)
     )

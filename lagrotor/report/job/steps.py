@@ -59,18 +59,18 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
-    values = _values(script.names, taken_from(stem, paper))
-    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, values)
+    taken = values(script.names, taken_from(stem, paper))
+    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, taken)
 
 
-def _values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
-    """The values of the names that are used, as far as they can be handed to another process."""
-    values = {}
+def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
+    """The values of the names that are wanted, as far as they can be handed to another process."""
+    found = {}
     for name in names.keys() & set(wanted):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
             pickle.dumps(names[name])
-            values[name] = names[name]
-    return values
+            found[name] = names[name]
+    return found
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
