@@ -265,8 +265,8 @@ cases = {
     ),
 }
 assert all(abs(growth) < 1e-3 and off < 1e-3 for _, growth, off in cases.values())
-rubbed = Structure(**corner, spins=[40, 0, 40], friction=0.5, **weight)
-falling = rubbed.stands()
+with_friction = Structure(**corner, spins=[40, 0, 40], friction=0.5, **weight)
+falling = with_friction.stands()
 assert falling.critical_spin == inf
 Remark(
     "Thresholds on the exact motion",
@@ -281,11 +281,11 @@ Remark(
 )
 
 # %%
-kappa_over_a = (coefficients(rubbed).gravity * coefficients(rubbed).S / coefficients(rubbed).A)[0]
+kappa_over_a = (coefficients(with_friction).gravity * coefficients(with_friction).S / coefficients(with_friction).A)[0]
 Remark(
     "Friction undoes it slowly",
     "A corner whose spins of 40 rad/s hold it falls with a friction of 0.5 N m s/rad by e every "
     f"{1 / falling.growth:.2f} s, "
-    f"measured on the exact motion every {1 / measured_growth(rubbed, folds=0.2):.2f} s; without spin every "
+    f"measured on the exact motion every {1 / measured_growth(with_friction, folds=0.2):.2f} s; without spin every "
     f"{kappa_over_a**-0.5:.2f} s.",
 )

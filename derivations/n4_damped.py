@@ -1,17 +1,14 @@
 # %% [markdown]
-# # Damped: what friction does to the pair
+# # Friction and spin-down of the pair
 #
-# **Objective.** How the paired precession decays under friction of the axes, what friction does besides, and how the
-# radius of the
-# precession changes as the rotors spin down.
+# **Objective.** How the paired precession decays under friction of the axes, by what angle friction topples it, and how its
+# radius changes as the rotors spin down.
 #
-# **Assumptions.** No weight; friction $-c\,r_i'$ on each axis, and on the spins $-c_s\omega_i$. The first section is
-# linear, the second
-# of second order in the tilt; both are held to the exact motion.
+# **Assumptions.** No weight; friction $-c\,r_i'$ on each axis, and $-c_s\omega_i$ on the spins. The first section is linear,
+# the second of second order in the tilt; both are compared with the exact motion.
 #
-# **Notation.** $a$, $b$ the pair's inertias, $D=a-b$, $A=a+b$; $x$ the tilt along the bar, $y_1,y_2$ across; $\alpha$
-# the angle about the
-# joint line, $y=-\alpha$ for small ones; $P$ the momentum about it; $k=\ell/R$.
+# **Notation.** $a$, $b$ the pair's inertias, $A=a+b$, $D=a-b$; $x$ the tilt along the bar, $y_1,y_2$ across; $\alpha$ the
+# angle about the joint line, $y=-\alpha$ for small ones; $P$ the momentum about it; $k=\ell/R$.
 
 # %%
 import warnings
@@ -37,7 +34,7 @@ pencil = sp.Matrix([[2 * own, G_1 * s, G_2 * s], [-G_1 * s, own, 0], [-G_2 * s, 
 prove(
     sp.expand(pencil.det()),
     s**3 * (a * s + c) * (2 * (a * s + c) ** 2 + G_1**2 + G_2**2),
-    "the characteristic polynomial of the rubbed pair",
+    "the characteristic polynomial of the pair with friction",
     names="P(s)",
 )
 
@@ -84,26 +81,30 @@ def decayed(link: Link, friction: float) -> tuple[float, float]:
     return own_a * friction / (own_a**2 - own_b**2), float(-np.log(energy[1] / energy[0]) / 2 / until)
 
 
-rubbed = {(link, rub): decayed(link, rub) for link in (Link(1, 1, 0.5), Link(1, 1, 0)) for rub in (0.4,)}
-assert all(abs(found / closed - 1) < 1e-4 for closed, found in rubbed.values())
-large = paired_scene(Scene(spins=(10.0, -10.0), link=Link(1, 0, 0)), 0.3)
-lasting = np.linspace(0, 5, 26)
-worn = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], friction=0.2, spin_friction=0.1)
-lost = worn.simulate(lasting, large.axes, large.rates, tol=1e-9).energy
-off = float(np.abs(lost / lost[0] / np.exp(-2 * 0.2 * lasting / worn.rotor[0].J) - 1).max())
-assert off < 1e-8
+bars = (Link(1, 1, 0.5), Link(1, 1, 0))
+decays = {link.inertia: decayed(link, 0.4) for link in bars}
+assert all(abs(found / closed - 1) < 1e-4 for closed, found in decays.values())
 Remark(
     "The decay on the exact motion",
-    "ac/(a² − b²) against exact runs of amplitude 0.01, 1/s: "
-    + "; ".join(
-        f"bar of 1 kg and {link.inertia:g} kg m², c = {rub:g}: {closed:.6f}, {found:.6f}"
-        for (link, rub), (closed, found) in rubbed.items()
-    )
-    + f". With a massless bar, amplitude 0.3 and spins that run down too, the energy is E_0 e^(−2ct/a) within {off:.0e}.",
+    "ac/(a² − b²) against exact runs of amplitude 0.01, c = 0.4 N m s/rad, 1/s: "
+    + "; ".join(f"bar of 1 kg and {K:g} kg m²: {closed:.6f}, {found:.6f}" for K, (closed, found) in decays.items())
+    + ".",
 )
 
 # %% [markdown]
-# ## It does not only decay
+# With a massless bar the energy decays as $e^{-2ct/a}$ at any amplitude, also while the spins run down:
+
+# %%
+large = paired_scene(Scene(spins=(10.0, -10.0), link=Link(1, 0, 0)), 0.3)
+lasting = np.linspace(0, 5, 26)
+slowing = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], friction=0.2, spin_friction=0.1)
+lost = slowing.simulate(lasting, large.axes, large.rates, tol=1e-9).energy
+off = float(np.abs(lost / lost[0] / np.exp(-2 * 0.2 * lasting / slowing.rotor[0].J) - 1).max())
+assert off < 1e-8
+Remark("The decay at a large amplitude", f"From amplitude 0.3 the energy is E_0 e^(−2ct/a) within {off:.0e}.")
+
+# %% [markdown]
+# ## Friction topples the pair
 #
 # Friction takes momentum about the joint line: $P'=-c\sum(r_i\times r_i')_x$, and
 
@@ -207,8 +208,8 @@ prove(
 
 # %% [markdown]
 # A precession's radius is its velocity over its rate $G(t)/a$: it goes as $e^{(c_s/I_3-c/a)t}$. Spin-down alone widens
-# it as $1/G$; and where the joint rubs in every direction alike, $c_s=c$, it **widens for $I_3<a$** and shrinks for
-# $I_3>a$.
+# it as $1/G$; and where the friction of the joint is the same in every direction, $c_s=c$, it **widens for $I_3<a$** and
+# shrinks for $I_3>a$.
 
 # %%
 friction, spin, r0, until = 0.05, 40.0, 0.02, 8.0
@@ -225,13 +226,12 @@ assert abs(found_radius / expected - 1) < 0.01
 assert found_radius > 1
 Remark(
     "The precession widens as the rotors spin down",
-    f"A joint that rubs alike in every direction, {friction:g} N m s/rad, I_3 = 1 and a = 1.25 kg m²: after "
-    f"{until:g} s the exact paired "
+    f"Friction {friction:g} N m s/rad in every direction, I_3 = 1 and a = 1.25 kg m²: after {until:g} s the exact paired "
     f"precession has {found_radius:.4f} of its radius, exp((1/I_3 − 1/a) c t) is {expected:.4f}.",
 )
 
 # %% [markdown]
-# ## Which invariant
+# ## What spin-down conserves
 #
 # The torque that slows a spin is along its axis: it does no work on the tilt, as the spin itself does none. With $c=0$
 # the energy of the tilt is constant while $G$ falls, at any amplitude and any speed of the spin-down; the action
@@ -257,7 +257,7 @@ prove(
 
 
 # %%
-def worn_out(link: Link, narrow: float, spin: float = 40.0, loss: float = 0.2) -> tuple[float, float, float]:
+def slowed(link: Link, narrow: float, spin: float = 40.0, loss: float = 0.2) -> tuple[float, float, float]:
     """Angle about the joint line (rad) as the spins have halved, its closed form, and the change of the energy."""
     start = paired_scene(Scene(spins=(spin, -spin), link=link), narrow)
     own_a, own_b = start.inertias
@@ -271,7 +271,7 @@ def worn_out(link: Link, narrow: float, spin: float = 40.0, loss: float = 0.2) -
     return float(angle), float(closed), float(np.ptp(run.energy) / run.energy[0])
 
 
-halved = {(link.mass, narrow): worn_out(link, narrow) for link in (Link(), Link(1, 1, 0.5)) for narrow in (0.06,)}
+halved = {(link.mass, narrow): slowed(link, narrow) for link in (Link(), Link(1, 1, 0.5)) for narrow in (0.06,)}
 assert all(abs(found / closed - 1) < 0.02 and change < 1e-7 for found, closed, change in halved.values())
 Remark(
     "Spin-down topples too",

@@ -17,7 +17,7 @@ from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair import axis, rotor_lagrangian
 from lagrotor.pair.notation import I3, ROTOR, J, R, m, omega_1, omega_2
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
+from lagrotor.paper.form import Form, form
 from lagrotor.paper.letters import rotation, vector
 from lagrotor.paper.rotor_pair.shared_premises import about_parameters
 
@@ -182,6 +182,12 @@ def slow_force(omega: sp.Symbol) -> Premise:
     )
 
 
+def torque_written(omega: str) -> Form:
+    """The torque in vectors."""
+    moved = {"hat_r_dot": rate(r_hat), "hat_r_ddot": rate(rate(r_hat))}
+    return form(f"I_3*{omega}*hat_r_dot + J*cross(axis(theta, phi), hat_r_ddot)", **moved)
+
+
 slowness = (
     "A force switched on at once also starts a nutation, whose acceleration J r × r'' is as large as the torque; the "
     "formula is then right for the mean motion only.",
@@ -193,11 +199,7 @@ verdict(
     premises=[slow_axis(omega_1), slow_force(omega_1)],
     uses=["2.02"],
     evidence=slowness,
-    written=form(
-        "I_3*omega_1*hat_r_dot + J*cross(axis(theta, phi), hat_r_ddot)",
-        hat_r_dot=rate(r_hat),
-        hat_r_ddot=rate(rate(r_hat)),
-    ),
+    written=torque_written("omega_1"),
 )
 
 # %%
@@ -207,9 +209,5 @@ verdict(
     premises=[slow_axis(omega_2), slow_force(omega_2)],
     uses=["2.03"],
     evidence=slowness,
-    written=form(
-        "I_3*omega_2*hat_r_dot + J*cross(axis(theta, phi), hat_r_ddot)",
-        hat_r_dot=rate(r_hat),
-        hat_r_ddot=rate(rate(r_hat)),
-    ),
+    written=torque_written("omega_2"),
 )

@@ -14,20 +14,20 @@ from lagrotor import Link, Scene, Structure, paired_scene
 from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 
 SPIN, TILT = 10.0, 0.1
-RUBBED = (0.2, 0.4, 0.8)  # N m s/rad
+FRICTIONS = (0.2, 0.4, 0.8)  # N m s/rad
 FAST, SMALL, WEAR = 40.0, 0.02, 0.05
 
 TITLE = "What friction does to the paired precession"
 ALT = (
     "Left: the angle about the joint line over time for three frictions. Each run swings, then comes to rest at an angle, "
     "which is the larger the smaller the friction, at a dashed level that is G r0 squared over 2 c. Right: the radius of "
-    "the precession in a joint that rubs in every direction alike, and with the spins kept up: one grows, the "
+    "the precession in a joint whose friction is the same in every direction, and with the spins kept up: one grows, the "
     "other shrinks."
 )
 
 
 # %%
-def rubbed(friction: float) -> tuple[np.ndarray, np.ndarray]:
+def decaying(friction: float) -> tuple[np.ndarray, np.ndarray]:
     """Times over a/c, and the mean angle about the joint line (rad), of a paired precession that friction stops."""
     start = paired_scene(Scene(spins=(SPIN, -SPIN), link=Link(1, 0, 0)), TILT)
     s = Structure([(0, 0), (1, 0)], [(0, 1)], [SPIN, -SPIN], friction=friction)
@@ -36,10 +36,10 @@ def rubbed(friction: float) -> tuple[np.ndarray, np.ndarray]:
     return t * friction / 1.25, np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2]).mean(0))
 
 
-def radius(worn: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) and the tilt along the bar over its amplitude at first, of a pair rubbed at WEAR, its spins at `worn`."""
+def radius(on_spins: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) and the tilt along the bar over its first amplitude, friction WEAR on the axes and `on_spins` on the spins."""
     start = paired_scene(Scene(spins=(FAST, -FAST), link=Link(1, 0, 0)), SMALL)
-    s = Structure([(0, 0), (1, 0)], [(0, 1)], [FAST, -FAST], friction=WEAR, spin_friction=worn)
+    s = Structure([(0, 0), (1, 0)], [(0, 1)], [FAST, -FAST], friction=WEAR, spin_friction=on_spins)
     t = np.linspace(0, 12, 2401)
     run = s.simulate(t, start.axes, start.rates, tol=1e-6)
     return t, run.axes[..., 0].mean(0) / SMALL
@@ -47,14 +47,14 @@ def radius(worn: float) -> tuple[np.ndarray, np.ndarray]:
 
 @cache
 def data() -> dict[str, np.ndarray]:
-    """Times and angles of the runs, (3, n); times and tilts of a joint that rubs alike, and of spins that are kept,
+    """Times and angles of the runs, (3, n); times and tilts with friction on the spins too, and of spins that are kept,
     (2, m)."""
-    runs, worn = [rubbed(c) for c in RUBBED], [radius(c) for c in (WEAR, 0.0)]
+    runs, slowed = [decaying(c) for c in FRICTIONS], [radius(c) for c in (WEAR, 0.0)]
     return {
         "times": np.array([t for t, _ in runs]),
         "angles": np.array([angle for _, angle in runs]),
-        "t": worn[0][0],
-        "tilts": np.array([x for _, x in worn]),
+        "t": slowed[0][0],
+        "tilts": np.array([x for _, x in slowed]),
     }
 
 
@@ -64,10 +64,12 @@ def measure() -> dict[str, float]:
     d = data()
     found = {
         f"angle at rest over the law, c = {c:g}": angle[-1] / (SPIN * TILT**2 / (2 * c))
-        for c, angle in zip(RUBBED, d["angles"], strict=True)
+        for c, angle in zip(FRICTIONS, d["angles"], strict=True)
     }
     late = d["t"] > 11.5
-    for name, x, rate in zip(("rubbed alike", "spins kept"), d["tilts"], (WEAR * (1 - 0.8), -WEAR * 0.8), strict=True):
+    for name, x, rate in zip(
+        ("friction on the spins too", "spins kept up"), d["tilts"], (WEAR * (1 - 0.8), -WEAR * 0.8), strict=True
+    ):
         found[f"radius over the law, {name}"] = np.ptp(x[late]) / 2 / np.exp(rate * 11.75)
     return found
 
@@ -76,8 +78,8 @@ _found = list(measure().values())
 CAPTION = (
     f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}: the pair comes to rest turned about the joint line by "
     f"{', '.join(f'{x:.3f}' for x in _found[:3])} of G r0²/2c (dashed) at c = "
-    f"{', '.join(f'{c:g}' for c in RUBBED)} N m s/rad. Right: "
-    f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the joint rubs the spins "
+    f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: "
+    f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the friction acts on the spins "
     "too, as exp(−c t/a) "
     f"where they are kept up, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after 11.75 s."
 )
@@ -89,13 +91,15 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(8.6, 4.6))
     angle, tilt = picture.subplots(1, 2)
-    for t, values, c, ink in zip(d["times"], d["angles"], RUBBED, (MODEL, PAPER, OKABE_ITO["orange"]), strict=True):
+    for t, values, c, ink in zip(d["times"], d["angles"], FRICTIONS, (MODEL, PAPER, OKABE_ITO["orange"]), strict=True):
         angle.plot(t, values, color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
         law = SPIN * TILT**2 / (2 * c)
         angle.plot(t[[0, -1]], [law, law], "--", color=ink, lw=1.0)
-    angle.set(xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="Rest is another place")
+    angle.set(
+        xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest turned"
+    )
     for x, ink, name in zip(
-        d["tilts"], (EXACT, OKABE_ITO["sky blue"]), ("joint rubs alike", "spins kept up"), strict=True
+        d["tilts"], (EXACT, OKABE_ITO["sky blue"]), ("friction on the spins too", "spins kept up"), strict=True
     ):
         tilt.plot(d["t"], x, color=ink, lw=0.8, label=f"exact, {name}")
     for rate, line in ((WEAR * 0.2, "-"), (-WEAR * 0.8, "-")):
