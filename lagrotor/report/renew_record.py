@@ -13,8 +13,8 @@ from lagrotor.numerics import generated
 
 def generated_code() -> dict[Path, str]:
     """Every `generated.txt` of the package, derived anew."""
-    for name in ("lagrotor.models.simulate", "lagrotor.models.orbits.precession"):
-        import_module(name)
+    for name in ("models.simulate", "models.orbits.precession", "report.interactive.interactive"):
+        import_module(f"lagrotor.{name}")
     return generated.files()
 
 

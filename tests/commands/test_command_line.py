@@ -20,6 +20,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
 from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
+from lagrotor.paper.readable import readable
 from lagrotor.paper.rotor_pair import own_paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
@@ -304,7 +305,7 @@ def test_a_claim_is_told_with_its_outcome(monkeypatch: pytest.MonkeyPatch, capsy
     monkeypatch.setattr(Paper, "evaluate", lambda paper, step, wanted: [found])
     assert main(["claims", "C08"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert " ".join(" ".join(lines).split()).startswith(f"C08 {PAPER.claims['C08'].text} refuted: word word")
+    assert " ".join(" ".join(lines).split()).startswith(f"C08 {readable(PAPER.claims['C08'].text)} refuted: word word")
     assert max(map(len, lines)) <= 100
 
 

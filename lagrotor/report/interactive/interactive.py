@@ -16,6 +16,7 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage, javascript
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from lagrotor.pair.notation import (
     AXES,
@@ -69,10 +70,17 @@ def pair_section() -> str:
     return part(".html").replace("/* style */", part(".css")).replace("/* script */", script)
 
 
-@cache
 def formulas() -> str:
     """The generated part of the script: the series' order, and one function a program."""
-    return "\n".join([f"const ORDER = {ORDER};", *(javascript(program, name) for name, program in programs().items())])
+    return str(_formulas()())
+
+
+@generated(((),))
+def _formulas() -> str:
+    """() → what `formulas` returns."""
+    text = "\n".join([f"const ORDER = {ORDER};", *(javascript(program, name) for name, program in programs().items())])
+    rows = "".join(f"        {line!r},\n" for line in text.splitlines())
+    return f"def formulas():\n    return '\\n'.join([\n{rows}    ])"
 
 
 @cache
