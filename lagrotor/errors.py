@@ -40,7 +40,9 @@ class SingularError(LagrotorError, ArithmeticError):
 
 
 class IntegrationError(LagrotorError, ArithmeticError):
-    """An integration that could not reach the end of the run."""
+    """An integration that could not reach the end of the run. nfev: evaluations known to be spent on it."""
+
+    nfev: int = 0
 
 
 class LagrotorWarning(UserWarning):

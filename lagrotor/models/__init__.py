@@ -8,7 +8,6 @@ if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form
     from lagrotor.models.conserved import conservation_defect as conservation_defect
     from lagrotor.models.ensemble import Ensemble as Ensemble
-    from lagrotor.models.estimate_constants import linear_bound as linear_bound
     from lagrotor.models.linear import linear_error as linear_error
     from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error

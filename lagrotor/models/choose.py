@@ -5,7 +5,7 @@ from math import inf, pi
 
 from lagrotor.errors import LagrotorError
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.estimate_constants import SHORT, linear_bound
+from lagrotor.models.estimate_constants import SHORT
 from lagrotor.models.integrated import check_range
 from lagrotor.models.linear import linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL
@@ -43,9 +43,9 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         except LagrotorError:
             pass
         try:
-            error = linear_bound(linear_error(scene, t_end))
+            error = linear_error(scene, t_end)
             if error <= tol:
-                return Choice("linear", error, f"small motion: normal modes, whose next term is {scientific(error, 1)}")
+                return Choice("linear", error, f"small motion: normal modes, whose next terms are at most {scientific(error, 1)}")
             missed = f"normal modes have an error of {scientific(error, 1)}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]

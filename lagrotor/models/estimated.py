@@ -1,34 +1,44 @@
 """Runs with an estimated error: two integrations at different tolerances, held to what the motion conserves.
 
 The difference of the two bounds the error of the better one. It is also how far neighbouring motions part: where it exceeds
-what was promised, the run has reached its horizon.
+what was promised, the run has reached its horizon. Where it exceeds LOST, nothing is known any more: there the comparison
+ends, and the better run goes on alone.
 """
 
 from dataclasses import dataclass, replace
-from math import inf, log
+from math import inf, log, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
-from lagrotor.models.conserved import PulseNodes, conservation_defect, pulse_nodes
-from lagrotor.models.estimate_constants import APART, CLEARLY, FIRST, GIVEN_UP, KEPT, LOOSEST, LOST, ROUNDING
-from lagrotor.models.integrated import integrated
+from lagrotor.models.conserved import conservation_defect
+from lagrotor.models.estimate_constants import (
+    APART,
+    BEYOND,
+    CLEARLY,
+    FIRST,
+    GIVEN_UP,
+    KEPT,
+    LOOSEST,
+    LOST,
+    OPPOSITE,
+    ROUNDING,
+)
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import PACE
+from lagrotor.models.staged import StagedRun, Watched, joined, seen_in, watch
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.pair.scene import Scene
-
-_SAMPLES = 65  # times at which a run is watched besides those it is read at
 
 
 @dataclass(frozen=True, eq=False)
 class Estimated:
     """A run at its times: the largest error of an axis up to each of them (n,), the horizon, evaluations of all its runs.
 
-    tol: the local error of the better run. lost: when the estimate exceeds LOST.
+    tol: the local error of the better run. loosened: the time from which nothing is known of it and it goes on at BEYOND.
     """
 
     seen: Observed
@@ -36,33 +46,22 @@ class Estimated:
     horizon: float
     nfev: int
     tol: float
-    lost: float = inf
+    loosened: float
 
 
 @dataclass(frozen=True, eq=False)
-class _Watched:
-    """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user."""
+class _Pair:
+    """Two runs compared in the first `stages`: errors (n,) by how much they part up to each time, lost: when beyond LOST."""
 
-    model: Model
-    scene: Scene
-    t: Array
-    read: NDArray[np.intp]
-    nodes: PulseNodes | None
-    engine: str
-    bounded: bool
+    loose: StagedRun
+    tight: StagedRun
+    stages: int
+    errors: Array
+    lost: float
 
-    def run(self, tol: float, companion: bool = False) -> tuple[Observed, int]:
-        found = integrated(self.model, self.scene, self.t, tol, self.engine, self.bounded, companion)
-        return found.seen, found.nfev
-
-
-def _watched(model: Model, scene: Scene, times: Array, engine: str, bounded: bool) -> _Watched:
-    t_end = float(times[-1])
-    nodes = pulse_nodes(scene, t_end)
-    t = np.union1d(times, np.linspace(0.0, t_end, _SAMPLES))
-    if nodes:
-        t = np.union1d(t, nodes.t)
-    return _Watched(model, scene, t, np.searchsorted(t, times), nodes, engine, bounded)
+    @property
+    def error(self) -> float:
+        return OPPOSITE if self.lost < inf else float(self.errors[-1])
 
 
 def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, promised: float) -> Estimated:
@@ -71,24 +70,15 @@ def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, pr
     The horizon is where the estimate exceeds `promised`. Raises what `integrated` does, and IntegrationError where the run
     does not conserve what it must.
     """
-    watched = _watched(model, scene, times, engine, False)
+    watched = watch(model, scene, times, engine, False)
     other = tol * APART if tol * APART <= LOOSEST else tol / APART
-    run = _single(watched, tol, False)
+    run = StagedRun(tol, False)
+    seen_in(watched, run, len(watched.stages) - 1)
     try:
-        companion = _single(watched, other, True, run.nfev)
+        pair = _compared(watched, StagedRun(other, True), run)
     except StopError:
-        companion = _single(watched, max(tol / APART, TIGHTEST), True, run.nfev)
-    return _estimated(watched, companion, run, promised)
-
-
-@dataclass(frozen=True, eq=False)
-class _Single:
-    """One integration: its tolerance, what it gives, whether its start is off by rounding, evaluations of it and before it."""
-
-    tol: float
-    seen: Observed
-    companion: bool
-    nfev: int
+        pair = _compared(watched, StagedRun(max(tol / APART, TIGHTEST), True), run)
+    return _estimated(watched, pair, run, promised)
 
 
 def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: str, bounded: bool) -> Estimated:
@@ -96,49 +86,50 @@ def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: 
 
     Each run is compared with the one before it, at APART times the tolerance. Where the two differ by more than `wanted`, a
     third is enough if the tolerance of the second gives it in proportion; else a pair follows at the tolerances that do.
+    From where no tolerance keeps two runs together, the best goes on at BEYOND.
     Scene in natural units. Raises as `run_at`.
     """
-    watched = _watched(model, scene, times, engine, bounded)
+    watched = watch(model, scene, times, engine, bounded)
     first = max(min(wanted * FIRST, LOOSEST), CLEARLY * TIGHTEST)
-    loose, tight, found = _loosest(watched, first, wanted)
-    best, t_end = found, float(watched.t[-1])
-    while tight.tol <= _tighter(first, engine) and tight.tol >= CLEARLY * TIGHTEST:
-        error = float(found.errors[-1])
-        if error <= wanted or _hopeless(found, loose.tol, t_end):
+    try:
+        best = _best(watched, first, wanted)
+        return _estimated(watched, best, _finished(watched, best), wanted)
+    except IntegrationError as refusal:
+        refusal.nfev = sum(watched.spent)
+        raise
+
+
+def _best(watched: Watched, first: float, wanted: float) -> _Pair:
+    """The pair of which the estimate is `wanted` or, of those from the companion's tolerance `first` on, smallest."""
+    best = pair = _loosest(watched, first)
+    while pair.tight.tol <= _tighter(first, watched.engine) and pair.tight.tol >= CLEARLY * TIGHTEST:
+        loose, tight, error = pair.loose, pair.tight, pair.error
+        if error <= wanted or _hopeless(watched, pair):
             break
-        in_proportion = error * tight.tol / loose.tol <= wanted / 2
         tol = max(min(tight.tol, loose.tol * wanted / error / 2), CLEARLY * TIGHTEST)
+        loose = tight if error * tight.tol / loose.tol <= wanted / 2 else StagedRun(tol, True)
         try:
-            loose = tight if in_proportion else _single(watched, tol, True, tight.nfev)
-            tight = _single(watched, _tighter(loose.tol, engine), not loose.companion, max(tight.nfev, loose.nfev))
-            found = _estimated(watched, loose, tight, wanted)
+            pair = _compared(watched, loose, StagedRun(_tighter(loose.tol, watched.engine), not loose.companion))
         except IntegrationError:
             break
-        best = found if found.errors[-1] < best.errors[-1] else replace(best, nfev=found.nfev)
+        best = min(pair, best, key=lambda one: (one.error, -one.lost))
     return best
 
 
-def _single(watched: _Watched, tol: float, companion: bool, nfev: int = 0) -> _Single:
-    seen, spent = watched.run(tol, companion)
-    return _Single(tol, seen, companion, nfev + spent)
-
-
-def _loosest(watched: _Watched, tol: float, wanted: float) -> tuple[_Single, _Single, Estimated]:
+def _loosest(watched: Watched, tol: float) -> _Pair:
     """The first pair of runs that is not refused, from the companion's tolerance `tol` on to looser ones up to GIVEN_UP."""
-    loose: _Single | None = None
-    tight: _Single | None = None
-    nfev = 0
+    tight: StagedRun | None = None
     while True:
+        loose = StagedRun(tol, tight is None or not tight.companion)
+        tight = tight or StagedRun(_tighter(tol, watched.engine), not loose.companion)
         try:
-            loose = loose or _single(watched, tol, tight is None or not tight.companion, nfev)
-            tight = tight or _single(watched, _tighter(tol, watched.engine), not loose.companion, loose.nfev)
-            return loose, tight, _estimated(watched, loose, tight, wanted)
-        except IntegrationError:
+            return _compared(watched, loose, tight)
+        except IntegrationError as refusal:
             if watched.bounded or tol > GIVEN_UP:
                 raise
-        # A run that was not refused is compared with a looser one.
-        nfev = max((run.nfev for run in (loose, tight) if run), default=nfev)
-        loose, tight, tol = None, loose, tol * APART if loose else tol * APART**2
+            # A run that was not refused is compared with a looser one.
+            stopped = isinstance(refusal, StopError) and len(loose.stages) <= len(tight.stages)
+            tight, tol = (None, tol * APART**2) if stopped else (loose, tol * APART)
 
 
 def _tighter(loose: float, engine: str) -> float:
@@ -147,29 +138,78 @@ def _tighter(loose: float, engine: str) -> float:
     return max(tight, CROSSOVER) if engine == "core" and loose >= CLEARLY * CROSSOVER else tight
 
 
-def _estimated(watched: _Watched, companion: _Single, run: _Single, promised: float) -> Estimated:
-    """The run, its error estimated by how far its companion is off; refused if it does not conserve what it must."""
-    loose, tight, tol, nfev = companion.seen, run.seen, run.tol, max(run.nfev, companion.nfev)
-    t, apart = watched.t, np.linalg.norm(loose.axes - tight.axes, axis=-1).max(axis=0)
-    errors = np.maximum.accumulate(apart) + ROUNDING * (1 + PACE * t / (2 * np.pi))
-    error = float(errors[-1])
+def _compared(watched: Watched, loose: StagedRun, tight: StagedRun) -> _Pair:
+    """The two runs up to the stage in which they part; refused if the better one does not conserve what it must."""
+    parts, faster, lost = list[Array](), 0.0, inf
+    for n, t in enumerate(watched.stages):
+        one, other = seen_in(watched, loose, n), seen_in(watched, tight, n)
+        parts.append(np.linalg.norm(one.axes - other.axes, axis=-1).max(axis=0) + ROUNDING * (1 + PACE * t / (2 * pi)))
+        faster = max(faster, float(np.abs(one.rates - other.rates).max()))
+        lost = _first(t, parts[-1] > LOST)
+        if lost < inf:
+            break
+    errors = np.maximum.accumulate(np.concatenate(parts))
+    _check_conserved(watched, tight, len(parts), max(float(errors[-1]), tight.tol, faster / PACE))
+    return _Pair(loose, tight, len(parts), errors, lost)
+
+
+def _check_conserved(watched: Watched, run: StagedRun, stages: int, error: float) -> None:
+    """Raises IntegrationError unless the first stages of a run conserve what they must, as well as its error allows."""
     if not np.isfinite(error):
         raise IntegrationError(f"{watched.model.name}: a value is not finite; use another model")
-    defect = conservation_defect(watched.scene, t, tight, watched.nodes)
-    if not defect <= KEPT * max(error, tol, float(np.abs(loose.rates - tight.rates).max()) / PACE):
+    t, nodes = np.concatenate(watched.stages[:stages]), watched.nodes
+    scene = replace(watched.scene, shock=watched.scene.shock_until(float(t[-1])))
+    whole = nodes if nodes and nodes.t[-1] <= t[-1] else None
+    defect = conservation_defect(scene, t, joined(run.stages[:stages]), whole)
+    if not defect <= KEPT * error:
         raise IntegrationError(
             f"{watched.model.name}: energy, momentum or the bar's length is off by as much as an error of {defect:.1e} "
             f"makes, although {error:.1e} is estimated: the run followed another motion; use another model or a smaller tol"
         )
-    read = watched.read
-    seen = Observed(tight.axes[:, read], tight.rates[:, read], tight.momenta[:, read])
-    return Estimated(seen, errors[read], _first(t, errors > promised), nfev, tol, _first(t, errors > LOST))
+
+
+def _finished(watched: Watched, pair: _Pair) -> StagedRun:
+    """The better run of a pair to the end: after the stage in which they part at BEYOND, at its own tolerance if that stops."""
+    last, known = len(watched.stages) - 1, pair.tight.stages[: pair.stages]
+    if pair.stages > last:
+        return pair.tight
+    for tol in (max(BEYOND, pair.tight.tol), pair.tight.tol):
+        run = replace(pair.tight, tol=tol, stages=list(known))
+        try:
+            seen_in(watched, run, last)
+            return run
+        except StopError:
+            if tol == pair.tight.tol:
+                raise
+    raise AssertionError("the last tolerance returns or raises")
+
+
+def _estimated(watched: Watched, pair: _Pair, run: StagedRun, promised: float) -> Estimated:
+    """A whole run and what is known of its error."""
+    t = np.concatenate(watched.stages)
+    errors = np.full(len(t), OPPOSITE)
+    errors[: len(pair.errors)] = pair.errors
+    errors[t >= pair.lost] = OPPOSITE
+    seen, read = joined(run.stages), watched.read
+    seen = Observed(seen.axes[:, read], seen.rates[:, read], seen.momenta[:, read])
+    loosened = float(watched.stages[pair.stages - 1][-1]) if run.tol > pair.tight.tol else inf
+    return Estimated(seen, errors[read], _first(t, errors > promised), sum(watched.spent), pair.tight.tol, loosened)
 
 
 def _first(t: Array, where: NDArray[np.bool_]) -> float:
     return float(t[np.argmax(where)]) if where.any() else inf
 
 
-def _hopeless(found: Estimated, loose: float, t_end: float) -> bool:
-    """Whether neighbours part so fast that no tolerance keeps LOST to the end: a difference loose e^(λt) has λ from `lost`."""
-    return found.lost * log(LOST / TIGHTEST) < t_end * log(LOST / loose)
+def _hopeless(watched: Watched, pair: _Pair) -> bool:
+    """Whether two runs parted so fast that no tolerance keeps LOST to the end.
+
+    Their difference grew from the looser tolerance to LOST at `lost`, half the way by `early` (in logarithms): by e^(λt), or
+    by a power of t. A tighter tolerance comes as far as the more hopeful of the two says.
+    """
+    grown, tighter = log(LOST / pair.loose.tol), log(pair.loose.tol / TIGHTEST)
+    if pair.lost == inf or grown <= 0:
+        return False
+    t = np.concatenate(watched.stages[: pair.stages])
+    early = max(_first(t, pair.errors > (LOST * pair.loose.tol) ** 0.5), float(t[1]))
+    by_power = (pair.lost / early) ** (tighter / (grown / 2))
+    return pair.lost * max(1 + tighter / grown, by_power) < watched.t_end

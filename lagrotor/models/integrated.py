@@ -22,18 +22,22 @@ BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
 
 @dataclass(frozen=True)
 class Integrated:
-    """What a model observes at the times of a run, and how often its right-hand side was evaluated."""
+    """What a model observes at the times of a run, its own state at the last, evaluations of its right-hand side."""
 
     seen: Observed
+    end: Array
     nfev: int
 
 
-def problem_of(model: Model, scene: Scene, t_end: float, bounded: bool = False, companion: bool = False) -> Problem:
-    """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned."""
+def problem_of(model: Model, scene: Scene, t_end: float, bounded: bool = False, start: Array | None = None) -> Problem:
+    """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
+
+    start: the model's state at t = 0, where it is not that of the scene.
+    """
     shock, rate = scene.shock, typical_rate(scene)
     return Problem(
         free=model.rate(scene, False, bounded),
-        start=_start(model, scene, companion),
+        start=model.start(scene) if start is None else start,
         max_nfev=20_000 + 250 * rate * t_end,
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
@@ -52,17 +56,20 @@ def integrated(
     engine: str = "core",
     bounded: bool = False,
     companion: bool = False,
+    start: Array | None = None,
 ) -> Integrated:
     """The model's run at increasing `times` (n,) in s, with a local error `tol` as `integrate` has it.
 
-    companion: from a start that is off by rounding, and by steps that a run without it does not take.
+    companion: from a start that is off by rounding, and by steps that a run without it does not take. start: the model's
+    state at t = 0, where it is not that of the scene.
 
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.
     """
+    begun = _start(model, scene, companion) if start is None else start
     if engine == "core":
-        solution = integrate(problem_of(model, scene, float(times[-1]), bounded, companion), times, tol)
-        return Integrated(model.observe(scene, solution.states), solution.nfev)
+        solution = integrate(problem_of(model, scene, float(times[-1]), bounded, begun), times, tol)
+        return Integrated(model.observe(scene, solution.states), solution.states[-1], solution.nfev)
     from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor
     from lagrotor.numerics.taylor_steps import taylor_order
 
@@ -72,7 +79,7 @@ def integrated(
     rate = typical_rate(scene)
     solution = integrate_taylor(
         lambda driven: model.program(scene, driven),
-        _start(model, scene, companion),
+        begun,
         pulse,
         times,
         tol,
@@ -82,7 +89,7 @@ def integrated(
     )
     if bounded:
         _check_states(*model.program(scene, False), times, solution.states)
-    return Integrated(model.observe(scene, solution.states), solution.nfev)
+    return Integrated(model.observe(scene, solution.states), solution.states[-1], solution.nfev)
 
 
 def _start(model: Model, scene: Scene, companion: bool) -> Array:

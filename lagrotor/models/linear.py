@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import DomainError, SingularError
+from lagrotor.models.estimate_constants import LINEAR_MARGIN, OPPOSITE
 from lagrotor.models.minimal import MODEL, rhs_on_arrays
 from lagrotor.models.model import Array, Observed
 from lagrotor.numerics.generated import generated
@@ -23,7 +24,7 @@ from lagrotor.pair.scene import Scene, Shock
 from lagrotor.theory.shock_response import pulse_response, shock_response
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
-SAFETY = 1.1, 2.5  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02 and 1.93
+SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
 FARTHEST_OFF = 0.1  # estimated error of a shock's response beyond which its next order is no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
@@ -49,16 +50,17 @@ class Modes:
         return np.hstack([q + t * v - versed * once + (t - sine) / Omega**2 * twice, v - sine * once + versed * twice])
 
     def answer(self, t: Array, push: Array) -> Array:
-        """What accelerations `push` (n, 3) at the times t (n,) move q by: ∫ (upper right of exp A(t − s)) push ds."""
-        Omega, t = self.frequency, t[:, None]
+        """What accelerations `push` (n, 3) at the times t (n,) change (q, v) by: ∫ (right half of exp A(t − s)) push ds."""
+        Omega, t, once, twice = self.frequency, t[:, None], self.turning.T, (self.turning @ self.turning).T
         received = _integral(t, push)
         drift = t * received - _integral(t, t * push)
         if Omega == 0:
-            return drift
+            return np.hstack([drift, received])
         c, s = np.cos(Omega * t), np.sin(Omega * t)
         even, odd = _integral(t, c * push), _integral(t, s * push)
         versed, sine = (received - c * even - s * odd) / Omega**2, (s * even - c * odd) / Omega
-        return drift - versed @ self.turning.T + (drift - sine) / Omega**2 @ (self.turning @ self.turning).T
+        moved = drift - versed @ once + (drift - sine) / Omega**2 @ twice
+        return np.hstack([moved, received - sine @ once + versed @ twice])
 
 
 def _integral(t: Array, values: Array) -> Array:
@@ -147,11 +149,12 @@ def linear_run(scene: Scene, t: Array) -> Observed:
 
 
 def linear_error(scene: Scene, t_end: float) -> float:
-    """Largest error of an axis (tips: in units of R) of the linear motion up to t_end (s): the next term, integrated.
+    """Largest error of an axis (tips: in units of R) of the linear motion up to t_end (s): the next two terms, integrated.
 
     Along the linear motion the exact equations leave a defect of second order; the linear pair's answer to it is the
-    error, to leading order. A pair that turns far about the joint line carries it from one coordinate into the other, and
-    may leave the turning exponentially: `_spread` is by how much.
+    error, to leading order. The answer to the defect of the motion so corrected has the next order, too; by how much the
+    two differ is added for the orders beyond. A pair that turns far about the joint line carries this from one coordinate
+    into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given.
     Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = modes(scene), scene.shock_until(t_end)
@@ -165,24 +168,28 @@ def linear_error(scene: Scene, t_end: float) -> float:
         about = shock.at + shock.width * np.linspace(-4, 4, 65)
         t = np.unique(np.concatenate([t, about[(about > 0) & (about < t_end)]]))
     states = linear_states(scene, t)
-    error = linear.answer(t, _defect(scene, linear, shock, t, states))
-    off = error @ linear.upright.T
+    with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end
+        first = linear.answer(t, _defect(scene, linear, shock, t, states))
+        second = linear.answer(t, _defect(scene, linear, shock, t, states + first))
+        axes = [MODEL.observe(scene, states + part).axes for part in (second, 0.0, first)]
+        known, unsure = (float(np.linalg.norm(axes[0] - other, axis=-1).max()) for other in axes[1:])
     since = max(0.0, shock.at) if shock else 0.0
-    return float(np.hypot(off[:, :1], off[:, 1:]).max()) * _spread(scene, float(np.ptp(states[:, 2])), t_end - since)
+    error = known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since)
+    return LINEAR_MARGIN * error if LINEAR_MARGIN * error < OPPOSITE else OPPOSITE
 
 
 def shock_response_error(scene: Scene, t_end: float) -> float:
     """Error of `shock_response(scene).through` up to t_end (s): of (x, y) of either axis, in units of R.
 
     The linear motion keeps the bar's length and the axes' in curved coordinates; its distance from the response in
-    (x, y_1, y_2) is known exactly, and its own error is about `linear_error`. SAFETY times both is taken; second order.
+    (x, y_1, y_2) is known exactly, and its own error is below `linear_error`. SAFETY times both is taken; second order.
     Raises InputError as `shock_response`, DomainError as `linear_error`, or where the error is beyond 0.1.
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))
     axes, seen = linear_run(scene, t).axes, response.through(t)
     off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
-    error = SAFETY[0] * float(np.linalg.norm(off, axis=-1).max()) + SAFETY[1] * linear_error(scene, t_end)
+    error = SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
     if not error <= FARTHEST_OFF:
         raise DomainError(
             f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {FARTHEST_OFF:g}: the response is "

@@ -48,9 +48,9 @@ class Model:
     pulse, the last three are the torque R F (N m) and not among the values. derive: (*kind) → the program of the right-hand
     side, its first `size` arguments the state. rhs: (*kind, bounded) → its function, generated. start: the state (d,) of a
     scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
-    projection: brings states that drifted off the constraints back onto them. outside: whether a state lies where the
-    model must not be integrated; time_to_singular: the time after which a state may be there, at the earliest. progress:
-    called with the time of each evaluation of the right-hand side.
+    projection: brings states that drifted off the constraints back onto them. outside: whether a state of a pair with its
+    bar lies where the model must not be integrated; time_to_singular: the time after which a state may be there, at the
+    earliest. progress: called with the time of each evaluation of the right-hand side.
     """
 
     name: str
@@ -81,7 +81,7 @@ class Model:
         if shock:
             values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
-        if self.outside is not None:
+        if self.outside and scene.link:
             rate = _guarded(rate, self.outside, self.size)
         return (
             rate if self.progress is None else _reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)

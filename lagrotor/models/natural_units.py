@@ -24,7 +24,7 @@ class NaturalUnits:
 
 def natural_units(scene: Scene) -> NaturalUnits:
     """The scene in its own units. At rest, without spins or shock, the unit of rate is 1/s."""
-    inertia, R = least_inertia(scene), scene.rotor.length
+    inertia, R = min(together_and_apart(scene)), scene.rotor.length
     rate = typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
     weight = R * R / inertia
@@ -45,20 +45,24 @@ def natural_units(scene: Scene) -> NaturalUnits:
     return NaturalUnits(in_units, rate, inertia)
 
 
-def least_inertia(scene: Scene) -> float:
-    """min(a + b, a − b) = J + min(m R²/2, 2 K R²/ell²) (kg m²): neither is formed as a difference."""
+def together_and_apart(scene: Scene) -> tuple[float, float]:
+    """Inertias a + b = J + m R²/2 of the axes' sum, a − b = J + 2 K R²/ell² of their difference (kg m²)."""
     if scene.link is None:
-        return scene.rotor.J
+        return scene.rotor.J, scene.rotor.J
     R, link = scene.rotor.length, scene.link
-    return scene.rotor.J + min(link.mass * R**2 / 2, 2 * link.inertia * (R / link.length) ** 2)
+    return scene.rotor.J + link.mass * R**2 / 2, scene.rotor.J + 2 * link.inertia * (R / link.length) ** 2
 
 
 def typical_rate(scene: Scene) -> float:
-    """A rate (rad/s) that the motion does not exceed by much: (|G_1| + |G_2|)/I + |r_1'| + |r_2'| and the shock's.
+    """A rate (rad/s) that the motion does not exceed by much: (|G_1| + |G_2|)/I + sqrt(2T/I) and the shock's, I the smaller
+    of the inertias, T the energy of the tilting.
 
     A pulse adds its impulse over I or, where it is so broad that the rotor turns meanwhile, sqrt(force R / I).
     """
-    inertia, rate = least_inertia(scene), hypot(*scene.rates[0], *scene.rates[1])
+    (together, apart), (v1, v2) = together_and_apart(scene), scene.rates
+    inertia = min(together, apart)
+    total, difference = (hypot(*(x + sign * y for x, y in zip(v1, v2, strict=True))) for sign in (1, -1))
+    rate = hypot(sqrt(together / inertia) * total, sqrt(apart / inertia) * difference) / sqrt(2)
     if scene.shock:
         torque = hypot(*scene.shock.force) * scene.rotor.length / inertia
         rate += min(2 * torque * scene.shock.width, sqrt(torque))

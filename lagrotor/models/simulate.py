@@ -12,7 +12,7 @@ from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorW
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.choose import choose
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.estimate_constants import gathered_error, linear_bound
+from lagrotor.models.estimate_constants import BEYOND, gathered_error
 from lagrotor.models.estimated import Estimated, run_at, run_within
 from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, constant_momenta
@@ -48,7 +48,7 @@ def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
 def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
     seen = linear_run(scene, times)
     try:
-        return Direct(seen, linear_bound(linear_error(scene, float(times[-1]))), "by name")
+        return Direct(seen, linear_error(scene, float(times[-1])), "by name")
     except DomainError:  # more turns than the estimate sums over
         return Direct(seen, nan, "by name")
 
@@ -152,17 +152,18 @@ def _automatic(
     if choice.model in DIRECT:
         direct = DIRECT[choice.model](scene, times, tol, False)
         return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tol)
-    units, why = _in_units(scene, times), choice.reason
+    units, why, spent = _in_units(scene, times), choice.reason, 0
     for model in LADDER[[model.name for model in LADDER].index(choice.model) :]:
         last, runs_by = model is LADDER[-1], engine if _fast_runs(model, scene) else "core"
         try:
             reporting = _reporting(model, units, progress)
             found = run_within(reporting, units.scene, times * units.rate, tol, runs_by, not last)
+            found = replace(found, nfev=found.nfev + spent)
             return _trajectory(scene, model.name, why, times, found, units, tol, tol)
         except IntegrationError as refusal:
             if last:
                 raise _in_seconds(refusal, units) from None
-            why = f"regular everywhere; {_in_seconds(refusal, units)}"
+            why, spent = f"regular everywhere; {_in_seconds(refusal, units)}", spent + refusal.nfev
     raise AssertionError("the last model returns or raises")
 
 
@@ -197,7 +198,7 @@ def _trajectory(
     """The run in the units of the scene; warns where the estimate exceeds what was promised."""
     error, horizon = float(found.errors[-1]), found.horizon / units.rate
     if error > promised:
-        warnings.warn(_not_kept(model, tol, error, found.tol, horizon), LagrotorWarning, stacklevel=4)
+        warnings.warn(_not_kept(model, tol, found, units.rate), LagrotorWarning, stacklevel=4)
     seen, before = found.seen, constant_momenta(units.scene, len(times))
     momentum = units.inertia * units.rate
     return Trajectory(
@@ -214,12 +215,14 @@ def _trajectory(
     )
 
 
-def _not_kept(model: str, tol: float, error: float, reached: float, horizon: float) -> str:
-    apart = error / reached
+def _not_kept(model: str, tol: float, found: Estimated, rate: float) -> str:
+    error, horizon = float(found.errors[-1]), found.horizon / rate
+    apart = error / found.tol
     reason = (
         f"neighbouring motions part about {scientific(apart)}-fold, and tol can be meant only up to"
         if apart > 1e5
         else "it is below what the solver can give after"
     )
     estimated = f"the estimated error is {scientific(error, 1)}"
-    return f"simulate: {model} does not keep tol = {tol:g}: {estimated}; {reason} t = {horizon:.6g} s"
+    beyond = f"; from t = {found.loosened / rate:.6g} s its local error is {BEYOND:g}" if found.loosened < inf else ""
+    return f"simulate: {model} does not keep tol = {tol:g}: {estimated}; {reason} t = {horizon:.6g} s{beyond}"

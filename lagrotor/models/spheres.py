@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lagrotor.errors import SingularError
 from lagrotor.models.model import Array, Model, Observed, constant_momenta
 from lagrotor.numerics.generated import generated
 from lagrotor.numerics.segment import Projection
@@ -92,7 +93,13 @@ def _projection(scene: Scene) -> Projection:
 
 
 def _start(scene: Scene) -> Array:
-    return np.array([*scene.axes[0], *scene.axes[1], *scene.rates[0], *scene.rates[1]])
+    start = np.array([*scene.axes[0], *scene.axes[1], *scene.rates[0], *scene.rates[1]])
+    if scene.link and at_dead_point(start):
+        raise SingularError(
+            f"spheres: the axes {scene.axes} start {_across(start):.1e} rad from where bar and axes are in line and the motion "
+            f"is not determined, nearer than {CLEARANCE:g}: tilt an axis"
+        )
+    return start
 
 
 def _observe(scene: Scene, states: Array) -> Observed:

@@ -171,7 +171,7 @@ def adams(segment: Segment, error: float) -> Run:
             reason = "the step vanishes" if t + h == t else f"{nfev} evaluations spent"
             raise StopError(t, reason, _on_constraints(segment, found[:done], y, nfev))
     if not (np.isfinite(end).all() and np.isfinite(found).all()):
-        raise StopError(t, "a value is not finite")
+        raise StopError(t, "a value is not finite", nfev=nfev)
     return _on_constraints(segment, found, end, nfev)
 
 

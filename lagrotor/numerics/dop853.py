@@ -29,9 +29,9 @@ def dop853(segment: Segment, error: float) -> Run:
             solver.max_step = min(segment.longest, turned, segment.clear(solver.y))
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            raise StopError(solver.t, message or "a value is not finite")
+            raise StopError(solver.t, message or "a value is not finite", nfev=solver.nfev)
         if solver.nfev > segment.max_nfev:
-            raise StopError(solver.t, f"{solver.nfev} evaluations spent")
+            raise StopError(solver.t, f"{solver.nfev} evaluations spent", nfev=solver.nfev)
         reached = int(np.searchsorted(t_eval, solver.t, side="right"))
         if reached > done:
             found[done:reached] = solver.dense_output()(t_eval[done:reached]).T

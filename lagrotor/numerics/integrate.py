@@ -90,11 +90,11 @@ def integrate(problem: Problem, times: Array, tol: float) -> Solution:
             try:
                 run = _run(segment, pulsed, tol)
             except StopError as stopped:
-                raise StopError(problem.at + stopped.at, stopped.reason) from None
+                raise StopError(problem.at + stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
             states[inside], y = run.states, run.end
             nfev += run.nfev
             if nfev > problem.max_nfev:
-                raise StopError(problem.at + right, f"{nfev} evaluations spent")
+                raise StopError(problem.at + right, f"{nfev} evaluations spent", nfev=nfev)
     return Solution(states, nfev)
 
 
@@ -118,16 +118,20 @@ def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
         except OutsideError:
             raise
         except StopError as stopped:
+            nfev += stopped.nfev
             if stopped.reached:
-                segment, nfev = _after(segment, stopped.at, stopped.reached, found), nfev + stopped.reached.nfev
-                if stopped.reached.nfev >= per_time * (stopped.at - left):
+                segment = _after(segment, stopped.at, stopped.reached, found)
+                if stopped.nfev >= per_time * (stopped.at - left):
                     detour *= 4
             else:
                 detour *= 4
         left, right = segment.left, min(segment.left + detour, segment.right)
         inside = segment.t_eval <= right
         part = replace(segment, right=right, t_eval=segment.t_eval[inside], max_nfev=segment.max_nfev - nfev)
-        run = dop853(part, tol / 20)
+        try:
+            run = dop853(part, tol / 20)
+        except StopError as stopped:
+            raise StopError(stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
         if right == segment.right:
             break
         per_time = run.nfev / (right - left)

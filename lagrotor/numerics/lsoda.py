@@ -45,13 +45,15 @@ def lsoda(segment: Segment, error: float) -> Run:
         y, left, longest_cut = end, part.right, 1.5 * longest_cut
     run = _read(segment, found, y, nfev)
     if not np.isfinite(run.states).all():
-        raise StopError(segment.left, "a state could not be brought back onto its constraints")
+        raise StopError(segment.left, "a state could not be brought back onto its constraints", nfev=nfev)
     return run
 
 
 def _read(segment: Segment, found: list[Array], y: Array, nfev: int) -> Run:
     states = np.concatenate(found)
-    return Run(segment.project(states.T).T if segment.project and len(states) else states, y, nfev)
+    if segment.project and len(states):
+        states = segment.project(segment.project(states.T)).T  # of a drift one step leaves about the square
+    return Run(states, y, nfev)
 
 
 def _up_to_singular(part: Segment, max_nfev: float, error: float) -> tuple[Segment, Run]:
@@ -101,9 +103,9 @@ def _lsoda(segment: Segment, error: float) -> Run:
             )
     except LOST:
         raise StopError(left, "the right-hand side is not finite") from None
-    nfev = int(log["nfe"][-1]) + 1
     if lost or log["message"] != "Integration successful." or not np.isfinite(states).all():
         raise StopError(left, "the right-hand side is not finite" if lost else log["message"])
+    nfev = int(log["nfe"][-1]) + 1  # of a run that failed the count is not set
     if nfev > segment.max_nfev:
-        raise StopError(right, f"{nfev} evaluations spent")
+        raise StopError(right, f"{nfev} evaluations spent", nfev=nfev)
     return Run(states[1:-1], states[-1], nfev)

@@ -59,15 +59,15 @@ Engine = Callable[[Segment, float], Run]
 class StopError(IntegrationError):
     """A solver that stopped at the time `at` (in a solver: the segment's own time), for a reason.
 
-    reached: the run up to there, where the solver can go on from it.
+    reached: the run up to there, where the solver can go on from it; nfev: evaluations spent.
     """
 
-    def __init__(self, at: float, reason: str, reached: Run | None = None) -> None:
+    def __init__(self, at: float, reason: str, reached: Run | None = None, nfev: int = 0) -> None:
         super().__init__(
             f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): the motion reaches a singular position of these "
             "coordinates, or the tolerance is out of reach; try another model or a larger tol"
         )
-        self.at, self.reason, self.reached = at, reason, reached
+        self.at, self.reason, self.reached, self.nfev = at, reason, reached, reached.nfev if reached else nfev
 
 
 class OutsideError(StopError):

@@ -79,7 +79,7 @@ def integrate_taylor(
                 solver, y * scale, inside, (left, right), dummy_size(tol, order), onto, longest_between, longest
             )
         except StopError as stopped:
-            raise StopError(at + stopped.at, stopped.reason) from None
+            raise StopError(at + stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
         found.append(states / scale)
         y, nfev = y / scale, nfev + more
     states = np.concatenate(found)

@@ -64,7 +64,8 @@ def march(
         inside = times[(times > left if found else times >= left) & (times <= until)]
         states, y, more = _propagated(solver, inside, until, longest)
         if states is None:
-            raise StopError(solver.time, "the Taylor series has no step; engine='core' may go on")
+            reason = "the Taylor series has no step; engine='core' may go on"
+            raise StopError(solver.time, reason, nfev=(steps + more) * solver.order)
         found.append(states)
         y, left, steps = (y if project is None else project(y)), until, steps + more
     return np.concatenate(found), y, steps * solver.order

@@ -12,7 +12,6 @@ from numpy.polynomial import Chebyshev
 from lagrotor import Link, Rotor, Scene, Shock, Trajectory, consistent_scene, simulate
 from lagrotor.errors import InputError
 from lagrotor.models import exact_orbit, paper_system, run_solver
-from lagrotor.models.estimate_constants import LINEAR_MARGIN
 
 END, POINTS = 1.5, 81
 TIMES = END / 2 * (1 - np.cos(np.pi * np.arange(POINTS) / (POINTS - 1)))  # Chebyshev points: rates integrate exactly
@@ -90,7 +89,7 @@ class SpringLink(Model):
             run_solver(paper_system(scene, S * unit, 2 * (S * scene.rotor.mass * unit) ** 0.5), scene.shock, t, tol)
             for S in (2e4, 4e4)
         )
-        error = LINEAR_MARGIN * 2 * float(np.linalg.norm(seen.axes - stiffer.axes, axis=-1).max())
+        error = 4 * float(np.linalg.norm(seen.axes - stiffer.axes, axis=-1).max())
         momenta = np.repeat(np.array(scene.momenta)[:, None], len(seen.t), axis=1)
         return Trajectory(scene, self.name, "", seen.t, seen.axes, seen.rates, momenta, seen.evaluations, error=error)
 

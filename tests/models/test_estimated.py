@@ -9,6 +9,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import closed_form, conservation_defect, estimated, euler, minimal, parting, periodic_orbit
+from lagrotor.models import staged as in_stages
 from lagrotor.models.conserved import pulse_nodes
 from lagrotor.models.integrated import integrated
 from lagrotor.models.natural_units import natural_units, typical_rate
@@ -101,6 +102,34 @@ def test_the_work_of_the_shock_is_in_the_energy() -> None:
     assert conservation_defect(scene, t, seen, nodes) < 1e-10
     weaker = replace(nodes, weights=0.99 * nodes.weights, lower=0.99 * nodes.lower)
     assert conservation_defect(scene, t, seen, weaker) > 1e-4  # twin
+
+
+TUMBLING = consistent_scene(
+    (10, -9), [[0.6, 0.2, 0.77], [0.5, -0.4, 0.77]], [[2, 1, 0], [-1, 2, 0]], None, Link(1.3, 0.01, 0.1)
+)
+
+
+def test_where_two_runs_have_parted_the_rest_is_cheap(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = np.array([4.0, 200.0])
+    with pytest.warns(LagrotorWarning, match=r"only up to t = [\d.]+ s; from t = [\d.]+ s its local error is 1e-06"):
+        run = simulate(TUMBLING, times, tol=1e-5)
+    assert run.error == 2 and 4 < run.horizon < 20
+    assert np.ptp(run.energy) < 1e-5 * run.energy[0] and np.ptp(run.link_length) < 1e-13
+    assert run.axes[:, 0] == pytest.approx(simulate(TUMBLING, [4.0], "spheres", 1e-11).axes[:, 0], abs=1e-5)
+    # Twin: compared at the end only, both runs go on in vain.
+    monkeypatch.setattr(in_stages, "STAGE", 1e3)
+    with pytest.warns(LagrotorWarning, match=r"only up to t = [\d.]+ s$"):
+        assert simulate(TUMBLING, times, tol=1e-5).evaluations > 1.3 * run.evaluations
+
+
+def test_a_run_in_stages_is_the_run_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pulse falls into the third of the stages, the readings into all."""
+    times = np.linspace(0, 3, 31)
+    whole = simulate(SHOCKED, times, "spheres", 1e-10)
+    monkeypatch.setattr(in_stages, "STAGE", typical_rate(SHOCKED) * 3 / (2 * np.pi) / 8)
+    staged = simulate(SHOCKED, times, "spheres", 1e-10)
+    assert staged.evaluations != whole.evaluations
+    assert staged.axes == pytest.approx(whole.axes, abs=2e-9) and staged.error < 1e-7
 
 
 @pytest.mark.parametrize("gap", [-1e-7, 1e-7])

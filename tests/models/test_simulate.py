@@ -43,6 +43,23 @@ def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:
         simulate(free, [0, 1], model=model)
 
 
+def test_a_start_beside_the_dead_point_is_refused_as_such_and_one_further_off_runs() -> None:
+    def leaning(angle: float, link: Link | None) -> Scene:
+        return Scene((10, -10), link=link, axes=((cos(angle), 0, sin(angle)),) * 2, rates=((0, 1, 0), (0, 1, 0)))
+
+    for model in ("auto", "spheres"):
+        with pytest.raises(
+            SingularError, match=r"start 7\.1e-06 rad from where bar and axes are in line.*tilt an axis"
+        ):
+            simulate(leaning(5e-6, Link(1.5)), [0, 1e-5], model)
+        assert simulate(leaning(5e-5, Link(1.5)), [0, 1e-5], model).model == "spheres"
+    # Without a bar nothing is singular there.
+    times, still = [0.0, 0.5], ((1, 0, 0),) * 2
+    free = Scene((10, -10), link=None, axes=still, rates=((0, 1, 0), (0, 0, 1)), shock=Shock((0, 1, 0), 0.2, 0.1))
+    turned = replace(free, axes=((0, 1, 0),) * 2, rates=((0, 0, 1), (1, 0, 0)), shock=Shock((0, 0, 1), 0.2, 0.1))
+    assert np.roll(simulate(free, times).axes, 1, axis=-1) == pytest.approx(simulate(turned, times).axes, abs=1e-9)
+
+
 def on_the_line() -> Scene:
     """One axis along the joint line: at r_1 = e_x the bar asks (ell − R)(x_2 − 1) = 0, for ell = R nothing."""
     return Scene((10, -10), axes=((1, 0, 0), (0, 0, 1)), rates=((0, 1, 0), (0, 1, 0)))

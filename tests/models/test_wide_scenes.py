@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Trajectory, simulate
-from lagrotor.errors import IntegrationError, LagrotorWarning
+from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
 
@@ -51,7 +51,7 @@ def outcomes(which: list[int], engine: str) -> Iterator[Outcome]:
             warnings.simplefilter("always")
             try:
                 run = simulate(trial.scene, trial.t, tol=trial.tol, engine=engine)
-            except IntegrationError:
+            except (IntegrationError, SingularError):
                 yield Outcome(trial, None, np.nan, growth, True)
                 continue
         error = np.linalg.norm(run.axes - RECORDED["axes"][i], axis=-1).max() - 2 * RECORDED["own"][i].max()

@@ -14,7 +14,7 @@ from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.segment import Array, Segment, StopError
@@ -148,6 +148,21 @@ def test_a_projection_from_far_off_is_not_taken(monkeypatch: pytest.MonkeyPatch)
     problem = replace(problem_of(spheres.MODEL, pressed, 5.0), typical_rate=0.0, time_to_singular=None)
     axes = spheres.MODEL.observe(pressed, integrate(problem, times, 1e-6).states).axes
     assert np.abs(axes - simulate(pressed, times, "minimal", 1e-12).axes).max() > 0.1
+
+
+def test_a_run_that_stops_says_what_it_cost() -> None:
+    """Its own evaluations, of all the solvers that it tried; `simulate` adds those of a model that stopped on the way."""
+    spent = [0]
+
+    def blows_up(s: float, y: Array) -> list[float]:
+        spent[0] += 1
+        return [float(y[0] * y[0])]
+
+    for tol in (1e-6, 1e-12):
+        spent[0] = 0
+        with pytest.raises(StopError) as stopped, np.errstate(all="ignore"):
+            integrate(Problem(blows_up, np.ones(1), 1e5, typical_rate=1.0), np.array([2.0]), tol)
+        assert 0.1 * spent[0] < stopped.value.nfev <= spent[0]
 
 
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])

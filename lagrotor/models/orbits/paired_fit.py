@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, LagrotorError
+from lagrotor.models.estimate_constants import OPPOSITE
 from lagrotor.models.model import Answer, Array
 from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
 from lagrotor.numerics.shown import raised
@@ -145,7 +146,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
     error += (mismatch + ROUND) * (turned + growth)
-    error = error if error < _SMALL else 2.0  # beyond it only the bound holds: two axes are at most opposite
+    error = error if error < _SMALL else OPPOSITE  # beyond it only the bound holds
     frequency = signed * float(powers @ series.frequency)
     answer = _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
     return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)

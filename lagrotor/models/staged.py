@@ -1,0 +1,90 @@
+"""A model's run in stages: each integrated once, when it is wanted, so that a run may end or go on otherwise between two.
+
+The first stage is STAGE turns, each other one ends at twice the time of the one before it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.models.conserved import PulseNodes, pulse_nodes
+from lagrotor.models.estimate_constants import STAGE
+from lagrotor.models.integrated import Integrated, integrated
+from lagrotor.models.model import Array, Model, Observed
+from lagrotor.models.natural_units import PACE
+from lagrotor.numerics.segment import StopError
+from lagrotor.pair.scene import Scene
+
+_SAMPLES = 65  # times of a stage at which a run is watched besides those it is read at
+
+
+@dataclass(frozen=True, eq=False)
+class Watched:
+    """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user.
+
+    stages: the times of each of the parts in which it is integrated. spent: evaluations of what was integrated so far.
+    """
+
+    model: Model
+    scene: Scene
+    stages: tuple[Array, ...]
+    read: NDArray[np.intp]
+    nodes: PulseNodes | None
+    engine: str
+    bounded: bool
+    spent: list[int] = field(default_factory=list)
+
+    @property
+    def t_end(self) -> float:
+        return float(self.stages[-1][-1])
+
+
+@dataclass(frozen=True, eq=False)
+class StagedRun:
+    """An integration at a local error `tol`, made stage by stage as it is needed; companion: from a start off by rounding."""
+
+    tol: float
+    companion: bool
+    stages: list[Integrated] = field(default_factory=list)
+
+
+def watch(model: Model, scene: Scene, times: Array, engine: str, bounded: bool) -> Watched:
+    """The model on a scene in natural units, watched at the user's times (n,) and others, the pulse's nodes among them."""
+    t_end = float(times[-1])
+    nodes, first = pulse_nodes(scene, t_end), 2 * pi * STAGE / PACE
+    doublings = int(max(0.0, np.ceil(np.log2(t_end / first)))) if t_end > 0 else 0
+    ends = [0.0, *(first * 2.0**n for n in range(doublings)), t_end]
+    t = np.unique(np.concatenate([times, *(np.linspace(a, b, _SAMPLES) for a, b in pairwise(ends))]))
+    if nodes:
+        t = np.union1d(t, nodes.t)
+    stages = np.split(t, np.searchsorted(t, ends[1:-1], side="right"))
+    return Watched(model, scene, tuple(stages), np.searchsorted(t, times), nodes, engine, bounded)
+
+
+def seen_in(watched: Watched, run: StagedRun, n: int) -> Observed:
+    """What is observed in stage n of a run, integrated if it is not yet. Raises what `integrated` does."""
+    while len(run.stages) <= n:
+        i, scene = len(run.stages), watched.scene
+        begin, start = (float(watched.stages[i - 1][-1]), run.stages[-1].end) if i else (0.0, None)
+        t, shock = watched.stages[i] - begin, scene.shock and replace(scene.shock, at=scene.shock.at - begin)
+        scene = replace(scene, shock=shock)
+        scene = replace(scene, shock=scene.shock_until(float(t[-1])))
+        try:
+            found = integrated(watched.model, scene, t, run.tol, watched.engine, watched.bounded, run.companion, start)
+        except StopError as stopped:
+            watched.spent.append(stopped.nfev)
+            raise StopError(begin + stopped.at, stopped.reason) from None
+        watched.spent.append(found.nfev)
+        run.stages.append(found)
+    return run.stages[n].seen
+
+
+def joined(stages: Sequence[Integrated]) -> Observed:
+    """What is observed over stages that follow each other."""
+    parts = [stage.seen for stage in stages]
+    axes, rates = np.concatenate([p.axes for p in parts], axis=1), np.concatenate([p.rates for p in parts], axis=1)
+    return Observed(axes, rates, np.concatenate([p.momenta for p in parts], axis=1))
