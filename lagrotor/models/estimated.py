@@ -33,6 +33,8 @@ from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.pair.scene import Scene
 
+SHORTER = 5_000  # patience of a run that a looser one may replace
+
 
 @dataclass(frozen=True, eq=False)
 class Estimated:
@@ -70,7 +72,7 @@ def run_at(model: Model, scene: Scene, times: Array, tol: float, engine: str, pr
     The horizon is where the estimate exceeds `promised`. Raises what `integrated` does, and IntegrationError where the run
     does not conserve what it must.
     """
-    watched = watch(model, scene, times, engine, False)
+    watched = watch(model, scene, times, engine)
     other = tol * APART if tol * APART <= LOOSEST else tol / APART
     run = StagedRun(tol, False)
     seen_in(watched, run, len(watched.stages) - 1)
@@ -89,7 +91,7 @@ def run_within(model: Model, scene: Scene, times: Array, wanted: float, engine: 
     From where no tolerance keeps two runs together, the best goes on at BEYOND.
     Scene in natural units. Raises as `run_at`.
     """
-    watched = watch(model, scene, times, engine, bounded)
+    watched = watch(model, scene, times, engine, bounded, SHORTER)
     first = max(min(wanted * FIRST, LOOSEST), CLEARLY * TIGHTEST)
     try:
         best = _best(watched, first, wanted)

@@ -17,6 +17,7 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
+PATIENCE = 20_000
 BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
 
 
@@ -29,16 +30,23 @@ class Integrated:
     nfev: int
 
 
-def problem_of(model: Model, scene: Scene, t_end: float, bounded: bool = False, start: Array | None = None) -> Problem:
+def problem_of(
+    model: Model,
+    scene: Scene,
+    t_end: float,
+    bounded: bool = False,
+    start: Array | None = None,
+    patience: int = PATIENCE,
+) -> Problem:
     """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
 
-    start: the model's state at t = 0, where it is not that of the scene.
+    start: the model's state at t = 0, where it is not that of the scene; patience: evaluations besides 250 a radian.
     """
     shock, rate = scene.shock, typical_rate(scene)
     return Problem(
         free=model.rate(scene, False, bounded),
         start=model.start(scene) if start is None else start,
-        max_nfev=20_000 + 250 * rate * t_end,
+        max_nfev=patience + 250 * rate * t_end,
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
         width=shock.width if shock else 0.0,
@@ -57,18 +65,19 @@ def integrated(
     bounded: bool = False,
     companion: bool = False,
     start: Array | None = None,
+    patience: int = PATIENCE,
 ) -> Integrated:
     """The model's run at increasing `times` (n,) in s, with a local error `tol` as `integrate` has it.
 
     companion: from a start that is off by rounding, and by steps that a run without it does not take. start: the model's
-    state at t = 0, where it is not that of the scene.
+    state at t = 0, where it is not that of the scene. patience: evaluations that it may take besides 250 a radian.
 
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.
     """
     begun = _start(model, scene, companion) if start is None else start
     if engine == "core":
-        solution = integrate(problem_of(model, scene, float(times[-1]), bounded, begun), times, tol)
+        solution = integrate(problem_of(model, scene, float(times[-1]), bounded, begun, patience), times, tol)
         return Integrated(model.observe(scene, solution.states), solution.states[-1], solution.nfev)
     from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor
     from lagrotor.numerics.taylor_steps import taylor_order

@@ -25,7 +25,7 @@ from lagrotor.theory.shock_response import pulse_response, shock_response
 
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
 SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
-FARTHEST_OFF = 0.1  # estimated error of a shock's response beyond which its next order is no estimate
+FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
 
@@ -154,7 +154,8 @@ def linear_error(scene: Scene, t_end: float) -> float:
     Along the linear motion the exact equations leave a defect of second order; the linear pair's answer to it is the
     error, to leading order. The answer to the defect of the motion so corrected has the next order, too; by how much the
     two differ is added for the orders beyond. A pair that turns far about the joint line carries this from one coordinate
-    into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given.
+    into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given,
+    2 where that is not small: two axes are at most opposite.
     Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = modes(scene), scene.shock_until(t_end)
@@ -174,8 +175,8 @@ def linear_error(scene: Scene, t_end: float) -> float:
         axes = [MODEL.observe(scene, states + part).axes for part in (second, 0.0, first)]
         known, unsure = (float(np.linalg.norm(axes[0] - other, axis=-1).max()) for other in axes[1:])
     since = max(0.0, shock.at) if shock else 0.0
-    error = known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since)
-    return LINEAR_MARGIN * error if LINEAR_MARGIN * error < OPPOSITE else OPPOSITE
+    error = LINEAR_MARGIN * (known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
+    return error if error < FARTHEST_OFF else OPPOSITE
 
 
 def shock_response_error(scene: Scene, t_end: float) -> float:

@@ -13,20 +13,22 @@ from numpy.typing import NDArray
 
 from lagrotor.models.conserved import PulseNodes, pulse_nodes
 from lagrotor.models.estimate_constants import STAGE
-from lagrotor.models.integrated import Integrated, integrated
+from lagrotor.models.integrated import PATIENCE, Integrated, integrated
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import PACE
 from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 
 _SAMPLES = 65  # times of a stage at which a run is watched besides those it is read at
+_TIGHT = 1e-11  # a local error below which many evaluations are no sign that rounding is all that is left to resolve
 
 
 @dataclass(frozen=True, eq=False)
 class Watched:
     """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user.
 
-    stages: the times of each of the parts in which it is integrated. spent: evaluations of what was integrated so far.
+    stages: the times of each of the parts in which it is integrated. patience: as `integrated` has it. spent: evaluations
+    of what was integrated so far.
     """
 
     model: Model
@@ -36,6 +38,7 @@ class Watched:
     nodes: PulseNodes | None
     engine: str
     bounded: bool
+    patience: int
     spent: list[int] = field(default_factory=list)
 
     @property
@@ -52,7 +55,9 @@ class StagedRun:
     stages: list[Integrated] = field(default_factory=list)
 
 
-def watch(model: Model, scene: Scene, times: Array, engine: str, bounded: bool) -> Watched:
+def watch(
+    model: Model, scene: Scene, times: Array, engine: str, bounded: bool = False, patience: int = PATIENCE
+) -> Watched:
     """The model on a scene in natural units, watched at the user's times (n,) and others, the pulse's nodes among them."""
     t_end = float(times[-1])
     nodes, first = pulse_nodes(scene, t_end), 2 * pi * STAGE / PACE
@@ -62,7 +67,7 @@ def watch(model: Model, scene: Scene, times: Array, engine: str, bounded: bool) 
     if nodes:
         t = np.union1d(t, nodes.t)
     stages = np.split(t, np.searchsorted(t, ends[1:-1], side="right"))
-    return Watched(model, scene, tuple(stages), np.searchsorted(t, times), nodes, engine, bounded)
+    return Watched(model, scene, tuple(stages), np.searchsorted(t, times), nodes, engine, bounded, patience)
 
 
 def seen_in(watched: Watched, run: StagedRun, n: int) -> Observed:
@@ -73,8 +78,10 @@ def seen_in(watched: Watched, run: StagedRun, n: int) -> Observed:
         t, shock = watched.stages[i] - begin, scene.shock and replace(scene.shock, at=scene.shock.at - begin)
         scene = replace(scene, shock=shock)
         scene = replace(scene, shock=scene.shock_until(float(t[-1])))
+        patience = watched.patience if run.tol > _TIGHT else PATIENCE
+        how = (watched.engine, watched.bounded, run.companion, start, patience)
         try:
-            found = integrated(watched.model, scene, t, run.tol, watched.engine, watched.bounded, run.companion, start)
+            found = integrated(watched.model, scene, t, run.tol, *how)
         except StopError as stopped:
             watched.spent.append(stopped.nfev)
             raise StopError(begin + stopped.at, stopped.reason) from None

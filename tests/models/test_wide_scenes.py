@@ -90,7 +90,7 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
 
     def trusting(model, scene, times, wanted, engine, bounded):  # type: ignore[no-untyped-def]
         found = simulating.run_at(model, scene, times, wanted, engine, np.inf)
-        return type(found)(found.seen, np.full(len(times), wanted), np.inf, found.nfev, wanted)
+        return type(found)(found.seen, np.full(len(times), wanted), np.inf, found.nfev, wanted, np.inf)
 
     monkeypatch.setattr(simulating, "run_within", trusting)
     assert len(judge(SHORT, "core")[0]) > 2
@@ -101,7 +101,9 @@ def test_the_record_is_what_the_oracle_gives() -> None:
     rng = np.random.default_rng(5)
     for i in SHORT[::12]:
         exact, own, _ = reference(TRIALS[i], rng)
-        assert np.abs(exact - RECORDED["axes"][i]).max() <= 1e-15 + own.max() + RECORDED["own"][i].max()
+        # The starts are drawn by linear algebra, whose last digit depends on its kernels.
+        rounding = 1e-15 + 4 * np.finfo(float).eps * RECORDED["growth"][i].max()
+        assert np.abs(exact - RECORDED["axes"][i]).max() <= rounding + own.max() + RECORDED["own"][i].max()
 
 
 def test_the_scenes_are_as_wide_as_they_say() -> None:
