@@ -45,7 +45,9 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         try:
             error = linear_error(scene, t_end)
             if error <= tol:
-                return Choice("linear", error, f"small motion: normal modes, whose next terms are at most {scientific(error, 1)}")
+                return Choice(
+                    "linear", error, f"small motion: normal modes, whose next terms are at most {scientific(error, 1)}"
+                )
             missed = f"normal modes have an error of {scientific(error, 1)}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]

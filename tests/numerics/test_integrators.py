@@ -10,11 +10,12 @@ from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
 from lagrotor.models.integrated import problem_of
 from lagrotor.numerics import compile_program
+from lagrotor.numerics import Problem
 from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.segment import Array, Segment, StopError
