@@ -9,8 +9,7 @@ import pytest
 from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
 from lagrotor.models.integrated import problem_of
-from lagrotor.numerics import compile_program
-from lagrotor.numerics import Problem
+from lagrotor.numerics import Problem, compile_program
 from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
