@@ -81,13 +81,19 @@ def seen_in(watched: Watched, run: StagedRun, n: int) -> Observed:
         patience = watched.patience if run.tol > _TIGHT else PATIENCE
         how = (watched.engine, watched.bounded, run.companion, start, patience)
         try:
-            found = integrated(watched.model, scene, t, run.tol, *how)
+            found = integrated(_begun(watched.model, begin), scene, t, run.tol, *how)
         except StopError as stopped:
             watched.spent.append(stopped.nfev)
             raise StopError(begin + stopped.at, stopped.reason) from None
         watched.spent.append(found.nfev)
         run.stages.append(found)
     return run.stages[n].seen
+
+
+def _begun(model: Model, begin: float) -> Model:
+    """The model reporting the times of a stage from the start of the run on."""
+    report = model.progress
+    return model if report is None else replace(model, progress=lambda t: report(begin + t))
 
 
 def joined(stages: Sequence[Integrated]) -> Observed:

@@ -127,7 +127,9 @@ def test_a_run_in_stages_is_the_run_at_once(monkeypatch: pytest.MonkeyPatch) -> 
     times = np.linspace(0, 3, 31)
     whole = simulate(SHOCKED, times, "spheres", 1e-10)
     monkeypatch.setattr(in_stages, "STAGE", typical_rate(SHOCKED) * 3 / (2 * np.pi) / 8)
-    staged = simulate(SHOCKED, times, "spheres", 1e-10)
+    reached: list[float] = []
+    staged = simulate(SHOCKED, times, "spheres", 1e-10, progress=reached.append)
+    assert max(reached) == pytest.approx(3, abs=0.1)
     assert staged.evaluations != whole.evaluations
     assert staged.axes == pytest.approx(whole.axes, abs=2e-9) and staged.error < 1e-7
 
