@@ -218,7 +218,7 @@ def axes_and_accelerations(state: dict[sp.Symbol, float], signs: tuple[int, int]
     return by_angles, axes_accelerated(at)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_routh_reduction_leaves_a_gyroscopic_force_on_each_axis(seed: int) -> None:
     by_angles, by_axes = axes_and_accelerations(state_of_angles(seed), (1, 1))
     assert by_axes == pytest.approx(by_angles, abs=1e-10)
