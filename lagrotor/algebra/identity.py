@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import product
 from math import inf
 from typing import Literal
@@ -75,7 +75,7 @@ class Decision:
         """The largest absolute value at the points, of a nonzero or an undecided expression."""
         return self._largest[1]
 
-    @cached_property
+    @property
     def _largest(self) -> tuple[Point | None, float | None]:
         return (None, None) if self.seen is None else largest_value(self.seen, self.at)
 

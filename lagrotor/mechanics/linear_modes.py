@@ -6,7 +6,6 @@ Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel form
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -83,7 +82,7 @@ class LinearSystem:
         order = sorted(range(2 * d), key=lambda i: (round(float(abs(rates[i])), 9), rates[i].imag))
         return tuple(Mode(sp.sympify(complex(rates[i])), sp.Matrix(basis @ vectors[:d, i])) for i in order)
 
-    @cached_property
+    @property
     def stable_if(self) -> sp.Basic:
         """When every mode stays bounded or decays, as a condition on the parameters, sufficient and, but for equality,
         necessary.

@@ -1,7 +1,6 @@
 """A mechanical system, and what can be derived from it."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -26,7 +25,7 @@ class System(Equations):
     The arguments are those of `Equations`, to which this class adds what is derived from them.
     """
 
-    @cached_property
+    @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
         """The coordinates with a conserved momentum."""
         return symmetry.cyclic_coordinates(self)

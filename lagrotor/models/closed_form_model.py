@@ -6,7 +6,6 @@
 - opposite spins on their paired precession follow its periodic series, of the order that the tolerance needs.
 """
 
-from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -21,7 +20,6 @@ FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
 
 
-@lru_cache(maxsize=64)
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> Answer:
     """The closed form that holds the scene up to t_end (s); a series through the order that `tol` needs, at most 15.
 

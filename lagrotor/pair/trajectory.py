@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from functools import cached_property
 from importlib import import_module
 from math import inf, nan
 from pathlib import Path
@@ -49,23 +48,23 @@ class Trajectory(Shown):
     error: float = nan
     horizon: float = inf
 
-    @cached_property
+    @property
     def joints(self) -> Array:
         """Ground joints, (2, 3), in m."""
         half = (self.scene.link.length if self.scene.link else self.scene.rotor.length) / 2
         return np.array([[-half, 0.0, 0.0], [half, 0.0, 0.0]])
 
-    @cached_property
+    @property
     def tips(self) -> Array:
         """Tips of the rotors, (2, n, 3), in m."""
         return self.joints[:, None, :] + self.scene.rotor.length * self.axes
 
-    @cached_property
+    @property
     def link_length(self) -> Array:
         """Distance of the tips, (n,), in m: the bar's length, constant on the exact pair."""
         return np.linalg.norm(self.tips[1] - self.tips[0], axis=-1)
 
-    @cached_property
+    @property
     def energy(self) -> Array:
         """Kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), (n,), in J."""
         a, b = self.scene.inertias
@@ -73,7 +72,7 @@ class Trajectory(Shown):
         tilting = a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1)
         return tilting + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
 
-    @cached_property
+    @property
     def joint_line_momentum(self) -> Array:
         """Angular momentum about the line through the ground joints, (n,), in kg m²/s: conserved but for the shock."""
         a, b = self.scene.inertias
@@ -86,12 +85,12 @@ class Trajectory(Shown):
         """What the motion conserves, name → (n,): the two axial momenta and the momentum about the joint line."""
         return {"G_1": self.momenta[0], "G_2": self.momenta[1], "P": self.joint_line_momentum}
 
-    @cached_property
+    @property
     def inclinations(self) -> Array:
         """Inclinations theta_i, (2, n), in rad."""
         return np.arctan2(np.hypot(self.axes[..., 0], self.axes[..., 1]), self.axes[..., 2])
 
-    @cached_property
+    @property
     def azimuths(self) -> Array:
         """Azimuths phi_i of the axes, unwrapped, (2, n), in rad."""
         return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)

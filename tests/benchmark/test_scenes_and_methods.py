@@ -17,7 +17,6 @@ from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing import paper_style
 from lagrotor.errors import InputError
-from lagrotor.models import closed_form
 from lagrotor.pictures.speed_chart import speed_chart as draw
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())
@@ -82,17 +81,6 @@ def test_an_error_that_is_asked_for_less_gets_smaller_down_to_the_floor() -> Non
 
 
 # What is offered, and its ratios.
-
-
-def test_a_closed_form_meets_its_scene_anew_in_every_run() -> None:
-    run = METHODS["closed form"].prepare(displaced(), TIMES)
-    spent = []
-    for _ in range(2):
-        run(1e-6)
-        spent.append((closed_form.cache_info().misses, closed_form.cache_info().hits))
-    assert spent[0] == spent[1] and spent[0][0] == 1
-    simulate(displaced(), TIMES, "closed_form", 1e-6)  # twin: outside the chart it is remembered
-    assert closed_form.cache_info().misses == 1
 
 
 def small() -> Case:

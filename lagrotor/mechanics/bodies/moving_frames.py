@@ -68,13 +68,13 @@ class MovingFrame:
             return turn_matrix(self.axis, self.amount)
         return self.amount if self.parent is not None and self.amount.cols == 3 else sp.eye(3)
 
-    @cached_property
+    @property
     def shift(self) -> sp.Matrix:
         """d: the origin, from the parent's, in the parent's axes."""
         shifted = self.parent is not None and self.axis is None and self.amount.cols == 1
         return self.amount if shifted else sp.zeros(3, 1)
 
-    @cached_property
+    @property
     def own_rate(self) -> sp.Matrix:
         """u: the turn's own angular velocity, in this frame's axes."""
         if self.axis is not None:

@@ -29,7 +29,7 @@ class Body:
     inertia: sp.Matrix
     centre: sp.Matrix
 
-    @cached_property
+    @property
     def velocity(self) -> sp.Matrix:
         """v of the centre of mass, in the frame's axes, (3, 1)."""
         return self.frame.velocity(self.centre)
@@ -43,7 +43,7 @@ class Body:
         """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
-    @cached_property
+    @property
     def outline(self) -> Outline:
         """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration."""
         lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
@@ -92,7 +92,7 @@ class Energy:
 
     _op_priority = 100.0  # sympy hands + and − over
 
-    @cached_property
+    @property
     def bodies(self) -> tuple[Body, ...]:
         """The bodies, each once."""
         return tuple(dict.fromkeys(body for body, _, _ in self.terms))

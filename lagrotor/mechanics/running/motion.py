@@ -1,7 +1,7 @@
 """A motion: its states at some times, and whatever else is a function of them."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -37,13 +37,13 @@ class Motion:
     tol: float
     engine: Engine
 
-    @cached_property
+    @property
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""
         given = energy_program(self.system)
         return self._values(given, _compiled(given))
 
-    @cached_property
+    @property
     def drift(self) -> Array:
         """The largest violation of a constraint, |g| or |G v + b|, (n,); zero without constraints."""
         off = [*self.system.constraints, *self.system.residual]

@@ -77,7 +77,6 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 
 
-@lru_cache(maxsize=3)
 def observation(ratio: Ratio) -> Program:
     """(U, chi, alpha, rates; k) → r_1, r_2, r_1', r_2', twelve numbers."""
     stages = _Stages()

@@ -3,8 +3,6 @@
 The numbers are those that claim C15 is decided by, for the massless bar of the theory and for the bar of section 5.2.1.
 """
 
-from functools import cache
-
 import numpy as np
 
 from lagrotor.pair.lagrangians import pair_with_bar
@@ -17,7 +15,6 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import MASSLESS, OPPOSITE,
 (BAR_FORCE,) = pair_with_bar().multipliers
 
 
-@cache
 def breach() -> dict[str, tuple[float, float]]:
     """What breaks each premise, as a fraction, with a massless bar and with that of section 5.2.1.
 

@@ -8,7 +8,6 @@ import re
 import unicodedata
 from argparse import ArgumentParser
 from base64 import b64encode
-from functools import cache
 from pathlib import Path
 
 FAMILY = "Lagrotor Math"
@@ -34,7 +33,6 @@ def characters() -> frozenset[str]:
     return frozenset([*map(chr, range(0x20, 0x7F)), *_SIGNS, *_GREEK, *styled, "ℎ"])
 
 
-@cache
 def font_face() -> str:
     """Two CSS rules: the font, with its data inside, and that formulas are drawn with it."""
     data = b64encode(FILE.read_bytes()).decode("ascii")

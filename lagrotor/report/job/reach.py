@@ -70,7 +70,6 @@ def _file_of(module: str, folder: Path) -> Path | None:
     return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
 
 
-@cache
 def _texts(path: Path) -> frozenset[str]:
     """Every string of one word in a script."""
     return frozenset(_WORD.findall(_text(path)))
@@ -88,7 +87,6 @@ def named(path: Path, paper: Paper) -> tuple[str, ...]:
     return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
 
 
-@cache
 def taken_from(stem: str, paper: Paper) -> frozenset[str]:
     """Names that other scripts may take from a derivation: the strings in those that name it."""
     others = (path for kind in ("derivations", "figures") for path in (paper.scripts.base / kind).glob("*.py"))

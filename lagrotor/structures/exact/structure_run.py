@@ -1,7 +1,6 @@
 """A structure's run: axes, tips, energy, bars; its plot and its film."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,18 +26,18 @@ class StructureRun:
     error: float
     nfev: int
 
-    @cached_property
+    @property
     def tips(self) -> Array:
         """Positions of the tips, (N, n, 3), m."""
         c = coefficients(self.structure)
         return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
 
-    @cached_property
+    @property
     def energy(self) -> Array:
         """Kinetic and potential energy, (n,), J; the spins' own energy left out. Constant without friction and drive."""
         return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
 
-    @cached_property
+    @property
     def bar_length(self) -> Array:
         """Lengths of the bars, (B, n), m."""
         c = coefficients(self.structure)

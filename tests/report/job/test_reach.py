@@ -26,7 +26,6 @@ def clear() -> None:
         reach._text,
         reach._face,
         reach.imports,
-        reach._texts,
         reach.named,
         reach.reached,
         reach._file_digest,
