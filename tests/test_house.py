@@ -187,6 +187,26 @@ def test_a_folder_can_be_scanned_and_names_of_modules_are_single() -> None:
     assert [name for name, count in names.items() if count > 1] == []
 
 
+CLAIMS = "lagrotor/paper/rotor_pair/claims"
+PLACES = {
+    **dict.fromkeys(("shock", "drift", "toppling", "twist", "natural_rate"), ("lagrotor/theory", CLAIMS)),
+    "paired": ("lagrotor/theory",),
+    **dict.fromkeys(("standing", "waves"), ("lagrotor/structures",)),
+}
+
+
+def files_named(word: str, folder: Path) -> list[Path]:
+    """Python files that have a word in their name or in that of a folder below `folder`."""
+    return [path for path in folder.rglob("*.py") if word in path.relative_to(folder).as_posix()]
+
+
+@pytest.mark.parametrize("word", PLACES)
+def test_names_say_where_an_idea_is_derived_computed_judged_drawn_and_tested(word: str) -> None:
+    folders = ("derivations", *PLACES[word], "figures", "tests")
+    assert [folder for folder in folders if not files_named(word, ROOT / folder)] == []
+    assert not files_named(f"no_{word}", ROOT / CLAIMS)  # a name that is nowhere
+
+
 def test_the_guide_draws_this_house() -> None:
     drawing = (ROOT / "CONTRIBUTING.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
     drawn = [word.rstrip("/") for line in drawing.splitlines() for word in line[:25].split()]

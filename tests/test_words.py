@@ -27,9 +27,9 @@ FORBIDDEN = re.compile(
 
 
 def prose(path: Path) -> list[str]:
-    """Lines of a Markdown file, and comments and strings of a script with more than one word."""
+    """Lines of a page or notebook, and comments and strings of a script with more than one word."""
     text = path.read_text(encoding="utf-8")
-    if path.suffix == ".md":
+    if path.suffix != ".py":
         return text.splitlines()
     tokens = tokenize.generate_tokens(io.StringIO(text).readline)
     kinds = (tokenize.COMMENT, tokenize.STRING)
@@ -38,7 +38,9 @@ def prose(path: Path) -> list[str]:
 
 @pytest.mark.parametrize("folder", ["lagrotor", "derivations", "figures", "papers", "docs"])
 def test_no_thing_is_spoken_of_as_a_person(folder: str) -> None:
-    files = [path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".py", ".md")]
+    files = [
+        path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".py", ".md", ".js", ".html", ".ipynb")
+    ]
     assert files and [f"{path.name}: {line}" for path in files for line in prose(path) if FORBIDDEN.search(line)] == []
 
 

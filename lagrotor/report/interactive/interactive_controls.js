@@ -8,7 +8,7 @@ function show(root) {
   const canvases = { space: part("space"), top: part("top"), length: part("length") };
   const longest = Number(controls.time.max); // s
   const eye = { azimuth: -1.25, elevation: 0.3 };
-  let now = 0, playing = false, asked = 0, last = null, setting = null, run = null;
+  let now = 0, playing = false, frame = 0, last = null, setting = null, run = null;
 
   const number = (name) => Number(controls[name].value);
   const shown = (layer) => part(`show-${layer}`).checked && (layer === "exact" || run.paired);
@@ -37,7 +37,7 @@ function show(root) {
       + `of the tips; ${spins}. The arrow keys turn it; the table below has its numbers`);
     controls.order.disabled = controls.rate.disabled = !run.paired;
     for (const layer of ["series", "paper"]) part(`show-${layer}`).disabled = !run.paired;
-    ask();
+    redraw();
   }
 
   // Written only where it changes, so that a screen reader stays quiet while the pair moves.
@@ -47,8 +47,8 @@ function show(root) {
 
   function note(exact) {
     const said = [];
-    if (run.struck) {
-      said.push(`After a shock of ${fixed(run.struck[0], 2)} and ${fixed(run.struck[1], 2)} N s along x and y on tip 1: the exact `
+    if (run.impulse) {
+      said.push(`After a shock of ${fixed(run.impulse[0], 2)} and ${fixed(run.impulse[1], 2)} N s along x and y on tip 1: the exact `
         + "motion from the shock on. A slider starts anew.");
     } else if (setting.spins.every((spin) => spin === 0)) {
       said.push("Without spin nothing drives the pair: it stays where it is put.");
@@ -87,12 +87,12 @@ function show(root) {
   function read(layers) {
     const exact = layers.exact;
     for (const layer of LAYERS) {
-      const found = layers[layer], tell = (name, words) => say(`${layer}-${name}`, words);
+      const found = layers[layer], put = (name, words) => say(`${layer}-${name}`, words);
       const length = found ? barLength(found.axes, setting.ell) : NaN;
-      tell("length", fixed(length, 6));
-      tell("error", small(length - setting.ell));
+      put("length", fixed(length, 6));
+      put("error", small(length - setting.ell));
       for (const i of [0, 1]) {
-        if (layer !== "exact") tell(`tip-${i + 1}`, small(found && exact ? apart(found.axes, exact.axes, i) : NaN));
+        if (layer !== "exact") put(`tip-${i + 1}`, small(found && exact ? apart(found.axes, exact.axes, i) : NaN));
       }
     }
     part("exact-rate").textContent = fixed(
@@ -164,12 +164,12 @@ function show(root) {
     root.scrollIntoView();
   }
 
-  function ask() {
-    if (!asked) asked = requestAnimationFrame(tick);
+  function redraw() {
+    if (!frame) frame = requestAnimationFrame(tick);
   }
 
   function tick(stamp) {
-    asked = 0;
+    frame = 0;
     if (playing && last !== null) now += Math.min(stamp - last, 100) / 1000 * number("speed");
     last = playing ? stamp : null;
     if (now >= longest) {
@@ -177,7 +177,7 @@ function show(root) {
       play(false);
     }
     draw();
-    if (playing) ask();
+    if (playing) redraw();
   }
 
   function play(on) {
@@ -185,15 +185,15 @@ function show(root) {
     playing = on;
     last = null;
     part("play").textContent = on ? "Pause" : "Play";
-    if (on) ask();
+    if (on) redraw();
   }
 
   for (const name of choices) controls[name].addEventListener("input", choose);
-  for (const layer of LAYERS) part(`show-${layer}`).addEventListener("input", ask);
+  for (const layer of LAYERS) part(`show-${layer}`).addEventListener("input", redraw);
   controls.time.addEventListener("input", () => {
     play(false);
     now = number("time");
-    ask();
+    redraw();
   });
   part("play").addEventListener("click", () => play(!playing));
   part("strike").addEventListener("click", () => {
@@ -201,7 +201,7 @@ function show(root) {
     const next = impulse.every(Number.isFinite) ? run.after(now, impulse) : null;
     if (!next) return;
     [run, now] = [next, 0];
-    ask();
+    redraw();
   });
   part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
   part("link").addEventListener("click", () => {
@@ -210,13 +210,13 @@ function show(root) {
   });
   part("again").addEventListener("click", () => {
     now = 0;
-    ask();
+    redraw();
   });
 
   function turnEye(right, up) {
     eye.azimuth -= right;
     eye.elevation = Math.max(-0.2, Math.min(Math.PI / 2, eye.elevation + up));
-    ask();
+    redraw();
   }
   const space = canvases.space;
   let grip = [0, 0];
@@ -236,8 +236,8 @@ function show(root) {
     turnEye(...KEYS[event.key]);
   });
 
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
-  new ResizeObserver(ask).observe(root);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  new ResizeObserver(redraw).observe(root);
   // It plays by itself only where it is seen and motion is welcome, and rests while it is scrolled away.
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   let waiting = !still.matches;

@@ -169,7 +169,7 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   found.after = (time, impulse) => {
     const state = found.exact.stateAt(time);
     if (!state) return null;
-    return { ...found, paired: false, periodic: false, struck: impulse, exact: run(shocked(slopes, state, a, b, k, impulse)) };
+    return { ...found, paired: false, periodic: false, impulse, exact: run(shocked(slopes, state, a, b, k, impulse)) };
   };
   return found;
 }

@@ -12,15 +12,15 @@ function words(query) {
 }
 
 // Whether an entry is meant: an id (or a figure's name) from its beginning, any other word anywhere.
-function matches(asked, id, text) {
-  return asked.every((word) => (/\d/.test(word) && id.startsWith(word)) || (!/^figure-/.test(word) && text.includes(word)));
+function matches(sought, id, text) {
+  return sought.every((word) => (/\d/.test(word) && id.startsWith(word)) || (!/^figure-/.test(word) && text.includes(word)));
 }
 
 // Those of the entries that are meant, an id that is met exactly first.
 function search(query, entries) {
-  const asked = words(query);
-  const found = asked.length ? entries.filter((entry) => matches(asked, entry.id, entry.text)) : [];
-  const exact = (entry) => Number(asked.includes(entry.id));
+  const sought = words(query);
+  const found = sought.length ? entries.filter((entry) => matches(sought, entry.id, entry.text)) : [];
+  const exact = (entry) => Number(sought.includes(entry.id));
   return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
 }
 
@@ -42,9 +42,9 @@ function setUpSearch() {
   }));
   let first = null;
   function show() {
-    const asked = input.value.trim();
-    const [inTable, outside] = [search(asked, rows), search(asked, entries)];
-    for (const { row } of rows) row.hidden = asked !== "" && !inTable.some((entry) => entry.row === row);
+    const sought = input.value.trim();
+    const [inTable, outside] = [search(sought, rows), search(sought, entries)];
+    for (const { row } of rows) row.hidden = sought !== "" && !inTable.some((entry) => entry.row === row);
     elsewhere.replaceChildren(
       ...outside.slice(0, 12).map(({ target, name }) => {
         const [item, anchor] = [document.createElement("li"), document.createElement("a")];
@@ -55,8 +55,8 @@ function setUpSearch() {
       }),
     );
     const more = outside.length > 12 ? ", of which 12 are listed" : "";
-    said.textContent = asked && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures and errata${more}`;
-    first = search(asked, [...inTable, ...outside])[0] ?? null;
+    said.textContent = sought && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures and errata${more}`;
+    first = search(sought, [...inTable, ...outside])[0] ?? null;
   }
   form.hidden = false;
   form.addEventListener("input", show);
