@@ -5,12 +5,11 @@
 # to it.
 #
 # **Assumptions.** Small motion about upright axes; in the closed forms equal rotors and loads and massless bars. The
-# numbers
-# hold the linear verdicts to the exact motion, with heavy bars too.
+# numbers hold the linear verdicts to the exact motion, with heavy bars too.
 #
 # **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included;
-# $\kappa=gS$ its
-# weight's moment; $b$ the coupling by a heavy bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for motion as $e^{st}$.
+# $\kappa=gS$ its weight's moment; $b$ the coupling by a heavy bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for
+# motion as $e^{st}$.
 
 # %%
 from math import inf, sqrt
@@ -53,9 +52,9 @@ prove(
 )
 
 # %% [markdown]
-# The factor $\lambda$ holds no spin: one motion falls at $\sqrt{\kappa/a}$, as if nothing turned. It is the one on
-# which the two gyroscopic moments cancel, $x=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling
-# about the joint line. A heavy bar mixes the motions, but at $s=0$ and for large $s$ its polynomial has the signs
+# The factor $\lambda$ holds no spin: one motion falls at $\sqrt{\kappa/a}$, as if nothing turned. It is the one on which
+# the two gyroscopic moments cancel, $x=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
+# the joint line. A heavy bar mixes the motions, but at $s=0$ and for large $s$ its polynomial has the signs
 
 # %%
 heavy = sp.Poly(polynomial([3, 2], link=Link(1, 0.3, 0.1), **pair), s)
@@ -71,9 +70,9 @@ prove(heavy.coeff_monomial(s**6), 2 * (a - b) * (a + b) ** 2, "its leading coeff
 # ## The same for any structure
 #
 # On $n$ freedoms $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of freedoms
-# falls, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes one
-# of $2N$ freedoms, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no rigid
-# plate ($n=3$).
+# falls, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes one of
+# $2N$ freedoms, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no rigid plate
+# ($n=3$).
 #
 # Where all fall alike, every freedom belongs to a pair of motions on which the spins act with one $\beta$:
 # $\lambda^2+\beta^2s^2=0$, which is a quadratic in $p=s^2$ with the discriminant
@@ -183,8 +182,8 @@ Remark(
 # %% [markdown]
 # ## A brace across the bar
 #
-# A spring $k$ on $y_1$ of the pair ($k$ times $R^2$ against $\kappa$) leaves two freedoms that fall where $k>\kappa$,
-# an even number:
+# A spring $k$ on $y_1$ of the pair ($k$ times $R^2$ against $\kappa$) leaves two freedoms that fall where $k>\kappa$, an
+# even number:
 
 # %%
 across = [Brace(0, (0.0, 1.0, 1.0), 200.0)]
@@ -196,8 +195,8 @@ prove(
 )
 
 # %% [markdown]
-# Divided by $k$, for a stiff brace, it is $2\lambda^2+G_2^2s^2$: the pair stands from $G_2=2\sqrt2\sqrt{a\kappa}$ on,
-# the spin of the rotor without the brace, whichever sense the other has.
+# Divided by $k$, for a stiff brace, it is $2\lambda^2+G_2^2s^2$: the pair stands from $G_2=2\sqrt2\sqrt{a\kappa}$ on, the
+# spin of the rotor without the brace, whichever sense the other has.
 
 # %%
 stiff = sp.Limit((2 * lam**2 * (lam + k) + G_1**2 * s**2 * lam + G_2**2 * s**2 * (lam + k)) / k, k, sp.oo).doit()
@@ -224,13 +223,13 @@ prove(
 )
 
 # %% [markdown]
-# With $2k>\kappa$ equal spins stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never, whatever
-# the spring: the factor $\lambda$ is toppling, on which they do not act.
+# With $2k>\kappa$ equal spins stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never, whatever the
+# spring: the factor $\lambda$ is toppling, on which they do not act.
 #
 # ## Friction
 #
-# In the complex tilt $x+iy$ of a pair of motions, friction $c$ makes of it $as^2+(c-i\beta)s-\kappa=0$. Without
-# friction $s=iw$ with $\kappa=\beta w-aw^2$. To first order $s=iw+cg$:
+# In the complex tilt $x+iy$ of a pair of motions, friction $c$ makes of it $as^2+(c-i\beta)s-\kappa=0$. Without friction
+# $s=iw$ with $\kappa=\beta w-aw^2$. To first order $s=iw+cg$:
 
 # %%
 w, i = sp.Symbol("w", real=True), sp.I

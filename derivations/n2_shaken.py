@@ -2,17 +2,14 @@
 # # Shaken: spins against a tuned mass
 #
 # **Objective.** What spins do to the resonance of a pair that is held elastically; the optimal brace and damper for it;
-# from
-# which spin on it does better than a tuned mass damper of the same mass.
+# from which spin on it does better than a tuned mass damper of the same mass.
 #
 # **Assumptions.** Small motion, massless bars, equal rotors; the optima are those of an undamped sway. The closed forms
-# are held
-# to the transfer functions of the library, those to the exact motion.
+# are held to the transfer functions of the library, those to the exact motion.
 #
 # **Notation.** $a$ the inertia of an axis about its joint, $h$ its hinge's stiffness less its weight's moment; $u$ the
-# common
-# tilt along the bar, $v_1, v_2$ the tilts across it; $\Omega$ the rate of the sway without spins; $\mu$ the mass ratio of a
-# tuned mass; $\gamma=G/(a\Omega)$.
+# common tilt along the bar, $v_1, v_2$ the tilts across it; $\Omega$ the rate of the sway without spins; $\mu$ the mass
+# ratio of a tuned mass; $\gamma=G/(a\Omega)$.
 
 # %%
 import numpy as np
@@ -70,8 +67,8 @@ split = sp.expand(((a * s**2 + h) ** 2 + G**2 * s**2).subs(s, sp.I * w))
 prove(split, (a * w**2 - G * w - h) * (a * w**2 + G * w - h), "the resonances along the bar")
 
 # %% [markdown]
-# A force across the bar on both tips, or a ground that shakes across it, drives $v_1+v_2$, on which opposite spins do
-# not act:
+# A force across the bar on both tips, or a ground that shakes across it, drives $v_1+v_2$, on which opposite spins do not
+# act:
 
 # %%
 shaken = pencil(G, -G).LUsolve(sp.Matrix([0, F, F]))
@@ -97,9 +94,9 @@ transfer = top / ((s**2 + 1) * top + gamma**2 * s**2)
 prove(system.LUsolve(sp.Matrix([1, 0]))[0], transfer, "the sway's transfer function", names="X")
 
 # %% [markdown]
-# With $\nu=\omega^2$, $A=f^2-\nu$, $P=1-\nu$: $|X|^2=(A^2+4\zeta^2\nu)/((PA-\nu\gamma^2)^2+4\zeta^2\nu P^2)$. It does
-# not depend on the damper where $2PA=\nu\gamma^2$, and is $1/P^2$ there (Den Hartog's fixed points). Both are equally
-# high if $\nu_1+\nu_2=2$, which the tuning $f^2=1-\gamma^2/2$ makes true:
+# With $\nu=\omega^2$, $A=f^2-\nu$, $P=1-\nu$: $|X|^2=(A^2+4\zeta^2\nu)/((PA-\nu\gamma^2)^2+4\zeta^2\nu P^2)$. It does not
+# depend on the damper where $2PA=\nu\gamma^2$, and is $1/P^2$ there (Den Hartog's fixed points). Both are equally high if
+# $\nu_1+\nu_2=2$, which the tuning $f^2=1-\gamma^2/2$ makes true:
 
 # %%
 tuning = 1 - gamma**2 / 2
@@ -141,8 +138,8 @@ prove((level[1] + level[-1]) / 2 / 4, sp.Rational(3, 8) * gamma**2, "the damper 
 # %% [markdown]
 # ## White noise
 #
-# The mean square of $X$ under white noise is $b\,\Pi\,b^T$ with $\Pi$ the covariance of the four states, from
-# Lyapunov's equation.
+# The mean square of $X$ under white noise is $b\,\Pi\,b^T$ with $\Pi$ the covariance of the four states, from Lyapunov's
+# equation.
 
 
 # %%
@@ -218,8 +215,8 @@ prove(
 # %% [markdown]
 # ## Held to a structure
 #
-# Two thin discs of 1 kg, radius 0.5 m, on axes of 1 m, 50 kg on each tip, swaying along the bar at $\Omega=2\pi$ rad/s:
-# a tuned mass of the discs' mass has $\mu=1/50$.
+# Two thin discs of 1 kg, radius 0.5 m, on axes of 1 m, 50 kg on each tip, swaying along the bar at $\Omega=2\pi$ rad/s: a
+# tuned mass of the discs' mass has $\mu=1/50$.
 
 
 # %%
