@@ -139,7 +139,7 @@ class Equations:
         """λ_1 … λ_k, the names of the multipliers in `motion` and `power`."""
         return tuple(sp.Symbol(f"lambda_{i + 1}", real=True) for i in range(len(self.residual)))
 
-    @property
+    @cached_property
     def motion(self) -> sp.Matrix:
         """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)

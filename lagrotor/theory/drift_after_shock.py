@@ -43,7 +43,6 @@ def second_order_momentum() -> sp.Expr:
     return sp.expand(momentum.subs(x1, x2 + lean))
 
 
-@cache
 def mean_square_twist() -> sp.Expr:
     """<(y_1 − y_2)²> over the swing after a shock on rotor 1, from the linear response of opposite spins."""
     matrices = impulse_matrices()

@@ -65,7 +65,6 @@ def _ordered(linear: LinearSystem) -> LinearSystem:
     return LinearSystem(mass, gyroscopic, stiffness, linear.basis * change)
 
 
-@cache
 def shock_displacement() -> ClosedForm:
     """(x, y_1, y_2) about which the pair precesses just after an impulse: the permanent displacement (1).
 
@@ -74,7 +73,6 @@ def shock_displacement() -> ClosedForm:
     return _form("shock_displacement", ("x", "y_1", "y_2"), impulse_matrices().displacement * _impulse())
 
 
-@cache
 def shock_drift() -> ClosedForm:
     """(x', y_1', y_2') of the mean motion after an impulse, (1/s): n (n.p)/(n.M n), n = (0, G_2, −G_1) up to sign.
 
@@ -83,7 +81,6 @@ def shock_drift() -> ClosedForm:
     return _form("shock_drift", ("x'", "y_1'", "y_2'"), impulse_matrices().drift * _impulse())
 
 
-@cache
 def shock_swing() -> ClosedForm:
     """Velocity amplitudes (x, y_1, y_2) of the swing's sine, (1/s), in the limit of a short pulse: S p.
 
@@ -92,7 +89,6 @@ def shock_swing() -> ClosedForm:
     return _form("shock_swing", ("x", "y_1", "y_2"), impulse_matrices().swing * _impulse())
 
 
-@cache
 def shock_energy() -> ClosedForm:
     """(E_drift, E_swing) in J gained from an impulse: (n.p)²/(2 n.M n) and p.S p/2; their sum is p.M⁻¹ p/2.
 

@@ -30,7 +30,6 @@ from lagrotor.theory.toppling import twisted_lagrangian
 Array = NDArray[np.float64]
 
 
-@cache
 def parallel_residual() -> tuple[sp.Expr, ...]:
     """What the equations of (U, Delta, alpha) leave of a parallel motion, Delta = 0 for all time: (U, twist, alpha).
 

@@ -45,7 +45,6 @@ def turning(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
     return still | {TWISTED.v[2]: rate}
 
 
-@cache
 def toppling_residual() -> tuple[sp.Expr, ...]:
     """What the equations of motion leave of uniform turning, (U, Delta, alpha): zero exactly if (G_1 + G_2) nu = 0."""
     return tuple(sp.expand(e) for e in euler_lagrange(twisted_lagrangian(), TWISTED).subs(turning()))
@@ -96,7 +95,6 @@ def toppling_growth() -> ClosedForm:
     )
 
 
-@cache
 def toppling_threshold() -> ClosedForm:
     """nu* = G / (k b): beyond it the sense of turning changes its stability. b > 0: nu in (0, nu*) is unstable (G > 0);
     b < 0: nu > 0 and nu < nu* are; b = 0 has no threshold."""

@@ -6,7 +6,6 @@ the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -53,7 +52,6 @@ class Bloch:
         )
 
 
-@lru_cache(maxsize=32)
 def bloch(p: Cell) -> Bloch:
     """The matrices of a pattern. Raises InputError for what `Structure` refuses in a cell and its neighbours."""
     N, away = len(p.joints), p.neighbours

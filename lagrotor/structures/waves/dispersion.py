@@ -1,7 +1,6 @@
 """Bands of a pattern: rates against wave number, growth, gaps, group velocity, zero bands, long-wave speed."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -46,7 +45,7 @@ class Dispersion:
             top = max(top, high[k])
         return tuple(found)
 
-    @cached_property
+    @property
     def velocity(self) -> Array:
         """Group velocity, (n_q, n_bands, 2), m/s: the steps weighed by dω/dq of each; zero where the rate is.
 

@@ -12,7 +12,7 @@ sigma and k = ell / R. The amplitude r_0 is x_1(0) = x_2(0): the sine of the inc
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import inf, sqrt
 from typing import Any, NamedTuple
 
@@ -82,7 +82,7 @@ class PairedSeries:
             total += sp.factor(self.field.to_sympy(value)) * r0**n * wave
         return total
 
-    @cached_property
+    @property
     def coefficients(self) -> Array:
         """Of r_1, for a numeric bar, (order + 1, order + 1, 3): [n, h] belongs to r0**n and harmonic h."""
         found = np.zeros((self.order + 1, self.order + 1, 3))
@@ -91,7 +91,7 @@ class PairedSeries:
                 found[n, abs(h), i] = width * float(value)
         return found
 
-    @cached_property
+    @property
     def frequency_coefficients(self) -> Array:
         """Of Omega/Omega_0 in powers of r0, for a numeric bar: (order + 1,)."""
         found = np.zeros(self.order + 1)
@@ -130,7 +130,7 @@ class PairedSeries:
         part = max(OF_AXES, float((np.abs(coefficients)[2:] / sizes[2:]).max(initial=0.0)))
         return part * rest_of(sizes * abs(r0) ** np.arange(len(sizes)))
 
-    @cached_property
+    @property
     def _sizes(self) -> Array:
         """Sizes of the coefficients of r0**n in the axes and their derivatives by the phase, (order + 1,)."""
         harmonic = np.maximum(np.arange(self.order + 1), 1)[:, None]
