@@ -29,6 +29,7 @@ def rotor_precession_rate() -> ClosedForm:
     )
 
 
+@cache
 def pair_precession_rate() -> ClosedForm:
     """phi' of the ansatz pair from its integrals A and B, for any J and I_3; the paper's (5.15) for J = I_3 = I."""
     theta_1, theta_2 = ANSATZ.q[:2]

@@ -95,6 +95,7 @@ def toppling_growth() -> ClosedForm:
     )
 
 
+@cache
 def toppling_threshold() -> ClosedForm:
     """nu* = G / (k b): beyond it the sense of turning changes its stability. b > 0: nu in (0, nu*) is unstable (G > 0);
     b < 0: nu > 0 and nu < nu* are; b = 0 has no threshold."""

@@ -9,6 +9,8 @@ so at Phi = 0 and exactly r_0 for sigma < 1; near Phi = pi/2 for sigma > 1; and 
 sigma = 1. From there it is followed order by order.
 """
 
+from functools import cache
+
 import numpy as np
 import sympy as sp
 
@@ -35,6 +37,7 @@ def _first(series: PairedSeries, amplitude: float) -> float:
     return float(series.harmonics(amplitude)[1, 0])
 
 
+@cache
 def amplitude_of_first_harmonic(order: int = 3) -> ClosedForm:
     """r_0 of the paired precession whose x_1 has a_1 cos Phi, through a_1**order: the series reversed. (a_1, sigma, k)."""
     forward = first_harmonic(order).expressions[0]
@@ -64,6 +67,7 @@ def _through(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
     return sum((sp.factor(polynomial.coeff_monomial(small**n)) * small**n for n in range(order + 1)), sp.Integer(0))
 
 
+@cache
 def largest_inclination(shape: str = "dumbbell", order: int = 3) -> ClosedForm:
     """sin of the largest inclination of either axis on the paired precession of amplitude r_0 > 0. (r_0, sigma, k).
 

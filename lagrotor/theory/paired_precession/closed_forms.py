@@ -74,6 +74,7 @@ def _axes(series: PairedSeries, given: Given) -> Array:
     return np.moveaxis(axes, -1, 1).reshape(6, -1)
 
 
+@cache
 def corrected_inclinations(order: int = 2) -> ClosedForm:
     """(sin theta_1, sin theta_2) of the paired precession with a massless bar or a dumbbell (sigma = 1), in r_0 (5.20).
 
