@@ -10,7 +10,7 @@ import json
 import os
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
@@ -23,7 +23,7 @@ from lagrotor.benchmark.method import Array, Runner
 from lagrotor.benchmark.peers.multibody_engines import ENGINES
 from lagrotor.benchmark.peers.rig import Rig
 from lagrotor.benchmark.recorded_speed import machine, versions
-from lagrotor.errors import LagrotorError
+from lagrotor.errors import IntegrationError, LagrotorError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
@@ -36,7 +36,8 @@ RECORDED = Path(__file__).with_name("recorded_structures.json")
 SIZES = (16, 64, 256)
 ERROR = 1e-6
 TIMES = np.linspace(0, 3, 31)
-_LONGEST = 40.0  # s of a run, after which no finer setting is tried
+_LONGEST = 25.0  # s of a run, after which no finer setting is tried
+_ONCE = 10.0  # s of a run that is not repeated
 _ROUNDS = 3
 _TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(3, 24))
 _MODULES = {"MuJoCo": "mujoco", "Pinocchio": "pinocchio", "Drake": "pydrake"}
@@ -47,7 +48,8 @@ Run = Callable[[float], Array]
 class Timed:
     """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
 
-    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached.
+    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached,
+    and reason why it stopped, where it did.
     """
 
     n: int
@@ -56,6 +58,7 @@ class Timed:
     error: float
     seconds: float | None
     first: float
+    reason: str = ""
 
 
 def staircase(n: int) -> Structure:
@@ -86,12 +89,19 @@ def tools(n: int) -> dict[str, tuple[Run, tuple[float, ...]]]:
         found["lagrotor, fast, one integration"] = (_once(s, at_start), _TOLERANCES[3:])
     for name, (prepare, steps) in ENGINES.items():
         if find_spec(_MODULES[name.split(",")[0]]):
-            found[name] = (_tips_only(prepare(rig, TIMES)), steps or _TOLERANCES[7:])
+            found[name] = (_prepared(prepare, rig), steps or _TOLERANCES[9:])
     return found
 
 
-def _tips_only(run: Runner) -> Run:
-    return lambda setting: run(setting)[0]
+def _prepared(prepare: Callable[[Rig, Array], Runner], rig: Rig) -> Run:
+    """Prepared at its first run, in which it may be refused."""
+    made: list[Runner] = []
+
+    def run(setting: float) -> Array:
+        made[:] = made or [prepare(rig, TIMES)]
+        return made[0](setting)[0]
+
+    return run
 
 
 def _once(s: Structure, at_start: StructureRun) -> Run:
@@ -113,23 +123,25 @@ def compared(n: int, say: Callable[[str], None]) -> list[Timed]:
     found, chosen = dict[str, Timed](), dict[str, tuple[Run, float, list[float]]]()
     for name, (run, settings) in tools(n).items():
         found[name], seconds = _reached(n, name, run, settings, truth), list[float]()
-        if found[name].error <= ERROR:
+        if found[name].error <= ERROR and found[name].first < _ONCE:
             chosen[name] = (run, found[name].setting, seconds)
         say(f"{n} {name}: error {found[name].error:.1e} at {found[name].setting:g}")
     for _ in range(_ROUNDS):
         for run, setting, seconds in chosen.values():
             seconds.append(_timed(run, setting)[1])
-    return [
-        Timed(**{**asdict(each), "seconds": median(chosen[name][2]) if name in chosen else None})
-        for name, each in found.items()
-    ]
+    taken = {name: each.first if each.error <= ERROR else None for name, each in found.items()}
+    taken |= {name: median(seconds) for name, (_, _, seconds) in chosen.items()}
+    return [replace(each, seconds=taken[name]) for name, each in found.items()]
 
 
 def _reached(n: int, name: str, run: Run, settings: tuple[float, ...], truth: Array) -> Timed:
     """The first setting within ERROR, or the best of those that were tried."""
     best = Timed(n, name, settings[0], np.inf, None, 0.0)
     for setting in settings:
-        tips, seconds = _timed(run, setting)
+        try:
+            tips, seconds = _timed(run, setting)
+        except IntegrationError as refusal:
+            return replace(best, reason=str(refusal))
         error = float(np.abs(tips - truth).max())
         if error < best.error:
             best = Timed(n, name, setting, error, None, seconds)

@@ -5,7 +5,7 @@ component of the state. A constant dummy state, the last one, of a size chosen a
 order: three orders serve every tolerance, each in the steps that pay.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import exp
 from typing import Any
 
@@ -51,18 +51,19 @@ def march(
     project: Projection | None = None,
     longest_between: float = np.inf,
     longest: float = np.inf,
+    goes_on: Callable[[Array], bool] | None = None,
 ) -> tuple[Array, Array, int]:
     """States (n, d) at the times within the span, begun with y (d,); the state at its end; evaluations, steps times order.
 
     size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
-    longest: of a step. Raises StopError where it stops.
+    longest: of a step. goes_on: whether it may go on from the state (d,) after a step. Raises StopError where it stops.
     """
     (left, right), found, steps = span, list[Array](), 0
     while left < right or not found:
         solver.time, solver.state[:-1], solver.state[-1] = left, y, size
         until = min(right, left + longest_between)
         inside = times[(times > left if found else times >= left) & (times <= until)]
-        states, y, more = _propagated(solver, inside, until, longest)
+        states, y, more = _propagated(solver, inside, until, longest, goes_on)
         if states is None:
             reason = "the Taylor series has no step; engine='core' may go on"
             raise StopError(solver.time, reason, nfev=(steps + more) * solver.order)
@@ -71,12 +72,15 @@ def march(
     return np.concatenate(found), y, steps * solver.order
 
 
-def _propagated(solver: Any, t_eval: Array, until: float, longest: float) -> tuple[Array | None, Array, int]:
+def _propagated(
+    solver: Any, t_eval: Array, until: float, longest: float, goes_on: Callable[[Array], bool] | None
+) -> tuple[Array | None, Array, int]:
     """States (n, d) at the times within the solver's and `until`, the state there, and steps; None where it stops."""
     before = 0 if len(t_eval) and t_eval[0] == solver.time else 1
     after = 0 if len(t_eval) and t_eval[-1] == until else int(until > solver.time)
     grid = np.concatenate([[solver.time] * before, t_eval, [until] * after])
-    outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_delta_t=longest, max_steps=MOST_STEPS)
+    more = {} if goes_on is None else {"callback": lambda stepped: goes_on(stepped.state[:-1])}
+    outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_delta_t=longest, max_steps=MOST_STEPS, **more)
     if "time_limit" not in str(outcome) or not np.isfinite(states).all():
         return None, np.empty(0), steps
     states = states[:, :-1]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Brace, Link, Structure
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, IntegrationError
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.written_out import accelerations
@@ -105,3 +105,12 @@ def test_a_wide_grid_is_refused() -> None:
     s = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
     with pytest.raises(InputError, match="up to 64 rotors, not of 256"):
         s.simulate([0.0, 1.0], engine="fast")
+
+
+def test_no_step_passes_a_position_where_a_bar_is_in_line_with_its_axes(heyoka) -> None:
+    """A pair without spin falls along its bar, through the line of the joints; across it, through no such place."""
+    s = Structure([(0, 0), (1, 0)], [(0, 1)], 0.0, gravity=9.81)
+    with pytest.raises(IntegrationError, match="singular"):
+        s.simulate([0, 3], tilt=[(0.01, 0)] * 2, engine="fast", tol=1e-6)
+    across = s.simulate([0, 3], tilt=[(0, 0.01)] * 2, engine="fast", tol=1e-6)
+    assert across.axes[0, -1, 2] < 0

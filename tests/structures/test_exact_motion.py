@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
-from lagrotor.errors import InputError, LagrotorWarning, SingularError
+from lagrotor.errors import InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.structures import exact_motion, right_hand_side
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
@@ -162,6 +162,10 @@ def test_a_tolerance_that_is_not_kept_is_said() -> None:
         ({"tilt": [0.1]}, "2, 2"),
         ({"rates": [(np.nan, 0)] * 2}, "finite"),
         ({"drive": lambda t: np.zeros(3)}, "drive"),
+        ({"drive": lambda t: np.full((2, 3), np.nan if t else 0.0)}, "drive at t = 1"),
+        ({"drive": lambda t: np.zeros((2, 3)) if not t else None}, "drive at t = 1"),
+        ({"ground": lambda t: np.zeros(3 if not t else 2)}, r"at t = 1 it is \(2,\)"),
+        ({"ground": 3.0}, "ground = 3.0 must be a function"),
         ({"t": [1, 0]}, "increasing"),
     ],
 )
@@ -175,3 +179,12 @@ def test_a_start_where_bar_and_axes_are_in_line_is_refused() -> None:
     s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[1, 1])
     with pytest.raises(SingularError, match="dependent"):
         s.simulate([0, 1], tilt=[(1, 0, 0)] * 2)
+
+
+def test_a_run_that_stops_says_when_in_seconds() -> None:
+    """A pair without spin falls along its bar into the line of the joints; across it, through no such place."""
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], gravity=9.81)
+    with pytest.raises(IntegrationError, match="near t") as told:
+        s.simulate([0, 3], tilt=[(0.01, 0)] * 2)
+    assert told.value.at == pytest.approx(2.95, abs=0.05)
+    assert s.simulate([0, 3], tilt=[(0, 0.01)] * 2).axes[0, -1, 2] < 0

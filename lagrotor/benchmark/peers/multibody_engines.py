@@ -19,6 +19,7 @@ from lagrotor.errors import IntegrationError
 
 Array = NDArray[np.float64]
 
+_LARGEST = 400  # speeds, beyond which Pinocchio's Data takes gigabytes
 _MJCF = """<mujoco><option timestep="{step:.17g}" gravity="0 0 0" integrator="RK4" tolerance="1e-12"/>
 <worldbody>{rotors}</worldbody><tendon>{bars}</tendon><equality>{equal}</equality></mujoco>"""
 _ROTOR = """<body pos="{x:.17g} {y:.17g} 0"><joint type="ball"/><inertial pos="0 0 {middle}" mass="{M}"
@@ -98,6 +99,10 @@ def pinocchio(rig: Rig, t_eval: Array, sparse: bool = False) -> Runner:
             joint = model.addJoint(joint, hinge, place, f"{hinge.shortname()} {i}")
             place = pin.SE3.Identity()
         model.appendBodyToJoint(joint, inertia, place)
+    if model.nv > _LARGEST:
+        raise IntegrationError(
+            f"Pinocchio's Data holds four tensors of {model.nv}³ numbers, {32e-9 * model.nv**3:.0f} GB"
+        )
     N, data, none = len(rig.feet), model.createData(), np.zeros(model.nv)
     (i, j), columns = np.array(rig.bars).T, np.arange(3 * N).reshape(N, 3)
     each = np.arange(len(i))[:, None]

@@ -18,7 +18,7 @@ from lagrotor.structures.coefficients import Array, Coefficients, coefficients
 from lagrotor.structures.exact.saddle import Saddle, saddle
 
 Drive = Callable[[float], Array]
-_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+NEXT, AFTER = [1, 2, 0], [2, 0, 1]  # of a cross product
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +60,7 @@ class ExactMotion:
         """What acts on the axes besides the constraints, (N, 3), N m."""
         c = self.c
         G = c.G * np.exp(-c.decay * t) if c.decay.any() else c.G
-        F = G[:, None] * (r[:, _NEXT] * v[:, _AFTER] - r[:, _AFTER] * v[:, _NEXT]) - c.friction[:, None] * v
+        F = G[:, None] * (r[:, NEXT] * v[:, AFTER] - r[:, AFTER] * v[:, NEXT]) - c.friction[:, None] * v
         F[:, 2] -= c.gravity * c.S
         if c.hinge.any():
             theta = np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2])
@@ -91,6 +91,11 @@ class ExactMotion:
         tips = c.feet + c.R[:, None] * r
         joined = (c.brace_to >= 0)[:, None]
         return tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
+
+    def across(self, r: Array) -> Array:
+        """The bars' R d × r with the axes at both ends, (2, B, 3): zero where a bar is in line with both."""
+        d = self.pulls(r)[1]
+        return np.stack([d[:, NEXT] * u[:, AFTER] - d[:, AFTER] * u[:, NEXT] for u in (r[self.c.i], r[self.c.j])])
 
     def energy(self, r: Array, v: Array) -> Array:
         """T + V of states r, v (n, N, 3), (n,), in J, the spins' own energy left out."""

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.numerics.integrate import Engine, Problem, Solution, check_engine, check_tolerance, integrate
+from lagrotor.numerics.segment import StopError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
@@ -45,7 +46,8 @@ def simulate(
     """
     times, wanted = _times(t), check_tolerance(tol)
     check_engine(engine)
-    motion = exact_motion(s, _checked(drive, "drive", (len(s.joints), 3)), _checked(ground, "ground", (3,)))
+    shape = (len(s.joints), 3)
+    motion = exact_motion(s, _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times))
     start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
     run = partial(_integrated, s, motion, start, times, engine)
     coarse, N = run(local), len(s.joints)
@@ -78,7 +80,10 @@ def _integrated(s: Assembly, motion: ExactMotion, start: Array, times: Array, en
         return integrate_compiled(s, motion, start, times, local)
     most = 50_000 + 2_000 * rate * float(times[-1])
     problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
-    return integrate(problem, rate * times, local)
+    try:
+        return integrate(problem, rate * times, local)
+    except StopError as stopped:  # at a time without unit
+        raise StopError(stopped.at / rate, stopped.reason) from None
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
@@ -117,12 +122,16 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
     return found
 
 
-def _checked(drive: Drive | None, name: str, shape: tuple[int, ...]) -> Drive | None:
+def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> Drive | None:
+    """The drive, tried at t = 0 and at the times of the run."""
     if drive is None:
         return None
-    found = finite(f"simulate: {name}", drive(0.0)) if callable(drive) else np.zeros(0)
-    if found.shape != shape:
-        raise InputError(f"simulate: {name} must be a function t → array of shape {shape}, not {found.shape}")
+    if not callable(drive):
+        raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
+    for t in (0.0, *times.tolist()):
+        found = finite(f"simulate: {name} at t = {t:g}", drive(t))
+        if found.shape != shape:
+            raise InputError(f"simulate: {name} must give an array of shape {shape}, at t = {t:g} it is {found.shape}")
     return drive
 
 
