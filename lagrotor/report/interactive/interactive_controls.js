@@ -153,13 +153,20 @@ function show(root) {
       + `run = simulate(scene, ${times})\nrun.plot()`;
   }
 
+  // What a control does not know leaves it as it is.
+  function setTo(control, value) {
+    const known = control.value;
+    control.value = value;
+    if (control.value === "") control.value = known;
+  }
+
   // Settings that the page's address holds: #model?r0=0.2&first=12…
   function fromAddress() {
     if (!location.hash.startsWith("#model?")) return;
     const given = new URLSearchParams(location.hash.slice("#model?".length));
     for (const name of settings.filter((each) => given.has(each))) {
       if (controls[name].type === "checkbox") controls[name].checked = given.get(name) === "1";
-      else controls[name].value = given.get(name);
+      else setTo(controls[name], given.get(name));
     }
     root.scrollIntoView();
   }
