@@ -65,8 +65,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return say("interrupted", 130)
     except MemoryError:
         return say("not enough memory: take fewer samples", 2)
-    except (LagrotorError, OSError) as error:
+    except LagrotorError as error:
         return say(str(error), 2)
+    except OSError as error:
+        return say(": ".join(str(part) for part in (error.filename, error.strerror) if part) or str(error), 2)
 
 
 def _flushed(status: int) -> int:

@@ -85,6 +85,10 @@ def init_command(given: argparse.Namespace) -> int:
     return 0
 
 
+def _some(count: int, what: str) -> str:
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
 def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.report.content import counted
     from lagrotor.report.formulas.mathml_latex import converter
@@ -98,16 +102,16 @@ def reproduce_command(given: argparse.Namespace) -> int:
     if given.json:
         print(json.dumps(asdict(made) | {"report": str(page)}, indent=1, ensure_ascii=False))
         return _compared(made.changes, bool(paper.recorded))
-    print(f"{sum(made.equations.values())} equations: {counted(made.equations) or 'none'}")
+    print(f"{_some(sum(made.equations.values()), 'equation')}: {counted(made.equations) or 'none'}")
     if made.claims:
-        print(f"{sum(made.claims.values())} claims tested: {counted(made.claims)}")
+        print(f"{_some(sum(made.claims.values()), 'claim')} tested: {counted(made.claims)}")
     if made.taken == ["report"]:
         print("all taken from the last run (same inputs); to run it again, delete the folder")
     elif made.taken:
         kinds = Counter(name.split()[0] for name in made.taken)
-        parts = ", ".join(f"{count} {kind}{'s' * (count > 1)}" for kind, count in kinds.items())
+        parts = ", ".join(_some(count, kind) for kind, count in kinds.items())
         print(f"{parts} taken from the last run (same inputs)")
-    print(f"{made.figures} figures; {made.seconds:.1f} s; report: {page}")
+    print(f"{_some(made.figures, 'figure')}; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
     return _compared(made.changes, bool(paper.recorded))
@@ -131,7 +135,8 @@ def audit_command(given: argparse.Namespace) -> int:
     if given.json:
         print(verdict_text.to_json(shown, paper, waiting))
     elif identifiers:
-        print("\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown))
+        words = "\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown)
+        print("\n".join(wrapped(line, 13) for line in words.split("\n")))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}
         rows = [(v.id, word(v.verdict), readable(": ".join(filter(None, (titles[v.id], note(v)))))) for v in shown]

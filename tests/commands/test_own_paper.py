@@ -30,7 +30,7 @@ def test_a_new_paper_is_green_at_once(work: Path, capsys: pytest.CaptureFixture[
         assert main([*command, "--paper", "my-paper"]) == 0, command
     capsys.readouterr()
     assert main(["reproduce", "--paper", "my-paper", "--jobs", "1"]) == 0
-    assert "1 equations: 1 holds to order\n1 claims tested: 1 confirmed\n1 figures" in capsys.readouterr().out
+    assert "1 equation: 1 holds to order\n1 claim tested: 1 confirmed\n1 figure" in capsys.readouterr().out
     for name in ("index.html", "report.md", "report.tex", "errata.tex"):
         text = (work / "report" / name).read_text(encoding="utf-8")
         assert "my-paper" in text and "otor Pairs" not in re.sub(r"(?s)How to cite.*", "", text), name

@@ -11,7 +11,7 @@ from lagrotor import Scene, paired_scene, read_scene, simulate
 from lagrotor.commands import command_line
 from lagrotor.commands.command_line import main
 from lagrotor.commands.options import Parser
-from lagrotor.commands.terminal import reached
+from lagrotor.commands.terminal import reached, wrapped
 from lagrotor.errors import LagrotorWarning
 
 PAIR = ["--spins", "10", "-10"]
@@ -84,3 +84,9 @@ def test_a_warning_is_a_line(capsys, monkeypatch) -> None:
     monkeypatch.setattr(command_line, "_parser", Command)
     assert main(["simulate"]) == 0
     assert capsys.readouterr().err == "lagrotor: warning: tol is not kept\n"
+
+
+def test_a_long_line_of_a_verdict_goes_on_under_its_text() -> None:
+    first, *more = wrapped(f"  wrong      {'word ' * 40}", 13).split("\n")
+    assert first.startswith("  wrong      word") and len(more) == 2
+    assert all(line.startswith(" " * 13 + "word") and len(line) <= 100 for line in more)
