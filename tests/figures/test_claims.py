@@ -298,7 +298,7 @@ PAST = [
     ("n2", "spins at γ = 0.3 do better than a tuned mass of 2 %", lambda d: 1.5 * d["spun"].max() < d["tuned"].max(),
      ("spun", wider(3))),
     ("n4", "friction turns the pair by G r_0²/2c", lambda d: all(
-        abs(d[f"angle at rest over the law, c = {c:g}"] - 1) < 0.03 for c in d["RUBBED"]), ("angles", wider(1.05))),
+        abs(d[f"angle at rest over the law, c = {c:g}"] - 1) < 0.03 for c in d["FRICTIONS"]), ("angles", wider(1.05))),
     ("n4", "a joint that rubs alike widens the precession, kept spins narrow it",
      lambda d: np.abs(d["tilts"][0]).max() > 1.1 > 0.7 > np.abs(d["tilts"][1, -200:]).max(), ("tilts", swapped)),
     ("n3", "modes of finite structures lie on the bands", lambda d: near(d["ring_modes"], d["ring_bands"])
