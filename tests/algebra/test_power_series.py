@@ -1,12 +1,14 @@
 """Truncated series against known expansions, and the order of the first term that differs."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Rational, asinh, atan, cos, cosh, exp, log, sin, sqrt, tan
 
-from lagrotor.algebra import LeadingTerm, agreement_order, leading_term, truncated_series
+from lagrotor.algebra import LeadingTerm, agreement_order, decide_zero, leading_term, power_series, truncated_series
 from lagrotor.errors import InputError, NotExactError
 
 x, y, e = sp.symbols("x y epsilon")
@@ -77,6 +79,21 @@ def test_undecided_coefficient_is_named() -> None:
     assert leading_term(e * sqrt(x) + e**2, e).order == 1
 
 
+@pytest.mark.parametrize(("size", "told"), [(1.0, True), (1e-16, False), (None, False)])
+def test_an_undecided_coefficient_is_one_only_where_a_value_says_so(
+    monkeypatch: pytest.MonkeyPatch, size: float | None, told: bool
+) -> None:
+    """Also where no point gives a value."""
+    undecided = replace(decide_zero(x), answer="undecided", reason="no reason")
+    monkeypatch.setattr(power_series, "decide_zero", lambda coefficient: undecided)
+    monkeypatch.setattr(power_series, "size_at", lambda coefficient, point: size)
+    if told:
+        assert truncated_series(1 / (x + e), e, 1) == 1 / x - e / x**2
+    else:
+        with pytest.raises(NotExactError, match="cannot tell whether x vanishes: no reason"):
+            truncated_series(1 / (x + e), e, 1)
+
+
 p, n, m = sp.Symbol("p", positive=True), sp.Symbol("n", negative=True), sp.Symbol("m", imaginary=True)
 i = sp.I
 
@@ -130,7 +147,7 @@ def test_off_a_cut_or_along_it_a_series_is_near_its_function_on_both_sides(expre
 
 
 @pytest.mark.parametrize(
-    ("expression", "small", "order"), [(None, e, 2), (x, x + 1, 2), (x, e, -1), (x, e, 2.0), ("e", e, 1)]
+    ("expression", "small", "order"), [(None, e, 2), (x, x + 1, 2), (x, 3, 2), (x, e, -1), (x, e, 2.0), ("e", e, 1)]
 )
 def test_bad_input_is_named(expression: object, small: sp.Expr, order: int) -> None:
     with pytest.raises(InputError, match=r"truncated_series|series: small"):

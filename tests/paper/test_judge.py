@@ -38,6 +38,13 @@ def test_an_order_is_claimed_in_a_small_letter() -> None:
     assert judge("x", sp.sin(x), small=x, order=3).verdict == "refuted"
 
 
+@pytest.mark.parametrize("places", [(0, 1, 2), (1, 0, 2), (2, 1, 0)])
+def test_of_a_vector_the_component_that_differs_first_decides(places: tuple[int, ...]) -> None:
+    printed, derived = [x, 1 - x**2 / 2, n * x], [sp.sin(x), sp.cos(x), n * x]  # off in order 3, in order 4, nowhere
+    near = judge(sp.Matrix([printed[i] for i in places]), sp.Matrix([derived[i] for i in places]), small=x, order=1)
+    assert (near.verdict, near.order) == ("holds-to-order", 2)
+
+
 def test_matrices_are_compared_entry_by_entry() -> None:
     turn = sp.Matrix([[sp.cos(x), -sp.sin(x)], [sp.sin(x), sp.cos(x)]])
     assert judge(sp.eye(2), turn * turn.T).verdict == "holds"

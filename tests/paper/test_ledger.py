@@ -122,6 +122,9 @@ def test_the_weakest_relation_decides() -> None:
     good, close, bad = Relation(x, x), Relation(x, sp.sin(x), x, 2), Relation(x, -x)
     assert decide(Statement("5.01", (good, close))).verdict == "holds-to-order"
     assert decide(Statement("5.01", (good, close, bad))).verdict == "refuted"
+    closer = Relation(1 - x**2 / 2, sp.cos(x), x, 2)
+    for relations in ((close, closer), (closer, close)):
+        assert decide(Statement("5.01", relations)).order == 2
 
 
 def test_what_lies_outside_the_class_is_undecided_not_true() -> None:
