@@ -43,7 +43,11 @@ def readable(text: str) -> str:
     text = re.sub(r"\bsqrt\(", "√(", text)
     for typed, sign in _ARROWS.items():
         text = text.replace(f" {typed} ", f" {sign} ") if typed != "||" else text.replace(typed, sign)
-    return re.sub(r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()", "−", text)
+    return re.sub(
+        r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()",
+        "−",
+        text,
+    )
 
 
 def _in_powers_of_ten(match: re.Match[str]) -> str:

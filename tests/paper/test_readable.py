@@ -11,6 +11,7 @@ from lagrotor.paper.readable import readable
     [
         ("J = I_1 (I_1 read)", "J = I₁ (I₁ read)"),
         ("cos(Phi)**3/2 - 3*cos(Phi)/2", "cos(Φ)³/2 − 3·cos(Φ)/2"),
+        ("by -cos(Phi) in Delta_t", "by −cos(Φ) in Δt"),
         ("M*R**2*(phi_dot**2 + theta_1_dot**2)", "M·R²·(φ̇² + θ̇₁²)"),
         ("4 r_0⁴ cos⁴ Phi", "4 r₀⁴ cos⁴ Φ"),
         ("phi_1 = -phi_2 at -0.363", "φ₁ = −φ₂ at −0.363"),
