@@ -122,6 +122,17 @@ def test_where_two_runs_have_parted_the_rest_is_cheap(monkeypatch: pytest.Monkey
         assert simulate(TUMBLING, times, tol=1e-5).evaluations > 1.3 * run.evaluations
 
 
+@pytest.mark.parametrize("lost", [(3.0, 5.0), (5.0, 3.0)])
+def test_of_two_pairs_that_part_the_one_that_lasts_is_kept(monkeypatch: pytest.MonkeyPatch, lost: tuple) -> None:
+    runs = in_stages.StagedRun(1e-5, True), in_stages.StagedRun(1e-7, False)
+    pairs = [estimated._Pair(*runs, 1, np.array([2.0]), t) for t in lost]
+    monkeypatch.setattr(estimated, "_loosest", lambda watched, tol: pairs[0])
+    monkeypatch.setattr(estimated, "_hopeless", lambda watched, pair: pair is pairs[1])
+    monkeypatch.setattr(estimated, "_compared", lambda watched, loose, tight: pairs[1])
+    watched = in_stages.watch(minimal.MODEL, natural_units(SHOCKED).scene, T, "core")
+    assert estimated._best(watched, 1e-5, 1e-6).lost == 5
+
+
 def test_a_run_in_stages_is_the_run_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pulse falls into the third of the stages, the readings into all."""
     times = np.linspace(0, 3, 31)

@@ -118,10 +118,16 @@ def test_an_order_is_found_and_held_to_what_is_claimed() -> None:
     assert any("order 4" in line for line in refused.evidence)
 
 
+def test_a_premise_puts_all_that_it_says_in_at_once() -> None:
+    exchanged = Premise("exchanged", {sp.sin(x): sp.cos(x), sp.cos(x): sp.sin(x)})
+    assert exchanged.on(sp.sin(x) - 2 * sp.cos(x)) == sp.cos(x) - 2 * sp.sin(x)
+
+
 def test_the_weakest_relation_decides() -> None:
     good, close, bad = Relation(x, x), Relation(x, sp.sin(x), x, 2), Relation(x, -x)
     assert decide(Statement("5.01", (good, close))).verdict == "holds-to-order"
     assert decide(Statement("5.01", (good, close, bad))).verdict == "refuted"
+    assert decide(Statement("5.01", (bad,))).correction_verdict is None
     closer = Relation(1 - x**2 / 2, sp.cos(x), x, 2)
     for relations in ((close, closer), (closer, close)):
         assert decide(Statement("5.01", relations)).order == 2
