@@ -14,6 +14,7 @@ from functools import cache
 
 import sympy as sp
 
+from lagrotor.algebra import truncated_series
 from lagrotor.pair.notation import G_1, G_2, SWING, TWIST, TWISTED, G, P, X, a, b, k
 from lagrotor.theory.toppling import twisted_lagrangian
 
@@ -24,26 +25,11 @@ _EPS = sp.Symbol("epsilon", positive=True)
 def quartic_lagrangian() -> tuple[sp.Expr, sp.Expr]:
     """(L_2, L_4) of opposite spins in U, Delta ~ eps, alpha' ~ eps²: no odd term."""
     (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
-    L = twisted_lagrangian().subs({G_1: G, G_2: -G}).replace(_is_secant, lambda e: _taylor(sp.sech, e.base) ** -e.exp)
-    for function in (sp.tanh, sp.cos, sp.sin):
-        L = L.replace(function, lambda e, f=function: _taylor(f, f(e)))
-    scaled = {s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v}
-    polynomial = sp.Poly(L.subs(scaled, simultaneous=True), _EPS)
-    parts = [polynomial.coeff_monomial(_EPS**n) for n in range(5)]
-    if any(part != 0 for part in (parts[1], parts[3])):
+    scaled = {s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v, G_1: G, G_2: -G}
+    series = sp.expand(truncated_series(twisted_lagrangian().subs(scaled, simultaneous=True), _EPS, 4))
+    if series.coeff(_EPS, 1) != 0 or series.coeff(_EPS, 3) != 0:
         raise ArithmeticError("quartic_lagrangian: an odd order is left")
-    return sp.expand(parts[2]), sp.expand(parts[4])
-
-
-def _is_secant(e: sp.Basic) -> bool:
-    return bool(e.is_Pow and e.base.func is sp.cosh and e.exp.is_Integer and e.exp < 0)
-
-
-def _taylor(function: type[sp.Function], of: sp.Expr) -> sp.Expr:
-    """`function` of the argument of `of`, through the fourth power."""
-    x = sp.Symbol("x")
-    slopes = [function(x).diff(x, n).subs(x, 0) / sp.factorial(n) for n in range(5)]
-    return sum((slope * of.args[0] ** n for n, slope in enumerate(slopes)), sp.Integer(0))
+    return series.coeff(_EPS, 2), series.coeff(_EPS, 4)
 
 
 @cache

@@ -98,7 +98,7 @@ def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tupl
 
     timed = partial(_timed, folder=kept.new / "figures")
     with progress(len(left) + 1) as begins:
-        for step, (product, took) in results(left, timed, jobs, _named(begins), given):
+        for step, (product, took) in results(left, timed, min(jobs, max(len(left), 1)), _named(begins), given):
             products[step.name], seconds[step.name] = product, round(took, 3)
             stem = getattr(product, "stem", "")
             files = [f for f in (kept.new / "figures").glob(f"{stem}.*") if stem and step.name.startswith("figure")]
