@@ -14,7 +14,7 @@ def test_every_public_name_is_there_with_its_call_and_its_words() -> None:
     for entry in found.values():
         assert entry.text, entry.name
         assert all(line for _, line in entry.members), entry.name
-    assert found["simulate"].call == "simulate(scene, t, model='auto', tol=1e-09, engine='core')"
+    assert found["simulate"].call == "simulate(scene, t, model='auto', tol=1e-09, engine='core', progress=None)"
     assert dict(found["Rotor"].members)["J"].startswith("Transverse inertia about the ground joint")
     assert "save(path)" in dict(found["Trajectory"].members)
 
