@@ -86,8 +86,8 @@ off
 #
 # Operations of one evaluation of the right-hand side, of the package's own programs and of those that its `System` makes of
 # the same Lagrangian, with a massless bar and with one that has mass. Eliminating the bar by hand halves them and more. In
-# Euler angles the order of elimination saves a tenth, and keeps the digits near the pole. Unit vectors with a massive bar are
-# the one case that is generated with fewer.
+# Euler angles the order of elimination saves a tenth, and keeps the digits near the pole. Unit vectors are written by hand
+# without the bar's mass only; with it, the package runs what is generated.
 
 # %%
 vectors, angles, mercator = axes_pair(), pair_with_bar(), System(MERCATOR, mercator_lagrangian())
@@ -112,7 +112,7 @@ costs |= {
     for massive in (False, True)
 }
 assert all(2 * costs["bar eliminated", massive][0] < costs["bar eliminated", massive][1] for massive in (False, True))
-assert [case for case, (own, made) in costs.items() if made < own] == [("unit vectors", True)]
+assert [case for case, (own, made) in costs.items() if made <= own] == [("unit vectors", True)]
 tables = [
     Table(
         "The pair: operations of a right-hand side",

@@ -2,13 +2,16 @@
 
     a r_i'' + b r_j'' = G_i r_i × r_i' + F_i + sum_c lam_c grad_i g_c
 
-What vanishes on the constraints is left out of the generated code (|r_i|² = 1, r_1 . r_2 = 1 + k (x_2 − x_1)).
+One multiplier each for the unit lengths and the bar.
 """
+
+from dataclasses import replace
 
 import sympy as sp
 
-from lagrotor.mechanics import bias, mass_matrix
+from lagrotor.mechanics import mass_matrix
 from lagrotor.mechanics.lagrangian import linear_solve
+from lagrotor.mechanics.running.programs import motion_program
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, a, b, k
@@ -16,46 +19,26 @@ from lagrotor.pair.notation import AXES, G_1, G_2, a, b, k
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
-def _on_constraint(expression: sp.Expr, bar: bool) -> sp.Expr:
-    """`expression` with z_1², z_2² and, under the bar, z_1 z_2 eliminated by the constraints."""
-    x1, y1, z1, x2, y2, z2 = AXES.q
-    rules = {z1**2: 1 - x1**2 - y1**2, z2**2: 1 - x2**2 - y2**2}
-    if bar:
-        rules[z1 * z2] = 1 + k * (x2 - x1) - x1 * x2 - y1 * y2
-    return sp.expand(sp.expand(expression).subs(rules))
-
-
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """(r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; `body` 0: no force."""
-    if bar and not massive:
-        return _slim(body)
-    system = axes_pair(bar)
-    lagrangian = system.L if massive else system.L.subs(b, 0)
-    mass, G = mass_matrix(lagrangian, AXES), system.rows
-    force = system.push - bias(lagrangian, AXES)
-    if body:
-        force[3 * body - 3 : 3 * body, 0] += sp.Matrix(FORCE)
-    # M⁻¹ of the block matrix [[a, b], [b, a]] ⊗ 1.
-    p, q = sp.symbols("p q", real=True)
-    inverse = sp.Matrix([[p, q], [q, p]]) if massive else sp.Matrix([[p, 0], [0, p]])
-    pivots = [(p, a / (a**2 - b**2)), (q, -b / (a**2 - b**2))] if massive else [(p, 1 / a)]
-    whole = sp.kronecker_product(inverse, sp.eye(3))
-    assert (whole * mass).xreplace(dict(pivots)).applyfunc(sp.cancel) == sp.eye(6)
+    """(r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; `body` 0: no force.
 
-    free = whole * force
-    gamma = system.gamma
-    named_gamma = [(sp.Symbol(f"g_{i}", real=True), e) for i, e in enumerate(gamma)]
-    # The gyroscopic part of G M⁻¹ Q vanishes where r . (r × r') does.
-    right = -(G * free).applyfunc(lambda e: _on_constraint(e, bar)) - sp.Matrix([s for s, _ in named_gamma])
-    schur = (G * whole * G.T).applyfunc(lambda e: sp.collect(_on_constraint(e, bar), (p, q)))
-    stages, lam = solve_symmetric(schur, right, "s")
-    acceleration = free + whole * G.T * lam
+    With a massive bar, what the system generates; without mass or bar, fewer operations by hand.
+    """
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(FORCE if body else ()))
-    return Program((*AXES.q, *AXES.v, *parameters), (*pivots, *named_gamma, *stages), (*AXES.v, *acceleration))
+    if not massive:
+        stages, accelerations = _slim(bar, body)
+        return Program((*AXES.q, *AXES.v, *parameters), tuple(stages), (*AXES.v, *accelerations))
+    system = axes_pair(bar)
+    if body:
+        push = sp.Matrix([*(FORCE if body == 1 else (0, 0, 0)), *(FORCE if body == 2 else (0, 0, 0))])
+        system = replace(system, forces=tuple(system.push + push))
+    made = motion_program(system).program
+    return Program((*AXES.q, *AXES.v, *parameters), made.stages, made.outputs)
 
 
-def _slim(body: int) -> Program:
-    """Massless bar: each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r², and the bar pulls it by lam times the part of
+def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
+    """Stages and accelerations. Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r², and a massless bar pulls it by lam
+    times the part of
 
         n_1 = r_2 + k e_x,  n_2 = r_1 − k e_x
 
@@ -72,11 +55,15 @@ def _slim(body: int) -> Program:
         square, along, inward = sp.symbols(f"s_{i} n_{i} h_{i}", real=True)
         force = sp.Matrix(FORCE) if body == i + 1 else sp.zeros(3, 1)
         stages += list(zip(own, (G * r[i].cross(v[i]) + force) / a, strict=True))
-        stages += [(square, r[i].dot(r[i])), (along, (r[0].dot(r[1]) + (-1) ** i * k * r[i][0]) / square)]
+        stages.append((square, r[i].dot(r[i]) if bar else sp.S.One))
+        stages.append((along, (r[0].dot(r[1]) + (-1) ** i * k * r[i][0]) / square))
         stages.append((inward, (v[i].dot(v[i]) + r[i].dot(force) / a) / square))
         parts.append((own, along, inward))
         closing += own.dot(pull[i]) - inward * along * square
         mobility += pull[i].dot(pull[i]) - along**2 * square
+    if not bar:
+        stages = [(name, e) for name, e in stages if k not in e.free_symbols]
+        return stages, [e for i, (own, _, inward) in enumerate(parts) for e in own - inward * r[i]]
     lam = sp.Symbol("lam", real=True)
     stages.append((lam, -closing / mobility))
     accelerations = []
@@ -84,8 +71,7 @@ def _slim(body: int) -> Program:
         radial = sp.Symbol(f"q_{i}", real=True)
         stages.append((radial, inward + lam * along))
         accelerations += list(own + lam * pull[i] - radial * r[i])
-    parameters = (a, k, G_1, G_2, *(FORCE if body else ()))
-    return Program((*AXES.q, *AXES.v, *parameters), tuple(stages), (*AXES.v, *accelerations))
+    return stages, accelerations
 
 
 def projection(massive: bool, bar: bool) -> Program:
