@@ -5,7 +5,6 @@ setting whose error is at most ERROR, the largest of a coordinate (rad) at eleve
 scipy's DOP853 at 10⁻¹³ on the right-hand side that all agree on.
 """
 
-import multiprocessing
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,7 +20,7 @@ from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, st
 from lagrotor.benchmark.mechanisms.engine_tools import ENGINES
 from lagrotor.benchmark.mechanisms.own_tools import OWN
 from lagrotor.benchmark.mechanisms.sympy_tools import SYMPY
-from lagrotor.benchmark.mechanisms.tool import Ready, Rhs, Tool
+from lagrotor.benchmark.mechanisms.tool import Ready, Rhs, Tool, in_own_process
 from lagrotor.benchmark.method import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -30,7 +29,7 @@ SIZES: dict[Kind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 
 TIMES = np.linspace(0, 1, 11)
 ERROR = 1e-8
 SAME = 1e-9  # relative difference of right-hand sides up to which they are equal
-_LONGEST = 90.0  # s, for one tool on one mechanism; beyond, larger ones are left out
+_LONGEST = 40.0  # s of processor time, for one tool on one mechanism; beyond, larger ones are left out
 _SAMPLES, _SAMPLE = 15, 5e-3
 _CLOCK = time.process_time
 
@@ -77,25 +76,16 @@ def compare(
 
 def _apart(tool: Tool, case: Measured) -> Measured:
     """Measured in a new process, which is ended when it takes too long."""
-    context = multiprocessing.get_context("spawn")
-    receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_send, args=(sender, tool, case), daemon=True)
-    process.start()
-    sender.close()
-    try:
-        found = receiver.recv() if receiver.poll(_LONGEST) else replace(case, reason=f"over {_LONGEST:g} s")
-    except EOFError:
-        found = replace(case, reason="its process ended")
-    process.kill()
-    process.join()
-    return found
+    found = in_own_process(_send, _LONGEST, tool, case)
+    return replace(case, reason=found) if isinstance(found, str) else found
 
 
-def _send(sender: Any, tool: Tool, case: Measured) -> None:
+def _send(send: Callable[[Measured], None], spend: Callable[[], Any], tool: Tool, case: Measured) -> None:
+    spend()
     try:
-        sender.send(measure(tool, case))
+        send(measure(tool, case))
     except Exception as error:  # whatever another tool raises is its result
-        sender.send(replace(case, reason=f"{type(error).__name__}: {str(error)[:200]}"))
+        send(replace(case, reason=f"{type(error).__name__}: {str(error)[:200]}"))
 
 
 def measure(tool: Tool, case: Measured) -> Measured:

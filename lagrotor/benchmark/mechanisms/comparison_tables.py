@@ -68,12 +68,11 @@ def wanted(found: Sequence[Measured], decided: Sequence[Decided], operations: di
             table.append(
                 (f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}", "at most 2.3", ", ".join(doubled))
             )
-    agree = [x for x in decided if x.answer == "zero"]
-    if agree:
-        least = min(agree, key=lambda x: x.times)
-        table.append(
-            (f"deciding that two formulations agree, over simplify ({least.pair})", "20", f"{least.times:.0f}")
-        )
+    for what, answer in (("agree", "zero"), ("differ", "nonzero")):
+        if pairs := [x for x in decided if x.answer == answer]:
+            least = min(pairs, key=lambda x: x.times)
+            many = f"{_at_least(least)}{least.times:.0f}"
+            table.append((f"deciding that two formulations {what}, over simplify ({least.pair})", "20", many))
     return table
 
 

@@ -4,7 +4,6 @@ The Lagrangians are compared; where these differ, as they may by a total time de
 these differ, as they may by a factor, the accelerations. simplify is a tool here that is measured; nothing rests on its answer.
 """
 
-import multiprocessing
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -13,9 +12,10 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.benchmark.mechanisms.chains import I1, I3, chain, g, l, m
+from lagrotor.benchmark.mechanisms.tool import in_own_process
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
 
-LONGEST = 60.0  # s, given to simplify
+LONGEST = 20.0  # s of processor time, given to simplify
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,15 @@ def _absolute(n: int) -> System:
     return System(c, L).in_coordinates(relative, {q: sum(relative.q[: i + 1]) for i, q in enumerate(c.q)})
 
 
+def _heavier(n: int) -> System:
+    """n rods, the last point a half heavier."""
+    rods = chain("rods", n)
+    q, v = rods.c.q, rods.c.v
+    angles = [(sum(q[: i + 1]), sum(v[: i + 1])) for i in range(n)]
+    x, z = (sum(l * f(angle) * rate for angle, rate in angles) for f in (sp.cos, sp.sin))
+    return System(rods.c, rods.L + m / 4 * (x**2 + z**2) + m / 2 * g * l * sum(sp.cos(angle) for angle, _ in angles))
+
+
 def _top(factor: sp.Expr) -> tuple[System, System]:
     """A heavy top from a body, and the Lagrangian of the textbooks with a factor at its gravity."""
     c = coordinates("phi theta psi")
@@ -62,6 +71,8 @@ PAIRS: dict[str, Callable[[], tuple[System, System]]] = {
     "four rods, relative and absolute angles": lambda: (chain("rods", 4), _absolute(4)),
     "heavy top, from a body and the textbook's": lambda: _top(sp.S.One),
     "heavy top, another weight": lambda: _top(sp.Integer(2)),
+    "double pendulum, another mass at its end": lambda: (chain("rods", 2), _heavier(2)),
+    "triple pendulum, another mass at its end": lambda: (chain("rods", 3), _heavier(3)),
 }
 
 
@@ -80,27 +91,20 @@ def decide_pairs() -> list[Decided]:
 
 
 def _by_simplify(name: str) -> tuple[float, str]:
-    context = multiprocessing.get_context("spawn")
-    receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_simplify, args=(sender, name), daemon=True)
-    process.start()
-    receiver.recv()  # it has its equations
-    found = receiver.recv() if receiver.poll(LONGEST) else (LONGEST, "did not end")
-    process.kill()
-    process.join()
-    return found
+    found = in_own_process(_simplify, LONGEST, name)
+    return (LONGEST, "did not end") if isinstance(found, str) else found
 
 
-def _simplify(sender: Any, name: str) -> None:
+def _simplify(send: Callable[[tuple[float, str]], None], spend: Callable[[], Any], name: str) -> None:
     left, right = PAIRS[name]()
     motions = left.motion, right.motion
-    sender.send(None)
+    spend()
     before = time.process_time()
     agree = _vanishes([left.L - right.L]) or _vanishes(motions[0] - motions[1])
     if not agree:
         first, second = (constrained_accelerations(system)[0] for system in (left, right))
         agree = _vanishes(first - second)
-    sender.send((time.process_time() - before, "zero" if agree else "nonzero"))
+    send((time.process_time() - before, "zero" if agree else "nonzero"))
 
 
 def _vanishes(difference: Iterable[sp.Expr]) -> bool:

@@ -1,7 +1,10 @@
 """A tool on a mechanism: how it is made ready, its right-hand side, and its runs."""
 
+import multiprocessing
+import signal
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,3 +33,26 @@ class Tool:
     module: str = "sympy"
     extra: str = ""
     others: tuple[str, ...] = ()  # modules needed besides
+
+
+def in_own_process(work: Callable[..., None], seconds: float, *given: Any) -> Any:
+    """What work(send, spend, *given) sends, in a new process that ends when it has used `seconds` of processor time since it
+    called spend(); the text "over … s" if it did, and "its process ended" if that died.
+    """
+    context = multiprocessing.get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=_work, args=(sender, work, seconds, given), daemon=True)
+    process.start()
+    sender.close()
+    try:
+        return receiver.recv()
+    except EOFError:
+        process.join()
+        return f"over {seconds:g} s" if process.exitcode == -signal.SIGPROF else "its process ended"
+    finally:
+        process.kill()
+        process.join()
+
+
+def _work(sender: Any, work: Callable[..., None], seconds: float, given: Any) -> None:
+    work(sender.send, lambda: signal.setitimer(signal.ITIMER_PROF, seconds), *given)
