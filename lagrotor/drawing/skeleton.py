@@ -68,6 +68,6 @@ def _line(axes: Axes, colour: str, width: float) -> Line2D:
 
 def _limits(axes: Axes, seen: Array) -> None:
     low, high = seen.min(0), seen.max(0)
-    room = 0.08 * (high - low).max()
+    room = 0.08 * (high - low).max() or 1.0
     axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room), aspect="equal")
     axes.axis("off")

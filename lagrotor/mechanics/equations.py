@@ -155,7 +155,8 @@ class Equations:
         """dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers; b as in `Equations`."""
         moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))
         work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
-        return self.push.dot(self.c.v) + work - sp.diff(self.L, t)
+        by_time = sp.diff(self.L, t)
+        return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 
 def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:

@@ -15,6 +15,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
+_SHOWN = 300  # letters of the conditions in a refusal
 Solution = dict[sp.Symbol, sp.Expr]
 
 
@@ -60,7 +61,8 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     symbols = [*(x for pair in pairs.values() for x in pair), *wanted, *system.multipliers]
     fixed = {q: q for q in c.q if q not in wanted and any(q in e.free_symbols for e in conditions)}
     found: list[Equilibrium] = []
-    for solution in _solve(polynomials, symbols, {}):
+    circles = {c**2 + s**2 - 1 for c, s in pairs.values()}
+    for solution in _solve(polynomials, symbols, {}, circles):
         equilibrium = _equilibrium(solution, wanted, pairs, fixed)
         if equilibrium is not None and equilibrium not in found:
             found.append(equilibrium)
@@ -79,6 +81,9 @@ def _polynomials(
     conditions: Sequence[sp.Expr], wanted: Sequence[sp.Symbol]
 ) -> tuple[list[sp.Expr], dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]]:
     """Numerators of the conditions, the cosine and sine of each wanted angle as symbols, tied by c² + s² = 1."""
+    roots = {p for e in conditions for p in e.atoms(sp.Pow) if not p.exp.is_integer}
+    if any(p.free_symbols & {*wanted} for p in roots):
+        raise _unsolved(conditions, wanted)
     forms = []
     for e in conditions:
         try:
@@ -103,8 +108,13 @@ def _holding(e: sp.Expr, wanted: Sequence[sp.Symbol]) -> set[sp.Basic]:
     return {node for node in e.atoms(sp.Function) if node.free_symbols & {*wanted}}
 
 
-def _solve(polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], known: Solution) -> Iterator[Solution]:
-    """Each way to make all polynomials zero, by factors of degree one or two in one unknown."""
+def _solve(
+    polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], known: Solution, circles: set[sp.Expr]
+) -> Iterator[Solution]:
+    """Each way to make all polynomials zero, by factors of degree one or two in one unknown.
+
+    Of circles, those c² + s² = 1 that bind what nothing else does stay free.
+    """
     left: list[list[sp.Expr]] = []
     whole: list[sp.Expr] = []
     for e in polynomials:
@@ -116,6 +126,11 @@ def _solve(polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], known:
         if not factors:
             return  # a condition on the parameters, which are independent
         left.append(factors)
+    bound = set().union(
+        *(f.free_symbols for e, factors in zip(whole, left, strict=True) if e not in circles for f in factors)
+    )
+    places = [i for i, e in enumerate(whole) if e not in circles or e.subs(known) != e or e.free_symbols & bound]
+    left, whole = [left[i] for i in places], [whole[i] for i in places]
     if not left:
         yield known
         return
@@ -128,7 +143,7 @@ def _solve(polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], known:
         for root in sp.roots(sp.Poly(factor, x)):
             if root.is_real is not False:
                 put = {x: root}
-                yield from _solve(others, unknowns, {s: e.subs(put) for s, e in known.items()} | put)
+                yield from _solve(others, unknowns, {s: e.subs(put) for s, e in known.items()} | put, circles)
 
 
 def _easiest(factor: sp.Expr, unknowns: Sequence[sp.Symbol]) -> tuple[sp.Symbol, int]:
@@ -155,9 +170,10 @@ def _equilibrium(
     domain: list[sp.Basic] = []
     for u, (c, s) in pairs.items():
         cosine, sine = solution.get(c), solution.get(s)
-        if cosine is None or sine is None:
-            return None
         (angle,) = u.free_symbols & {*wanted}
+        if cosine is None or sine is None:
+            at[angle] = angle  # any
+            continue
         if cosine.is_number and sine.is_number:
             value = sp.atan2(sine, cosine)
         else:
@@ -171,8 +187,9 @@ def _equilibrium(
 
 
 def _unsolved(conditions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> InputError:
+    shown = ", ".join(f"{e} = 0" for e in sorted(conditions, key=sp.count_ops))
     return InputError(
-        f"equilibria: {', '.join(f'{e} = 0' for e in conditions)} is not solved for {', '.join(map(str, unknowns))} by "
-        "factors of degree one or two: name another unknown that enters more simply (a momentum, a parameter), or put "
-        "numbers in and solve numerically"
+        f"equilibria: {shown if len(shown) < _SHOWN else shown[:_SHOWN] + ' …'} is not solved for "
+        f"{', '.join(map(str, unknowns))} by factors of degree one or two: name another unknown that enters more simply "
+        "(a momentum, a parameter), or give linearise a point of your own, {coordinate: value, …}, which it decides"
     )

@@ -1,6 +1,6 @@
 """What is given as an expression is one: of plain symbols, finite, no text."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
@@ -31,3 +31,9 @@ def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:
     if not isinstance(given, Sequence | sp.MatrixBase) or isinstance(given, str) or len(given) != n:
         raise InputError(f"{where} = {given!r} must be {n} expressions")
     return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(given))
+
+
+def by_symbol(values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
+    """Values by symbol, where names may stand for symbols."""
+    names = {str(s): s for s in symbols}
+    return {names.get(str(key), key): value for key, value in values.items()}

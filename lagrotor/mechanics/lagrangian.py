@@ -50,6 +50,8 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
 
     Raises InputError when there is no name or a name is repeated.
     """
+    if not isinstance(names, Sequence):
+        raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
     q, v, a = (tuple(sp.Symbol(stem + order, real=True) for stem in stems) for order in ("", "_dot", "_ddot"))
     return Coordinates(q, v, a)

@@ -15,6 +15,7 @@ from lagrotor.algebra import decide_zero, normal_form
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.expressions import by_symbol
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _S = sp.Symbol("s")
@@ -70,7 +71,8 @@ class LinearSystem:
         return [column] if column is not None else list(pencil.nullspace(iszerofunc=_is_zero))
 
     def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
-        parts = [m.subs(dict(values)) for m in (self.mass, self.gyroscopic, self.stiffness, self.basis)]
+        matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
+        parts = [m.subs(by_symbol(values, m.free_symbols)) for m in matrices]
         if missing := set().union(*(m.free_symbols for m in parts)):
             raise InputError(
                 f"modes: {', '.join(sorted(map(str, missing)))} without a value: give every symbol a number"
@@ -111,7 +113,7 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     something depends on time.
     """
     c = system.c
-    point = dict(at.at if isinstance(at, Equilibrium) else at)
+    point = by_symbol(at.at if isinstance(at, Equilibrium) else at, {*c.q, *c.v} | system.L.free_symbols)
     used = system.motion.free_symbols | system.residual.free_symbols
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
@@ -120,9 +122,7 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     if moving := [str(q) for q, v in zip(c.q, c.v, strict=True) if q in used and still[v] != 0]:
         raise InputError(f"linearise: {', '.join(moving)} moves there and enters the equations: give it no velocity")
     if system.rolling and any(still[v] != 0 for v in c.v):
-        raise InputError(
-            "linearise: a steady motion under rolling constraints is not linearised here: simulate near it"
-        )
+        raise InputError("linearise: a steady motion under rolling constraints is not linearised: simulate near it")
     if any(decide_zero(sp.diff(e, t)).answer != "zero" for e in (*motion, *system.residual)):
         raise InputError("linearise: the motion depends on time explicitly: there is no equilibrium; simulate it")
     force = _value(motion, still, c.q)
@@ -135,6 +135,10 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
         (basis.T * _value(held.jacobian(list(names)), still, c.q) * basis).applyfunc(_reduce)
         for names in (c.a, c.v, c.q)
     )
+    if _is_zero(mass.det(method="berkowitz")):
+        raise SingularError(
+            f"linearise: the mass matrix is singular at {point}: use coordinates that are regular there"
+        )
     return LinearSystem(mass, gyroscopic, stiffness, basis)
 
 
@@ -152,7 +156,6 @@ def _held_by(force: sp.Matrix, G: sp.Matrix, at: Any) -> sp.Matrix:
 def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol, ...]) -> sp.Matrix:
     """A matrix at the point, parameters first; an entry that is 0/0 there is reduced before."""
     parameters = {s: value for s, value in still.items() if s not in q}
-
     rest = {s: value for s, value in still.items() if value == 0 and s not in q}
     general = any(sp.sympify(value).free_symbols for value in still.values())
 
@@ -217,7 +220,7 @@ def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
     n = len(a) - 1
 
     def entry(i: int, j: int) -> sp.Expr:
-        place = 2 * (j + 1) - (i + 1)
+        place = 2 * j - i + 1
         return a[place] if 0 <= place <= n else sp.S.Zero
 
     return [*a[1:], *(sp.Matrix(m, m, entry).det(method="berkowitz") for m in range(2, n))]

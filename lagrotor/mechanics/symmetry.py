@@ -21,6 +21,7 @@ import sympy as sp
 from lagrotor.algebra import Decision, decide_equal, decide_zero
 from lagrotor.errors import DomainError, InputError, NotASymmetryError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
+from lagrotor.mechanics.expressions import expression
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, momenta, t, total_derivative
 
 Kind = TypeVar("Kind", bound=Equations)
@@ -58,7 +59,7 @@ def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Z
 
     Sufficient: a ξ that preserves the constraints only as a surface, or a δL that is dF/dt only on it, is not enough.
     """
-    gauge = sp.sympify(gauge)
+    gauge = expression("noether: gauge", gauge)
     if higher := gauge.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
@@ -98,7 +99,7 @@ def conserved(system: Equations, f: sp.Expr) -> Decision:
     is "undecided".
     """
     a, _ = constrained_accelerations(system)
-    moved = total_derivative(sp.sympify(f), system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
+    moved = total_derivative(expression("conserved: f", f), system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
     decision = decide_zero(moved)
     if decision.answer == "nonzero" and system.multipliers:
         return replace(decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}")
@@ -134,6 +135,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
             f"routh: L, a force or a constraint depends on {', '.join(bound)}: its momentum is not conserved; leave it "
             "among the coordinates"
         )
+    L = _free_of(L, chosen)
     places = [c.q.index(q) for q in chosen]
     u, p = [c.v[i] for i in places], list(chosen.values())
     taken = {*c.q, *c.v, *c.a, t} | (set() if isinstance(cyclic, Mapping) else L.free_symbols)
@@ -153,6 +155,12 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     return replace(
         system, c=rest, lagrangian=_reduced(L, u, p, velocities), rolling=rolling, dissipation=sp.S.Zero, forces=forces
     )
+
+
+def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """L without the cyclic coordinates, on which it does not depend: at zero, where it is finite there."""
+    at_zero = L.subs(dict.fromkeys(cyclic, 0))
+    return L if at_zero.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else at_zero
 
 
 def _chosen(
@@ -205,8 +213,8 @@ def _vanish(expressions: Sequence[sp.Expr]) -> bool:
 
 
 def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
-    given = isinstance(xi, Sequence | sp.MatrixBase) and len(xi) == len(system.c.q)
-    field = sp.Matrix([sp.sympify(component) for component in xi]) if given else sp.Matrix()
+    given = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
+    field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if given else sp.Matrix()
     if not given or field.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: ξ = {xi}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "

@@ -70,7 +70,7 @@ def integrate_taylor(
         solver, scale = _solver(program, d, driven, order, 1, get_ident()), _carried(program, d)
         if pulse and driven:
             values = (*values, *pulse.force, width)
-        solver.pars[: len(values)] = values
+        solver.pars[:] = values[: len(solver.pars)]  # the last ones may be in no expression
         inside = t_eval[(t_eval > left if found else t_eval >= left) & (t_eval <= right)]
         onto = None if project is None else lambda y, scale=scale: project(y / scale) * scale
         longest = width if driven else np.inf

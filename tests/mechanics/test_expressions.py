@@ -33,6 +33,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "text for a shift": (lambda: Frame(C).moved("x"), r"moved: \(x, y, z\)\[0\] = 'x' is no expression"),
     "text for an angle": (lambda: Frame(C).turned("z", ["30"]), "turned: angle = '30' is no expression"),
     "a negative mass": (lambda: Frame(C).body(-1), "mass = -1 must not be negative"),
+    "a negative inertia": (lambda: Frame(C).body(1, (1, 1, -1)), "must not be negative about an axis"),
     "a field of one number": (lambda: BODY.potential(-g), "field = -g must be 3 expressions"),
     "a field of two numbers": (lambda: BODY.potential((0, -g)), r"field = \(0, -g\) must be 3 expressions"),
     "a list of values": (lambda: PENDULUM.simulate([1, 2], (1,), (0,), TIMES), "must be {symbol: number, …}"),

@@ -122,6 +122,31 @@ def test_a_rod_holds_its_pendulum_by_a_multiplier() -> None:
     assert rod.linearise({x: 0, y: l}).stable_if == sp.false
 
 
+def test_a_singular_mass_matrix_is_no_small_motion() -> None:
+    """Swinging Atwood's machine at r = 0, where the angle moves no mass."""
+    c = coordinates("r theta")
+    (r, theta), (r_v, theta_v) = c.q, c.v
+    M = sp.Symbol("M", positive=True)
+    L = m * (r_v**2 + r**2 * theta_v**2) / 2 + M * r_v**2 / 2 - M * g * r + m * g * r * sp.cos(theta)
+    system = System(c, L)
+    with pytest.raises(SingularError, match="mass matrix is singular"):
+        system.linearise(system.equilibria()[0])
+
+
+def test_what_no_force_depends_on_stays_free_in_an_equilibrium() -> None:
+    """At x = 0 the angle is any; elsewhere cos φ would have to be −2."""
+    c = coordinates("x phi")
+    (x, phi), (x_v, phi_v) = c.q, c.v
+    assert [e.at for e in System(c, x_v**2 + phi_v**2 - x**2 * (2 + sp.cos(phi))).equilibria()] == [{x: 0, phi: phi}]
+
+
+def test_roots_of_the_unknowns_are_refused_at_once() -> None:
+    c = coordinates("x y")
+    distance = sp.sqrt(c.q[0] ** 2 + c.q[1] ** 2)
+    with pytest.raises(InputError, match="linearise a point of your own"):
+        System(c, c.v[0] ** 2 + c.v[1] ** 2 + 1 / distance - distance).equilibria()
+
+
 def test_friction_makes_the_condition_of_routh_and_hurwitz() -> None:
     """A follower-free pair: s² + c s + k is stable for k > 0 alone; a negative friction never."""
     c, w = coordinates("x"), sp.Symbol("w", real=True)

@@ -10,6 +10,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, InputError, NotASymmetryError, SingularError
 from lagrotor.mechanics import (
     Coordinates,
+    Frame,
     System,
     accelerations,
     constrained_accelerations,
@@ -137,6 +138,17 @@ def test_the_routhian_of_a_top_is_its_effective_potential() -> None:
     expected = I1 * dtheta**2 / 2 - effective - m * g * l * sp.cos(theta)
     difference = System(TOP, heavy_top()).routh("phi psi").L - expected
     assert decide_zero(difference).answer == "zero"
+
+
+def test_the_routhian_of_a_body_is_free_of_the_cyclic_coordinates_and_runs() -> None:
+    """A body's energy holds its spin angle in sin² + cos² = 1 until that is reduced."""
+    theta, phi, psi = TOP.q
+    body = Frame(TOP).turned("zxz", (phi, theta, psi)).body(m, (I1, I1, I3), (0, 0, l))
+    reduced = System(TOP, body.kinetic - m * g * l * sp.cos(theta)).routh("phi psi")
+    assert not reduced.L.free_symbols & {phi, psi}
+    values = {I1: 1, I3: 0.5, m: 1, g: 9.81, l: 1, "p_phi": 8, "p_psi": 9}
+    run = reduced.simulate(values, (0.5,), (0,), np.linspace(0, 1, 3))
+    assert np.ptp(run.energy) < 1e-7 and np.ptp(run.q) > 0.1
 
 
 @pytest.mark.parametrize("cyclic", [(1,), (2,), (1, 2), (2, 1)])

@@ -52,6 +52,7 @@ def test_a_bead_seen_from_the_ground_moves_as_the_bead_seen_from_the_hoop() -> N
     decision = driven_bead().same_as(bead_on_a_hoop())
     assert decision.answer == "zero"
     slower = bead_on_a_hoop().L.subs(Omega, Omega / 2)
+    assert driven_bead().power == 0 and kapitza().power != 0  # the time in the first L cancels
     other = driven_bead().same_as(System(ANGLE, slower))
     assert other.answer == "nonzero" and other.witness is not None
 
@@ -197,6 +198,32 @@ def test_lagrangians_that_differ_by_a_factor_or_a_derivative_are_the_same_system
     assert System(ANGLE, bead.L + gauge).same_as(bead).answer == "zero"
     assert System(ANGLE, 3 * bead.L).same_as(bead).answer == "zero"
     assert System(ANGLE, bead.L + theta**2).same_as(bead).answer == "nonzero"
+    # Two free points: each part of L with a factor of its own, which no one factor makes up for.
+    c = coordinates("x y")
+    apart = System(c, c.v[0] ** 2 + 3 * c.v[1] ** 2 - 3 * m * c.q[1])
+    assert apart.same_as(System(c, c.v[0] ** 2 + c.v[1] ** 2 - m * c.q[1])).answer == "zero"
+
+
+def test_what_moves_otherwise_is_refuted_at_a_point_before_anything_is_inverted(monkeypatch) -> None:
+    """By enclosures that are apart: the witness is a state at which the accelerations differ."""
+    monkeypatch.setattr("lagrotor.mechanics.sameness.constrained_accelerations", None)
+    c = coordinates("a b d")
+    turned = [sum(c.v[: i + 1]) * sp.cos(sum(c.q[: i + 1])) for i in range(3)]
+    L = sum(v**2 for v in c.v) + sum(turned) ** 2 - m * sp.cos(sum(c.q))
+    other = System(c, L).same_as(System(c, L + c.v[2] ** 2 / 10**20))
+    assert other.answer == "nonzero" and other.witness is not None and 0 < (other.evidence or 0) < 1e-15
+    assert {*c.q, *c.v, m} == other.witness.keys()
+    assert System(c, L).same_as(System(c, m * L + sum(turned))).answer == "zero"
+
+
+def test_mass_matrices_too_large_to_be_inverted_are_undecided(monkeypatch) -> None:
+    c = coordinates("x y z")
+    L, other = sum(v**2 for v in c.v), c.v[0] ** 2 + 2 * c.v[1] ** 2 + 3 * c.v[2] ** 2
+    assert System(c, L).same_as(System(c, other)).answer == "zero"
+    for name, value in (("_MOST", 2), ("_MOST_OPERATIONS", -1)):
+        monkeypatch.setattr(f"lagrotor.mechanics.sameness.{name}", value)
+    decision = System(c, L).same_as(System(c, other))
+    assert decision.answer == "undecided" and "too large" in decision.reason
 
 
 def test_systems_in_other_coordinates_are_compared_in_common_ones() -> None:

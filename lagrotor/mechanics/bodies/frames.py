@@ -6,7 +6,7 @@ from lagrotor.mechanics.bodies import rigid_bodies
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Frame(MovingFrame):
     """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one.
 

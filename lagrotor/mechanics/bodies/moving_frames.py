@@ -42,6 +42,13 @@ class MovingFrame:
         if not isinstance(self.c, Coordinates):
             raise InputError(f"Frame: {self.c!r} must be Coordinates: Frame(coordinates('phi theta psi'))")
 
+    def __repr__(self) -> str:
+        if self.parent is None:
+            return "Frame(ground)"
+        if self.axis is not None:
+            return f"Frame(turned about {AXES[self.axis]} by {self.amount})"
+        return f"Frame({'turned' if self.amount.cols == 3 else 'moved'} by {self.amount.tolist()})"
+
     def turned(self: Kind, axes: Any, angles: Any = None) -> Kind:
         """Turned about its own axes one after another, "zxz" by three angles; or by a rotation matrix of one's own.
 

@@ -29,6 +29,9 @@ class Body:
     inertia: sp.Matrix
     centre: sp.Matrix
 
+    def __repr__(self) -> str:
+        return f"Body(mass {self.mass}, inertia {self.inertia.tolist()}, centre {list(self.centre)}, {self.frame})"
+
     @property
     def velocity(self) -> sp.Matrix:
         """v of the centre of mass, in the frame's axes, (3, 1)."""
@@ -45,7 +48,10 @@ class Body:
 
     @property
     def outline(self) -> Outline:
-        """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration."""
+        """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration.
+
+        Where there is neither, lines along its axes.
+        """
         lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
         I = [self.inertia[i, i] for i in range(3)]
         axis = next((k for k in (2, 1, 0) if I[k - 2] == I[k - 1] and I[k]), None)
@@ -57,6 +63,10 @@ class Body:
                 point[axis - 1] += radius * sp.sin(2 * sp.pi * k / _ARCS)
                 rim.append(point)
             lines.append([list(self.centre), *rim])
+        if not lines and any(I):
+            for k in range(3):
+                reach = sp.sqrt(sp.Abs(sum(I) / 2 - I[k]) / self.mass)  # the body's mean square along its axis k
+                lines.append([[sign * reach * int(i == k) for i in range(3)] for sign in (-1, 1)])
         return lines or [[[0, 0, 0], [0, 0, 0]]]
 
 
@@ -80,6 +90,8 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
         )
     if (m := expression("body: mass", mass)).is_negative:
         raise InputError(f"body: mass = {m} must not be negative")
+    if any(I[i, i].is_negative for i in range(3)):
+        raise InputError(f"body: inertia = {inertia!r} must not be negative about an axis")
     return Body(frame, m, I, place)
 
 
@@ -91,6 +103,9 @@ class Energy:
     rest: sp.Expr = sp.S.Zero
 
     _op_priority = 100.0  # sympy hands + and − over
+
+    def __repr__(self) -> str:
+        return f"Energy(bodies={len(self.bodies)}, rest={self.rest})"
 
     @property
     def bodies(self) -> tuple[Body, ...]:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from lagrotor.errors import InputError
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import by_symbol
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -116,8 +117,11 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     n = len(system.c.q)
     q, v = vector("q0", q0, n), vector("v0", v0, n)
     h = len(system.constraints)
-    put = {key if isinstance(key, sp.Symbol) else sp.Symbol(key): value for key, value in values.items()} | {time: t}
     parts = (system.mass, sp.Matrix(h, 1, system.constraints), system.rows, system.residual)
+    used = set().union(*(part.free_symbols for part in parts)) - {*system.c.q, *system.c.v}
+    put = by_symbol(values, used) | {time: t}
+    if missing := sorted(map(str, used - put.keys())):
+        raise InputError(f"consistent: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
     M, g, G, off = (sp.lambdify([system.c.q, system.c.v], part.subs(put), "numpy") for part in parts)
 
     def rows(at: Any) -> Array:

@@ -30,7 +30,8 @@ class Lyapunov:
 def lyapunov(run: Motion) -> Lyapunov:
     """The largest Lyapunov exponent over the time of the run.
 
-    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample.
+    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample,
+    IntegrationError where a neighbour's motion cannot go on, as at a singular position that the run passes.
     """
     if len(run.t) < 2:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
@@ -43,7 +44,7 @@ def lyapunov(run: Motion) -> Lyapunov:
     growth = np.zeros(_PIECES)
     for i, h in enumerate(np.diff(grid)):
         tangent = tangent / np.linalg.norm(tangent)
-        problem = Problem(rhs, np.concatenate([y, tangent]), MOST)
+        problem = Problem(rhs, np.concatenate([y, tangent]), MOST // _PIECES)
         end = integrate(problem, np.array([h]), max(run.tol, _TIGHTEST)).states[-1]
         y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
         growth[i] = np.log(np.linalg.norm(tangent))

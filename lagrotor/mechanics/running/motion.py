@@ -37,6 +37,10 @@ class Motion:
     tol: float
     engine: Engine
 
+    def __repr__(self) -> str:
+        names, n = ", ".join(map(str, self.system.c.q)), len(self.t)
+        return f"{type(self).__name__} of {names}: {n} times" + (f", {self.t[0]:g} to {self.t[-1]:g} s" if n else "")
+
     @property
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""

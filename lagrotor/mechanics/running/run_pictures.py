@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.rigid_bodies import Body
+from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.running.integration import Array
 from lagrotor.mechanics.running.motion import Motion
 
@@ -31,12 +32,14 @@ def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = ()
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
     """
-    from lagrotor.drawing.film import frame_times
+    from lagrotor.drawing.film import check_film, frame_times
     from lagrotor.drawing.skeleton import animate_lines
 
+    check_film(Path(path), float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     if lines:
-        drawn = [np.stack([_vectors(frames, point) for point in line], 1) for line in lines]
+        points = [[vector_of("animate: a point of lines", e, 3) for e in _sequence(line)] for line in _sequence(lines)]
+        drawn = [np.stack([_vectors(frames, point) for point in line], 1) for line in points]
     else:
         drawn = [carried for body in run.system.bodies for carried in _outline(frames, body)]
     if not drawn:
@@ -45,6 +48,14 @@ def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = ()
             "(x, y, z)], …] with positions in the coordinates, or build L from Frame(c).body(…)"
         )
     return animate_lines(path, frames.t, drawn, fps)
+
+
+def _sequence(given: Sequence[Any]) -> Sequence[Any]:
+    if not isinstance(given, Sequence) or not given:
+        raise InputError(
+            f"animate: {given!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
+        )
+    return given
 
 
 def _outline(frames: Motion, body: Body) -> list[Array]:

@@ -28,6 +28,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
+    if len(run.t) < 2:
+        raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
     section, n = expression("crossings: section", section), run.q.shape[1]
     curve = CubicHermiteSpline(run.t, np.hstack([run.q, run.v]), run.derivatives())
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])

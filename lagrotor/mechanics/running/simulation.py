@@ -24,7 +24,7 @@ from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 _OFF = 1e-7  # of a start from its constraints, in units of the state's size, beyond which it is refused
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Run(Motion):
     """A simulated motion, and what can be computed from it."""
 

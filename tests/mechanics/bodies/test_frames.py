@@ -220,6 +220,31 @@ def test_a_film_of_bodies_shows_them(tmp_path: Path) -> None:
         assert film.n_frames > 5
 
 
+def test_an_uneven_body_is_drawn_by_its_axes_and_a_point_by_itself() -> None:
+    frame = Frame(ANGLES).turned("zxz", ANGLES.q)
+    block = frame.body(12, (5, 10, 13))  # 3 × 2 × 1
+    assert [[abs(x) for x in line[1]] for line in block.outline] == [
+        [
+            sp.Rational(3, 2) / sp.sqrt(3) if i == 0 else 0,
+            1 / sp.sqrt(3) if i == 1 else 0,
+            sp.sqrt(3) / 6 if i == 2 else 0,
+        ]
+        for i in range(3)
+    ]
+    assert frame.body(m).outline == [[[0, 0, 0], [0, 0, 0]]]
+
+
+def test_what_is_built_says_what_it_is_in_a_line() -> None:
+    frame = Frame(ANGLES).moved(0, 0, l).turned("z", ANGLES.q[0])
+    body = frame.body(m, (I1, I1, I3), (0, 0, l))
+    assert [repr(f) for f in (frame, frame.parent, frame.parent.parent)] == [
+        "Frame(turned about z by phi)",
+        "Frame(moved by [[0], [0], [l]])",
+        "Frame(ground)",
+    ]
+    assert "inertia [[I_1, 0, 0]" in repr(body) and repr(body.kinetic) == "Energy(bodies=1, rest=0)"
+
+
 def test_the_momentum_about_the_vertical_is_a_noether_integral_of_any_body() -> None:
     body = Frame(ANGLES).turned("zxz", ANGLES.q).body(m, (I1, I2, I3), (0, 0, l))
     top = System(ANGLES, body.kinetic - body.potential((0, 0, -g)))

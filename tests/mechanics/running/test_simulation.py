@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk
 
-from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.errors import ConstraintError, InputError, IntegrationError, SingularError
 from lagrotor.mechanics import System, coordinates, t
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
@@ -259,6 +259,48 @@ def test_the_exponent_of_a_saddle_is_its_rate() -> None:
     assert found.history.shape == found.t.shape == (200,)
     with pytest.raises(InputError, match="one sample"):
         saddle.simulate({}, (0,), (0,), [0.0]).lyapunov()
+
+
+def test_a_parameter_that_is_in_no_equation_is_no_trouble(engine: str) -> None:
+    run = System(ANGLE, k * ANGLE.v[0] ** 2 - k * ANGLE.q[0] ** 2).simulate({k: 2}, (1,), (0,), (0, 1.0), 1e-9, engine)
+    assert run.q[-1, 0] == pytest.approx(np.cos(1), abs=1e-8)
+    assert repr(run) == "Run of theta: 2 times, 0 to 1 s"
+
+
+def test_a_neighbour_that_cannot_go_on_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = pendulum().simulate(VALUES, (2.5,), (0,), (0, 10), 1e-9)
+    monkeypatch.setattr("lagrotor.mechanics.running.lyapunov.MOST", 2000)
+    with pytest.raises(IntegrationError):
+        run.lyapunov()
+
+
+REFUSED = {
+    "of one sample crosses": lambda run: run.at([0.0]).crossings(ANGLE.q[0]),
+    "must lie between 1 and": lambda run: run.animate("film.gif", lines=[[(0, 0, 0), (0, 0, l)]], fps=0),
+    "must be 3 expressions": lambda run: run.animate("film.gif", lines=[[(0, 0), (0, l)]]),
+    "is no line": lambda run: run.animate("film.gif", lines=[0]),
+    "no System": lambda run: run.system.same_as("pendulum"),
+    "must be names": lambda run: coordinates(3),
+    "f = 'x' is no expression": lambda run: run.system.conserved("x"),
+    "gauge = 'x' is no expression": lambda run: run.system.noether((0,), gauge="x"),
+    "one component": lambda run: run.system.noether("x"),
+    "theta = 'x' is no expression": lambda run: run.system.in_coordinates(coordinates("x"), {ANGLE.q[0]: "x"}),
+    "consistent: l, m without a value": lambda run: rod().consistent({}, (1, 0), (0, 0)),
+}
+
+
+@pytest.mark.parametrize("message", REFUSED)
+def test_what_makes_no_sense_is_refused_in_words(message: str) -> None:
+    run = pendulum().simulate(VALUES, (1,), (0,), (0, 1), 1e-6)
+    with pytest.raises(InputError, match=message):
+        REFUSED[message](run)
+
+
+def test_names_stand_for_symbols_wherever_values_are_given() -> None:
+    named = {str(s): value for s, value in VALUES.items()}
+    assert rod().consistent(named, (1, 0), (0, 0))[0][0] == pytest.approx(0.8)
+    hanging = pendulum().linearise({"theta": 0})
+    assert abs(complex(hanging.modes(named)[0].rate)) == pytest.approx(np.sqrt(9.81 / 0.8))
 
 
 def test_a_run_is_drawn_and_filmed(tmp_path: Path) -> None:
