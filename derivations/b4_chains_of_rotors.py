@@ -1,0 +1,90 @@
+# %% [markdown]
+# # Chains of rotors beside multibody engines
+#
+# **Objective.** What a run of many rotors costs with this tool and with engines, at the same error.
+#
+# **Assumptions.** Equal rotors of 10 rad/s in a staircase, massless bars of 1 m, no weight, three seconds from random tilts of
+# 0.05 and rates of 0.5 rad/s. The engines have three hinges a rotor, and their accelerations under the bars go to odeint:
+# Pinocchio by its own solver for constraints, or with its matrices by sparse LU, as Drake with its. MuJoCo has the bars as
+# tendons of fixed length and Runge and Kutta's method of fourth order, Drake's own steps the rod as a constraint. One
+# machine and one thread, the tools in turns, recorded by `python -m lagrotor.benchmark.structure_comparison`.
+#
+# **Notation.** Error: the largest of a tip's coordinate, m. `simulate` integrates twice, for its error estimate; one integration
+# is what the engines do.
+
+# %%
+import numpy as np
+
+from lagrotor.benchmark.structure_comparison import ERROR, SIZES, Timed, recorded_structures
+from lagrotor.paper import Table
+
+record, found = recorded_structures()
+machine = record["machine"]
+ours = {x.n: x for x in found if x.tool == "lagrotor, fast"}
+once = {x.n: x for x in found if x.tool == "lagrotor, fast, one integration"}
+
+
+def milliseconds(seconds: float | None) -> str:
+    return "—" if seconds is None else f"{1e3 * seconds:.3g}"
+
+
+def times(theirs: float | None, own: float | None) -> str:
+    return f"{theirs / own:.1f}" if theirs and own else "—"
+
+
+def nearest(n: int) -> Timed:
+    """The fastest engine on n rotors."""
+    return min(
+        (x for x in found if x.n == n and x.seconds and "lagrotor" not in x.tool), key=lambda x: x.seconds or 0.0
+    )
+
+
+wanted = Table(
+    "Chains of rotors: wanted and measured",
+    ("rotors", "the fastest engine", "wanted", "over `simulate` with the fast extra", "over one integration of it"),
+    tuple(
+        (
+            str(n),
+            nearest(n).tool,
+            "10",
+            times(nearest(n).seconds, ours[n].seconds),
+            times(nearest(n).seconds, once[n].seconds),
+        )
+        for n in SIZES
+    ),
+    "Multiples of processor time to the same error. Of 256 rotors Pinocchio does not run here: its data hold four tensors of the "
+    "cube of 768 speeds, 14 GB.",
+)
+wanted
+
+# %%
+table = Table(
+    "Chains of rotors: time to one error",
+    (
+        "rotors",
+        "tool",
+        "setting",
+        "error (m)",
+        "a run (ms)",
+        "over the fast extra",
+        "over one integration of it",
+        "why not further",
+    ),
+    tuple(
+        (
+            str(x.n),
+            x.tool,
+            f"{x.setting:.0e}",
+            f"{x.error:.0e}" if np.isfinite(x.error) else "—",
+            milliseconds(x.seconds),
+            times(x.seconds, ours[x.n].seconds),
+            times(x.seconds, once[x.n].seconds),
+            x.reason or "—",
+        )
+        for x in found
+    ),
+    f"Processor time to an error of {ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
+    f"{machine['Python']}; compiling left out. A tool without a time did not come to that error with its finest step, or "
+    "did not run.",
+)
+table
