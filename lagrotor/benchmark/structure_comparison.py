@@ -49,8 +49,8 @@ Run = Callable[[float], Array]
 class Timed:
     """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
 
-    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached,
-    and reason why it stopped, where it did.
+    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached
+    (infinite where it was refused; null on record), and reason why it stopped, where it did.
     """
 
     n: int
@@ -176,14 +176,20 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
             else row
             for row in rows
         ]
-    return {"machine": machine(), "versions": versions(), "rows": [asdict(row) for row in rows]}
+    return {
+        "machine": machine(),
+        "versions": versions(),
+        "rows": [asdict(row) | {"error": None if np.isinf(row.error) else row.error} for row in rows],
+    }
 
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
     """What is on record: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
     try:
         data = json.loads(RECORDED.read_text(encoding="utf-8"))
-        return data, [Timed(**row) for row in data["rows"]]
+        return data, [
+            Timed(**row | {"error": np.inf if row["error"] is None else row["error"]}) for row in data["rows"]
+        ]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise LagrotorError(f"{RECORDED} cannot be read ({error}): renew it") from None
 
