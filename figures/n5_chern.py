@@ -85,18 +85,20 @@ def figure() -> Figure:
         rates, place = d[f"{name}_rates"], d[f"{name}_place"]
         at = np.broadcast_to(d["q"][:, None], rates.shape)
         first, last = place < NEAR, place > 1 - NEAR
+        low, high = d[f"{name}_gap"]
+        reach = 3 * max(high - low, 0.25)
+        shown = (rates > low - reach) & (rates < high + reach)
         for kept, ink, label in (
             (~first & ~last, "#999999", "bulk"),
             (first, PAPER, "first border"),
             (last, MODEL, "last border"),
         ):
-            panel.plot(at[kept], rates[kept], ".", ms=3.5, color=ink, label=label)
-        low, high = d[f"{name}_gap"]
+            seen = kept & shown
+            panel.plot(at[seen], rates[seen], ".", ms=3.5, color=ink, label=label, rasterized=label == "bulk")
         for edge in (low, high):
             panel.axhline(edge, color="#222222", lw=0.8, ls="--")
-        spread = max(high - low, 0.25)
         panel.set(xlabel="wave number along the strip [rad]", ylabel="rate [rad/s]", title=title, xlim=(0, 2 * np.pi))
-        panel.set_ylim(low - 3 * spread, high + 3 * spread)
+        panel.set_ylim(low - reach, high + reach)
     entries = panels[0].get_legend_handles_labels()
     picture.legend(*entries, loc="outside lower center", ncols=3, markerscale=3)
     return picture

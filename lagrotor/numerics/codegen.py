@@ -22,9 +22,9 @@ Stage = tuple[sp.Symbol, sp.Expr]
 _BLOCK = 8192  # values at once: what a processor keeps close
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Program:
-    """arguments → stages → outputs; a stage may use the arguments and the stages before it. Equal only to itself.
+    """arguments → stages → outputs; a stage may use the arguments and the stages before it.
 
     shared: the stages were made so that sums and products have few parts in common: only equal subexpressions are then
     sought, in a time linear in their number.

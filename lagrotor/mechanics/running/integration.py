@@ -1,7 +1,6 @@
 """States of a system at any times: its program compiled, integrated, and brought back onto its constraints."""
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,10 +19,8 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
     projection_program,
 )
-from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.heyoka_programs import taylor_rhs
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
-from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.taylor import integrate_taylor
 
 Array = NDArray[np.float64]
@@ -48,14 +45,9 @@ def states(
     if engine == "fast":
         found = _taylor(given, parameters, start, wanted, tol, project)
     else:
-        problem = Problem(rhs_factory(given)(*parameters), start, MOST, project=project)
+        problem = Problem(given.rhs(*parameters), start, MOST, project=project)
         found = integrate(problem, wanted, tol).states
     return found[:, : 2 * len(system.c.q)]
-
-
-@lru_cache(maxsize=64)
-def rhs_factory(given: Generated) -> Any:
-    return make_rhs(given.program, len(given.states))
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
@@ -69,7 +61,7 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
     given = motion_program(system)
     parameters = parameter_values(given, values)
     fast = engine == "fast"
-    function = taylor_rhs(given.program, len(given.states), parameters) if fast else rhs_factory(given)(*parameters)
+    function = taylor_rhs(given.program, len(given.states), parameters) if fast else given.rhs(*parameters)
     if not depends_on_time(system):
         return function
     return lambda t, y: function(t, np.append(y, t))[:-1]
@@ -93,7 +85,7 @@ def _taylor(given: Generated, parameters: Any, start: Array, wanted: Array, tol:
 
 def projection(system: Equations, values: Values) -> Any:
     given = projection_program(system)
-    function, parameters = _compiled_projection(given), parameter_values(given, values)
+    function, parameters = given.function, parameter_values(given, values)
 
     def project(y: Array) -> Array:
         with np.errstate(all="ignore"):
@@ -102,11 +94,6 @@ def projection(system: Equations, values: Values) -> Any:
         return y
 
     return project
-
-
-@lru_cache(maxsize=64)
-def _compiled_projection(given: Generated) -> Any:
-    return compile_program(given.program, "numpy")
 
 
 def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:

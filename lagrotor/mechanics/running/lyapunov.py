@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.running.integration import MOST, Array, projection, rhs_factory
+from lagrotor.mechanics.running.integration import MOST, Array, projection
 from lagrotor.mechanics.running.motion import Motion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
 from lagrotor.numerics.integrate import Problem, integrate
@@ -36,7 +36,7 @@ def lyapunov(run: Motion) -> Lyapunov:
     if len(run.t) < 2:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
     given, n = tangent_program(motion_program(run.system)), 2 * run.q.shape[1]
-    rhs, d = rhs_factory(given)(*parameter_values(given, run.values)), len(given.states) // 2
+    rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
     project = projection(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
     y = np.concatenate([run.q[0], run.v[0], [run.t[0]] * (d - n)])

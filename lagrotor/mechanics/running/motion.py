@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
-from lagrotor.mechanics.running.integration import Array, Values, increasing, rhs_factory, states
+from lagrotor.mechanics.running.integration import Array, Values, increasing, states
 from lagrotor.mechanics.running.programs import (
     Generated,
     energy_program,
@@ -19,7 +19,6 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.numerics.codegen import compile_program
 from lagrotor.numerics.integrate import Engine
 
 Kind = TypeVar("Kind", bound="Motion")
@@ -45,7 +44,7 @@ class Motion:
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""
         given = energy_program(self.system)
-        return self._values(given, _compiled(given))
+        return self._values(given, given.function)
 
     @property
     def drift(self) -> Array:
@@ -60,7 +59,7 @@ class Motion:
         Raises InputError when it contains anything else.
         """
         given = _function(self.system, checked("evaluate: expression", expression))
-        return self._values(given, _compiled(given))
+        return self._values(given, given.function)
 
     def _values(self, given: Generated, function: Any) -> Array:
         columns = [*self.q.T, *self.v.T, *((self.t,) if len(given.states) > 2 * self.q.shape[1] else ())]
@@ -85,7 +84,7 @@ class Motion:
     def derivatives(self) -> Array:
         """(v, a) at the samples, (n, 2 N)."""
         given = motion_program(self.system)
-        rhs = rhs_factory(given)(*parameter_values(given, self.values))
+        rhs = given.rhs(*parameter_values(given, self.values))
         clock = len(given.states) > 2 * self.q.shape[1]
         rows = np.hstack([self.q, self.v, *([self.t[:, None]] if clock else [])])
         return np.array([rhs(0.0, y) for y in rows])[:, : 2 * self.q.shape[1]]
@@ -94,8 +93,3 @@ class Motion:
 @lru_cache(maxsize=256)
 def _function(system: Equations, expression: sp.Expr) -> Generated:
     return function_program(system, expression)
-
-
-@lru_cache(maxsize=256)
-def _compiled(given: Generated) -> Any:
-    return compile_program(given.program, "numpy")

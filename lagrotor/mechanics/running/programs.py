@@ -5,9 +5,9 @@ constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by elem
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from keyword import iskeyword
 from typing import Any
 
@@ -22,7 +22,8 @@ from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import singular_mass, t
-from lagrotor.numerics.codegen import Program, Stage, reduce_common, solve_symmetric
+from lagrotor.numerics.codegen import Program, Stage, compile_program, reduce_common, solve_symmetric
+from lagrotor.numerics.rhs import make_rhs
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
@@ -39,6 +40,16 @@ class Generated:
     program: Program
     states: tuple[sp.Symbol, ...]
     parameters: tuple[sp.Symbol, ...]
+
+    @cached_property
+    def rhs(self) -> Callable[..., Any]:
+        """parameters → rhs(t, y)."""
+        return make_rhs(self.program, len(self.states))
+
+    @cached_property
+    def function(self) -> Callable[..., Any]:
+        """(*arguments) → outputs, for numbers and arrays."""
+        return compile_program(self.program, "numpy")
 
 
 @lru_cache(maxsize=64)

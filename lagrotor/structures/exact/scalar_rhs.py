@@ -1,7 +1,6 @@
 """The right-hand side of few rotors in single numbers: so few operations cost less than calling arrays does."""
 
 from collections.abc import Callable
-from functools import lru_cache
 
 import numpy as np
 
@@ -31,7 +30,6 @@ def _listed(drive: Drive | None) -> Callable[[float], list[float]]:
     return lambda t: np.asarray(drive(t) if drive else (), dtype=float).ravel().tolist()
 
 
-@lru_cache(maxsize=64)
 def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
     """Source of (force, ground) → rhs(s, y); forced, shaken: whether there is a force on the tips, a motion of the ground."""
     N, rate, tape = len(c.R), c.rate, list[Recorded]()

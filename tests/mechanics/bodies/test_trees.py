@@ -15,7 +15,6 @@ from lagrotor.errors import SingularError
 from lagrotor.mechanics import Frame, System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
-from lagrotor.mechanics.running.integration import rhs_factory
 from lagrotor.mechanics.running.programs import energy_program, parameter_values
 from lagrotor.numerics import compile_program, operations
 from lagrotor.numerics.codegen import reduce_common
@@ -27,7 +26,7 @@ GRAVITY = (0, 0, -g)
 
 def derivative(system: System, y: np.ndarray) -> np.ndarray:
     given = motion_program(system)
-    return np.array(rhs_factory(given)(*parameter_values(given, VALUES))(0.0, y[: len(given.states)]))
+    return np.array(given.rhs(*parameter_values(given, VALUES))(0.0, y[: len(given.states)]))
 
 
 def energy(system: System, y: np.ndarray) -> float:
@@ -193,7 +192,7 @@ def work(make: Callable[[int], System], n: int) -> tuple[int, int]:
     profile = Profile()
     profile.enable()
     given = motion_program(make(n))
-    rhs_factory(given)
+    assert given.rhs
     profile.disable()
     return operations(given.program), Stats(profile).total_calls
 
