@@ -78,10 +78,13 @@ def _shown(value: Any, answers: Mapping[str, str]) -> str:
 
 
 def _png(figure: RunFigure) -> str:
-    """The figure as an address that holds it; coarse, as many are on a page."""
-    with BytesIO() as file:
+    """The figure as an address that holds it; coarse and in 64 colours, as many are on a page."""
+    from PIL import Image
+
+    with BytesIO() as file, BytesIO() as small:
         figure.savefig(file, format="png", dpi=72)
-        return "data:image/png;base64," + b64encode(file.getvalue()).decode()
+        Image.open(file).convert("RGB").quantize(64).save(small, format="png", optimize=True)
+        return "data:image/png;base64," + b64encode(small.getvalue()).decode()
 
 
 def _cell(cell: Any) -> str:
