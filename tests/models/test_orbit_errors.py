@@ -28,6 +28,7 @@ from lagrotor.models import exact_orbit
 from lagrotor.models.orbits.precession import sampled
 from lagrotor.theory import PrecessionOrbit, series_orbit
 from lagrotor.theory.paired_precession.amplitudes import first_harmonic
+from lagrotor.theory.paired_precession.orbit_harmonics import start_of
 
 PHASES = np.linspace(0, 2 * np.pi, 121)
 MASSLESS, LONG_ROTOR = Scene(spins=(10, -10)), Rotor(1.3, 0.8, 0.9, 1.2)
@@ -62,7 +63,11 @@ def held(scene: Scene, r0: float, tol: float) -> dict[str, float]:
     found["frequency"] = abs(answer.frequency - truth.frequency) / answer.frequency_error
     found["momentum"] = abs(answer.momentum - truth.momentum) / answer.momentum_error
     start = answer.start
-    found["start"] = np.linalg.norm(np.array(start.axes) - truth(0.0), axis=-1).max() / (2 * answer.error)
+    away, slower = (
+        np.array(start.axes) - truth(0.0),
+        np.array(start.rates) / truth.frequency - start_of(truth.harmonics)[1],
+    )
+    found["start"] = np.linalg.norm([away, slower], axis=-1).max() / (2 * answer.error)
     for order in (5, 9):
         try:
             one = series_orbit(scene, r0, order)
@@ -103,12 +108,15 @@ def test_no_answer_is_farther_off_than_it_says() -> None:
 
 @pytest.mark.slow
 def test_no_answer_of_two_hundred_is_farther_off_than_it_says() -> None:
-    """And the bounds are not idle: of each kind some are within a factor of ten; a tenth of them would fail."""
+    """And the bounds are not idle: of each kind some are within a factor of ten; a tenth of them would fail.
+
+    Of a start a factor of twenty: its bound is twice the orbit's, since going to the bar may double a distance.
+    """
     ratios = checked(200, seed=2)
     assert len(ratios["orbit"]) == 200
     for name, values in ratios.items():
         assert len(values) > 100, name
-        assert max(values) > 0.1, name
+        assert max(values) > (0.05 if name == "start" else 0.1), name
 
 
 def collocated(scene: Scene, r0: float, guess: PrecessionOrbit) -> tuple[float, np.ndarray]:

@@ -2,7 +2,7 @@
 
 The error of a form through r_0**n is its distance from what the series through r_0**(n + 6) gives for the same
 quantity, and the estimated remainder of that series. Both are evaluated for a bar whose sigma − 1 and k are rounded to
-three digits, so that the exact series has short coefficients.
+five digits, so that the exact series has short coefficients: beside a bar for which the error passes zero three are too few.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
 MORE_ORDERS = 6
-_ROUNDED = 1.1  # what rounding sigma and k may change
+_ROUNDED = 0.1  # of the largest output's error: what rounding sigma and k may change in any
 
 # (series, the form's arguments by symbol, one amplitude and bar) → the outputs (outputs, n); and (series, r_0) → the
 # bound of their error.
@@ -48,15 +48,16 @@ def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> 
             part |= {s: np.full(here.sum(), v) for s, v in zip((sigma, k), place[1:], strict=True) if s in part}
             exact, left = reference(series, part), _rest(form.name, series, rest, float(place[0]))
             mine = np.reshape(form(*(part[s] for s in form.arguments)), exact.shape)
-            found[:, here] = _ROUNDED * np.abs(mine - exact) + left
+            apart = np.abs(mine - exact)
+            found[:, here] = apart + _ROUNDED * apart.max(0) + left
         return found
 
     return replace(form, bound=bound)
 
 
 def _rounded(values: Array) -> Array:
-    """To three digits."""
-    return np.array([float(f"{v:.3g}") for v in values])
+    """To five digits."""
+    return np.array([float(f"{v:.5g}") for v in values])
 
 
 def _rest(name: str, series: PairedSeries, rest: Rest, amplitude: float) -> float:

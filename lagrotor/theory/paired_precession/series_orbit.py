@@ -67,16 +67,23 @@ class PrecessionOrbit(Shown):
 
     @property
     def momentum_error(self) -> float:
-        """Bound of the momentum's error, kg m²/s."""
+        """Bound of the momentum's error, kg m²/s.
+
+        At Phi = 0 the axes of both orbits are parallel, so that G drops out and P = −sum_i z_i (a y_i' + b y_j').
+        """
         own, shared = self.scene.inertias
-        carried = 2 * (own + abs(shared))
-        speed = speed_of(self.harmonics)
-        per_axis = carried * abs(self.frequency) * (1 + speed) + 2 * abs(self.scene.momenta[0])
-        return per_axis * self.error + carried * speed * self.frequency_error
+        r, slope = start_of(self.harmonics)
+        height, across = np.abs(r[:, 2]), np.abs(slope[:, 1])
+        of_axes = abs(self.frequency) * (height.sum() + across.sum() + 2 * self.error) * self.error
+        of_frequency = (height.max() + self.error) * (across.sum() + 2 * self.error) * self.frequency_error
+        return float((own + abs(shared)) * (of_axes + of_frequency))
 
     @property
     def start(self) -> Scene:
-        """The scene started on the orbit at t = 0, to be simulated: exact on the bar, within twice `error` of the orbit."""
+        """The scene started on the orbit at t = 0, to be simulated: exact on the bar, within twice `error` of the orbit.
+
+        So are its rates, in units of `frequency`.
+        """
         (axes, slope), scene = start_of(self.harmonics), self.scene
         return consistent_scene(scene.spins, axes, self.frequency * slope, scene.rotor, scene.link, scene.shock)
 
