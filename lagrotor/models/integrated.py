@@ -95,6 +95,7 @@ def integrated(
         project,
         BETWEEN_PROJECTIONS / rate if project else inf,
         companion_order(tol) if companion else taylor_order(tol),
+        model.angles,
     )
     if bounded:
         _check_states(*model.program(scene, False), times, solution.states)

@@ -103,4 +103,4 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 
-MODEL = Model("minimal", 6, _kind, program, _rhs, _start, _observe)
+MODEL = Model("minimal", 6, _kind, program, _rhs, _start, _observe, angles=(1, 2))

@@ -50,7 +50,8 @@ class Model:
     scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
     projection: brings states that drifted off the constraints back onto them. outside: whether a state of a pair with its
     bar lies where the model must not be integrated; time_to_singular: the time after which a state may be there, at the
-    earliest. progress: called with the time of each evaluation of the right-hand side.
+    earliest. angles: which states may grow without end, their rates being states. progress: called with the time of each
+    evaluation of the right-hand side.
     """
 
     name: str
@@ -63,6 +64,7 @@ class Model:
     projection: Callable[[Scene], Projection] | None = None
     outside: Callable[[Array], bool] | None = None
     time_to_singular: Callable[[Array], float] | None = None
+    angles: tuple[int, ...] = ()
     progress: Callable[[float], None] | None = None
 
     def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:

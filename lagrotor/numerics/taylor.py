@@ -1,8 +1,8 @@
 """The fast extra: heyoka's Taylor integrator, compiled from the same generated programs.
 
-A cyclic coordinate, which may grow without end, is carried so small that it is never the largest, which heyoka measures its
-error by. What is compiled is kept for the process, some tenths of a second a program and order. The read-out at any time is
-as exact as the run.
+A cyclic coordinate and an angle, which may grow without end, are carried so small that they are never the largest state, which
+heyoka measures its error by. What is compiled, one or two seconds a program and order, is kept for the process, by heyoka on
+disk. The read-out at any time is as exact as the run.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ from lagrotor.numerics.taylor_steps import (
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
-_CARRIED = 2.0**-20  # of a cyclic coordinate: a millionth, that rounds nothing
+_CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
@@ -53,11 +53,13 @@ def integrate_taylor(
     project: Projection | None = None,
     longest_between: float = np.inf,
     order: int | None = None,
+    angles: tuple[int, ...] = (),
 ) -> Solution:
     """Integrate from t = 0 through `times`; states (n, d) there, and steps times order for evaluations.
 
     Cut at the pulse's edges as `integrate` is, and projected there, at the end, and after no more than `longest_between`.
-    order: another than the cheapest for `tol`.
+    order: another than the cheapest for `tol`. angles: which states may grow without end besides the cyclic ones; their
+    error is held by that of their rates, which are states too.
     Raises InputError without heyoka, StopError where it stops.
     """
     order = order or taylor_order(tol)
@@ -67,7 +69,7 @@ def integrate_taylor(
     d, y, nfev = len(start), start, 0
     for left, right, driven in segments(-at, float(t_eval[-1]), width):
         program, values = generated(driven)
-        solver, scale = _solver(program, d, driven, order, 1, get_ident()), _carried(program, d)
+        solver, scale = _solver(program, d, driven, order, 1, get_ident(), angles), _carried(program, d, angles)
         if pulse and driven:
             values = (*values, *pulse.force, width)
         solver.pars[:] = values[: len(solver.pars)]  # the last ones may be in no expression
@@ -87,8 +89,8 @@ def integrate_taylor(
 
 
 def companion_order(tol: float) -> int:
-    """An order that takes other steps than that of a tighter run: at the tightest the next lower one."""
-    return min(taylor_order(tol), 14)
+    """Never that of the run it is compared with: where the size of the states sets the steps, both have the same at any tol."""
+    return taylor_order(tol) - 1
 
 
 def march_taylor(program: Program, start: Array, parameters: Array, times: Array, tol: float) -> tuple[Array, Counts]:
@@ -119,10 +121,10 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     return states, spent
 
 
-def _carried(program: Program, states: int) -> Array:
+def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
     """What each state is multiplied by while it is integrated."""
     scale = np.ones(states)
-    scale[_cyclic(program, states)] = _CARRIED
+    scale[[*_cyclic(program, states), *angles]] = _CARRIED
     return scale
 
 
@@ -135,21 +137,22 @@ def _cyclic(program: Program, states: int) -> list[int]:
 
 
 @lru_cache(maxsize=64)
-def _solver(program: Program, states: int, driven: bool, order: int, lanes: int, thread: int) -> Any:
+def _solver(
+    program: Program, states: int, driven: bool, order: int, lanes: int, thread: int, angles: tuple[int, ...] = ()
+) -> Any:
     """The compiled integrator of a program whose first `states` arguments are the state; each thread has its own.
 
     Its state has one component more, which is constant.
     """
     heyoka = heyoka_module()
     names, parameters = program.arguments[:states], program.arguments[states:]
-    known = {s: heyoka.make_vars(str(s)) for s in names}
+    variables, scale = [heyoka.make_vars(str(s)) for s in names], _carried(program, states, angles)
+    known = {s: x if c == 1 else x * (1 / c) for s, x, c in zip(names, variables, scale, strict=True)}
     known |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
     rates = translated(program, known, heyoka)
-    for i in _cyclic(program, states):
-        rates[i] *= _CARRIED
     # A pulse is short: there what compiles faster pays.
-    equations = [(known[s], rate) for s, rate in zip(names, rates, strict=True)]
+    equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=driven or states > 6)

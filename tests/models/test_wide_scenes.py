@@ -5,7 +5,7 @@ The references are recorded in `wide_scenes.npz`; `python -m tests.models.wide_s
 
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -15,6 +15,8 @@ import pytest
 from lagrotor import Trajectory, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
+from lagrotor.numerics import taylor
+from lagrotor.numerics.taylor_steps import taylor_order
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
 
 RECORDED = np.load(Path(__file__).with_name("wide_scenes.npz"))
@@ -22,6 +24,7 @@ PREDICTABLE = 1e4  # parting of neighbouring motions below which no miss may be 
 NO_HEYOKA = pytest.mark.skipif(find_spec("heyoka") is None, reason="the fast extra is not installed")
 ENGINES = ["core", pytest.param("fast", marks=NO_HEYOKA)]
 TRIALS = wide_scenes(SEED, COUNT)
+LONG_TWIST = 639  # 1,200 turns of a bar longer than the rotors, that goes round and round
 SHORT = [i for i, trial in enumerate(TRIALS) if turns(trial) < 10][:100]
 
 
@@ -94,6 +97,19 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
 
     monkeypatch.setattr(simulating, "run_within", trusting)
     assert len(judge(SHORT, "core")[0]) > 2
+
+
+@NO_HEYOKA
+def test_taylor_steps_that_the_states_set_and_not_the_tolerance_hide_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its twist turns without end, and of two runs of one order both take the steps that the largest state allows."""
+    (one,) = outcomes([LONG_TWIST], "fast")
+    assert one.run is not None and one.error < one.run.error <= one.trial.tol
+    # Twin: with the twist in full and orders alike, the two runs agree, and both are wrong.
+    in_full = tuple(replace(model, angles=()) for model in simulating.LADDER)
+    monkeypatch.setattr(simulating, "LADDER", in_full)
+    monkeypatch.setattr(taylor, "companion_order", taylor_order)
+    (other,) = outcomes([LONG_TWIST], "fast")
+    assert other.missed and not other.warned
 
 
 @NO_HEYOKA

@@ -73,7 +73,10 @@ def test_within_an_order_the_step_follows_the_tolerance(heyoka) -> None:
 
 
 def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
-    """alpha is cyclic: ten thousand turns more change neither the motion nor the steps; twin: any other state does."""
+    """alpha is cyclic, chi an angle: ten thousand turns more change neither the motion nor the steps.
+
+    Twin: where chi is not said to be an angle, its size sets the steps.
+    """
     scene = Scene((10, -7), **MOVING)
     start, (form, values) = minimal.MODEL.start(scene), minimal.MODEL.program(scene, False)
     far = start + np.array([0, 0, 2e4 * np.pi, 0, 0, 0])
@@ -81,6 +84,12 @@ def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
     assert far_run.nfev == near_run.nfev
     assert far_run.states[:, :2] == pytest.approx(near_run.states[:, :2], abs=1e-13)
     assert taylor._cyclic(form, 6) == [2]
+    twisted = start + np.array([0, 2e4 * np.pi, 0, 0, 0, 0])
+    spent, in_full = (
+        taylor.integrate_taylor(lambda _: (form, values), twisted, None, TIMES, 1e-11, angles=angles).nfev
+        for angles in (minimal.MODEL.angles, ())
+    )
+    assert spent == near_run.nfev > 1.3 * in_full
     driven, _ = minimal.MODEL.program(Scene((10, -7), shock=SHOCK_PAIRED), True)
     assert taylor._cyclic(driven, 6) == []
 
