@@ -2,8 +2,7 @@
 
 `python -m lagrotor.benchmark.structure_comparison` writes the record that the report shows; some minutes, in one thread. A
 tool's time is that of its coarsest setting whose tips are within ERROR of the reference at all times: the exact model at
-10⁻¹², with which every engine agrees. `simulate` integrates twice, for its error estimate; the engines give none, so that one
-integration stands beside it.
+10⁻¹², with which every engine agrees. `simulate` gives its error estimate, for which it integrates twice; the engines give none.
 """
 
 import json
@@ -27,8 +26,6 @@ from lagrotor.errors import IntegrationError, LagrotorError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
-from lagrotor.structures.exact.compiled_motion import integrate_compiled
-from lagrotor.structures.exact.exact_motion import exact_motion
 from lagrotor.structures.exact.structure_run import StructureRun
 from lagrotor.structures.structure import Structure
 
@@ -87,7 +84,6 @@ def tools(n: int) -> dict[str, tuple[Run, tuple[float, ...]]]:
     found: dict[str, tuple[Run, tuple[float, ...]]] = {"lagrotor": (lambda tol: begun(s, tol).tips, _TOLERANCES)}
     if find_spec("heyoka"):
         found["lagrotor, fast"] = (lambda tol: begun(s, tol, "fast").tips, _TOLERANCES)
-        found["lagrotor, fast, one integration"] = (_once(s, at_start), _TOLERANCES[3:])
     for name, (prepare, steps) in ENGINES.items():
         if find_spec(_MODULES[name.split(",")[0]]):
             found[name] = (_prepared(prepare, rig), steps[-2:] or _TOLERANCES[11:])
@@ -101,19 +97,6 @@ def _prepared(prepare: Callable[[Rig, Array], Runner], rig: Rig) -> Run:
     def run(setting: float) -> Array:
         made[:] = made or [prepare(rig, TIMES)]
         return made[0](setting)[0]
-
-    return run
-
-
-def _once(s: Structure, at_start: StructureRun) -> Run:
-    """The integration of the fast extra without a second one for its error, as the engines integrate."""
-    motion = exact_motion(s)
-    start = np.concatenate([at_start.axes[:, 0].ravel(), at_start.rates[:, 0].ravel() / motion.c.rate])
-
-    def run(tol: float) -> Array:
-        states = motion.projected(integrate_compiled(s, motion, start, TIMES, tol).states.T).T
-        axes = states[:, : len(start) // 2].reshape(len(TIMES), -1, 3).swapaxes(0, 1)
-        return np.asarray(motion.c.feet[:, None] + motion.c.R[:, None, None] * axes)
 
     return run
 

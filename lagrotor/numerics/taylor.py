@@ -155,4 +155,4 @@ def _solver(
     rates = translated(program, known, heyoka)
     # A pulse is short: there what compiles faster pays.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
-    return compiled_solver(equations, order, lanes, compact=driven or states > 6)
+    return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))

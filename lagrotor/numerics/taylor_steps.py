@@ -33,7 +33,8 @@ def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
     given = {"tol": _compiled_for(order), "fast_math": True}
     if lanes > 1:
-        return heyoka.taylor_adaptive_batch(equations, state=np.zeros((len(equations), lanes)), **given)
+        zero = np.zeros((len(equations), lanes))
+        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **given)
     return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **given)
 
 
@@ -47,41 +48,50 @@ def march(
     y: Array,
     times: Array,
     span: tuple[float, float],
-    size: float,
+    size: float | Array,
     project: Projection | None = None,
     longest_between: float = np.inf,
     longest: float = np.inf,
-    goes_on: Callable[[Array], bool] | None = None,
+    after_step: Callable[[Any], bool] | None = None,
 ) -> tuple[Array, Array, int]:
     """States (n, d) at the times within the span, begun with y (d,); the state at its end; evaluations, steps times order.
 
+    With a solver of L lanes, which step side by side, each its own way, y is (d, L), size (L,) and the states (n, d, L).
     size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
-    longest: of a step. goes_on: whether it may go on from the state (d,) after a step. Raises StopError where it stops.
+    longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
     """
     (left, right), found, steps = span, list[Array](), 0
     while left < right or not found:
-        solver.time, solver.state[:-1], solver.state[-1] = left, y, size
+        solver.state[:-1], solver.state[-1] = y, size
         until = min(right, left + longest_between)
         inside = times[(times > left if found else times >= left) & (times <= until)]
-        states, y, more = _propagated(solver, inside, until, longest, goes_on)
+        states, y, more = _propagated(solver, left, inside, until, longest, after_step)
         if states is None:
             reason = "the Taylor series has no step; engine='core' may go on"
-            raise StopError(solver.time, reason, nfev=(steps + more) * solver.order)
+            raise StopError(float(np.min(solver.time)), reason, nfev=(steps + more) * solver.order)
         found.append(states)
         y, left, steps = (y if project is None else project(y)), until, steps + more
     return np.concatenate(found), y, steps * solver.order
 
 
 def _propagated(
-    solver: Any, t_eval: Array, until: float, longest: float, goes_on: Callable[[Array], bool] | None
+    solver: Any, begin: float, t_eval: Array, until: float, longest: float, after_step: Callable[[Any], bool] | None
 ) -> tuple[Array | None, Array, int]:
-    """States (n, d) at the times within the solver's and `until`, the state there, and steps; None where it stops."""
-    before = 0 if len(t_eval) and t_eval[0] == solver.time else 1
-    after = 0 if len(t_eval) and t_eval[-1] == until else int(until > solver.time)
-    grid = np.concatenate([[solver.time] * before, t_eval, [until] * after])
-    more = {} if goes_on is None else {"callback": lambda stepped: goes_on(stepped.state[:-1])}
-    outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_delta_t=longest, max_steps=MOST_STEPS, **more)
-    if "time_limit" not in str(outcome) or not np.isfinite(states).all():
+    """States (n, d) at the times from `begin` to `until`, the state there, and steps; None where it stops."""
+    before = 0 if len(t_eval) and t_eval[0] == begin else 1
+    after = 0 if len(t_eval) and t_eval[-1] == until else int(until > begin)
+    grid = np.concatenate([[begin] * before, t_eval, [until] * after])
+    more: dict[str, Any] = {"max_delta_t": longest, "max_steps": MOST_STEPS}
+    more |= {} if after_step is None else {"callback": after_step}
+    if solver.state.ndim > 1:
+        solver.set_time(begin)
+        _, states = solver.propagate_grid(np.repeat(grid[:, None], solver.state.shape[1], axis=1), **more)
+        outcomes, steps = [each[0] for each in solver.propagate_res], sum(each[3] for each in solver.propagate_res)
+    else:
+        solver.time = begin
+        outcome, _, _, steps, _, states = solver.propagate_grid(grid, **more)
+        outcomes = [outcome]
+    if any("time_limit" not in str(outcome) for outcome in outcomes) or not np.isfinite(states).all():
         return None, np.empty(0), steps
     states = states[:, :-1]
     return states[before : before + len(t_eval)].copy(), states[-1].copy(), steps

@@ -3,11 +3,12 @@
 Compiled once a process for a structure whatever its spins: about two seconds for nine rotors, four for 256 in a chain.
 """
 
-from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import lru_cache
 from threading import get_ident
 from typing import Any
+
+import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.heyoka_programs import heyoka_module
@@ -16,14 +17,18 @@ from lagrotor.numerics.taylor_steps import compiled_solver, dummy_size, march, t
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion
+from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.written_out import accelerations
 
 _RING, _MOST = 11, 64  # half bandwidth of a ring; what compiles in about half a minute
 _BETWEEN = 10.0  # radians at the structure's rate between two projections onto the constraints
 
 
-def integrate_compiled(s: Assembly, motion: ExactMotion, start: Array, times: Array, tol: float) -> Solution:
-    """States (n, 6 N) as of `motion.rhs` at times in s, off the constraints by its error; steps times order for evaluations.
+def integrate_compiled(
+    s: Assembly, motion: ExactMotion, start: Array, times: Array, tols: tuple[float, float]
+) -> list[Solution]:
+    """For both tolerances, which a processor's vectors integrate side by side at the price of the tighter one: states
+    (n, 6 N) as of `motion.rhs` at times in s, off the constraints by its error; steps times order for evaluations.
 
     Raises InputError without heyoka, for what it cannot compile, and StopError where it stops.
     """
@@ -35,29 +40,28 @@ def integrate_compiled(s: Assembly, motion: ExactMotion, start: Array, times: Ar
             f"simulate: engine='fast' compiles chains and rings of massless bars, and other structures up to {_MOST} rotors, "
             f"not of {len(s.joints)}: use engine='core'"
         )
-    c, order = motion.c, taylor_order(tol)
-    bare = Assembly(**{f.name: getattr(s, f.name) for f in fields(Assembly)} | {"spins": 0.0})
-    solver, span = _solver(bare, order, get_ident()), (0.0, float(times[-1]))
-    solver.pars[: len(c.R)], solver.pars[len(c.R)] = c.G, c.rate
-    size, between, passes = dummy_size(tol, order), _BETWEEN / c.rate, _keeps_off_lines(motion, start)
-    states, _, nfev = march(solver, start, times, span, size, motion.projected, between, goes_on=passes)
-    return Solution(states, nfev)
+    c, order = motion.c, taylor_order(min(tols))
+    solver, span = _solver(_without_spins(s), order, get_ident()), (0.0, float(times[-1]))
+    solver.pars[: len(c.R)], solver.pars[len(c.R)] = c.G[:, None], c.rate
+    sizes, watch = np.array([dummy_size(tol, order) for tol in tols]), LineWatch(motion)
+    watch.keep(0.0, start)
+
+    def keep(stepped: Any) -> bool:
+        watch.keep(stepped.time[-1], stepped.state[:, -1])
+        return True
+
+    def onto(y: Array) -> Array:
+        watch.check()
+        return motion.projected(y)
+
+    both = np.repeat(start[:, None], 2, axis=1)
+    states, _, nfev = march(solver, both, times, span, sizes, onto, _BETWEEN / c.rate, after_step=keep)
+    return [Solution(found, nfev // 2) for found in states.transpose(2, 0, 1)]
 
 
-def _keeps_off_lines(motion: ExactMotion, start: Array) -> Callable[[Array], bool]:
-    """Whether no bar came into line with both its axes in a step to a state (6 N,): there its direction across both turns
-    round, and the multipliers have no limit, which a Taylor series passes without notice.
-    """
-    before = motion.across(start.reshape(2, -1, 3)[0])
-
-    def keeps_off(y: Array) -> bool:
-        nonlocal before
-        now = motion.across(y.reshape(2, -1, 3)[0])
-        turned = ((now * before).sum(-1) < 0).all(0).any()
-        before = now
-        return not turned
-
-    return keeps_off
+@lru_cache(maxsize=16)
+def _without_spins(s: Assembly) -> Assembly:
+    return Assembly(**{f.name: getattr(s, f.name) for f in fields(Assembly)} | {"spins": 0.0})
 
 
 @lru_cache(maxsize=16)
@@ -78,4 +82,4 @@ def _solver(bare: Assembly, order: int, thread: int) -> Any:
 
     found = accelerations(plain, r, v, G, heyoka, add)
     rates = [x for axis in v for x in axis] + [x / rate for axis in found for x in axis]
-    return compiled_solver(list(zip(names, rates, strict=True)), order)
+    return compiled_solver(list(zip(names, rates, strict=True)), order, lanes=2)

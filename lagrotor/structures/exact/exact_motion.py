@@ -93,9 +93,10 @@ class ExactMotion:
         return tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
 
     def across(self, r: Array) -> Array:
-        """The bars' R d × r with the axes at both ends, (2, B, 3): zero where a bar is in line with both."""
+        """The bars' R d × r with the axes at both ends, (2, …, B, 3): zero where a bar is in line with both; r (…, N, 3)."""
         d = self.pulls(r)[1]
-        return np.stack([d[:, NEXT] * u[:, AFTER] - d[:, AFTER] * u[:, NEXT] for u in (r[self.c.i], r[self.c.j])])
+        ends = r[..., self.c.i, :], r[..., self.c.j, :]
+        return np.stack([d[..., NEXT] * u[..., AFTER] - d[..., AFTER] * u[..., NEXT] for u in ends])
 
     def energy(self, r: Array, v: Array) -> Array:
         """T + V of states r, v (n, N, 3), (n,), in J, the spins' own energy left out."""

@@ -1,6 +1,7 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
 import warnings
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -14,6 +15,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact.closing import closed
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
+from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from lagrotor.structures.exact.structure_run import StructureRun
 
@@ -39,10 +41,11 @@ def simulate(
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
     tolerance, and a LagrotorWarning says when it exceeds tol. engine: "core", or "fast" with heyoka (`pip install
-    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins, and no drive and no ground.
+    lagrotor[fast]`): both runs at the price of one, after some seconds of compiling a structure, once for all spins; no
+    drive and no ground.
 
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
-    where bars and axes are in line, IntegrationError where the motion cannot go on.
+    where bars and axes are in line, IntegrationError where they come to be, or the motion cannot go on.
     """
     times, wanted = _times(t), check_tolerance(tol)
     check_engine(engine)
@@ -50,15 +53,16 @@ def simulate(
     motion = exact_motion(s, _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times))
     start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
     run = partial(_integrated, s, motion, start, times, engine)
-    coarse, N = run(local), len(s.joints)
-    nfev = coarse.nfev
+    (coarse, fine), N = run(local), len(s.joints)
+    nfev = coarse.nfev + fine.nfev
     while True:
-        fine = run(max(local / _APART, 1e-13))
         off = (fine.states - coarse.states)[:, : 3 * N].reshape(-1, N, 3)
-        error, nfev = float(np.linalg.norm(off, axis=-1).max()) + 1e-15, nfev + fine.nfev
+        error = float(np.linalg.norm(off, axis=-1).max()) + 1e-15
         if error <= wanted or local <= 3e-12:
             break
-        local, coarse = max(local / _APART, 3e-12), fine
+        local = max(local / _APART**2, 3e-12)
+        coarse, fine = run(local)
+        nfev += coarse.nfev + fine.nfev
     if error > wanted:
         warnings.warn(
             f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, as neighbouring motions part; "
@@ -71,19 +75,29 @@ def simulate(
     return StructureRun(s, times, axes, motion.c.rate * velocities, error, nfev)
 
 
-def _integrated(s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float) -> Solution:
-    """States (n, 6 N) of (r, r'/rate); the core's are on the constraints, those of the fast extra off by their error."""
-    rate = motion.c.rate
+def _integrated(
+    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float
+) -> list[Solution]:
+    """States (n, 6 N) of (r, r'/rate) with the local error and a tighter one; the core's are on the constraints, those of
+    the fast extra off by their error.
+    """
+    rate, tols = motion.c.rate, (local, max(local / _APART, 1e-13))
     if engine == "fast":
         from lagrotor.structures.exact.compiled_motion import integrate_compiled
 
-        return integrate_compiled(s, motion, start, times, local)
+        return integrate_compiled(s, motion, start, times, tols)
     most = 50_000 + 2_000 * rate * float(times[-1])
     problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
-    try:
-        return integrate(problem, rate * times, local)
-    except StopError as stopped:  # at a time without unit
-        raise StopError(stopped.at / rate, stopped.reason) from None
+    found = []
+    for tol in tols:
+        watch = LineWatch(motion)
+        try:
+            found.append(integrate(replace(problem, free=watch.watched(problem.free)), rate * times, tol))
+            watch.keep(rate * times[-1], found[-1].states[-1])
+            watch.check()
+        except StopError as stopped:  # at a time without unit
+            raise StopError(stopped.at / rate, stopped.reason) from None
+    return found
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
