@@ -87,24 +87,33 @@ def test_a_chain_of_4096_rotors_runs(heyoka) -> None:
     assert np.abs(fast.axes - core.axes).max() < 1e-10 and np.abs(fast.axes[0, 1, :2]).max() > 1e-5
 
 
-@pytest.mark.parametrize(
-    ("given", "reason"),
-    [
-        ({"engine": "quick"}, "neither core nor fast"),
-        ({"engine": "fast", "drive": lambda t: np.zeros((1, 3))}, "no drive"),
-        ({"engine": "fast", "ground": lambda t: np.zeros(3)}, "no ground"),
-    ],
-)
-def test_what_it_does_not_take_is_refused(given, reason) -> None:
-    with pytest.raises(InputError, match=reason):
-        Structure([(0, 0)], spins=20).simulate([0.0, 1.0], **given)
+def test_the_compiled_right_hand_side_is_that_of_the_exact_motion(heyoka) -> None:
+    s = replace(LOADED["a braced corner of unequal rotors"], spin_friction=0.4)
+    motion = exact_motion(s, lambda t: np.full((3, 3), np.cos(t)), lambda t: np.array([np.sin(t), 0.1, 0.2]))
+    r, v = np.random.default_rng(4).standard_normal((2, 3, 3))
+    y = np.concatenate([(r / np.linalg.norm(r, axis=1, keepdims=True)).ravel(), v.ravel()])
+    found = compiled_motion.compiled_right_hand_side(s, motion)(0.7, y)
+    assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
+    assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4
+
+
+def test_a_driven_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
+    top, ground = Structure([(0, 0)], spins=20, gravity=9.81), lambda t: np.array([np.sin(3 * t), 0.0, 0.0])
+    fast, core = (top.simulate(T, ground=ground, tol=1e-9, engine=engine) for engine in ("fast", "core"))
+    still = top.simulate(T, tol=1e-9, engine="fast")
+    assert np.abs(core.axes - fast.axes).max() < 2e-9 and np.abs(still.axes - fast.axes).max() > 1e-3
+
+
+def test_an_engine_that_is_none_is_refused() -> None:
+    with pytest.raises(InputError, match="neither core nor fast"):
+        Structure([(0, 0)], spins=20).simulate([0.0, 1.0], engine="quick")
 
 
 def test_a_wide_grid_is_refused() -> None:
     L = 16
     bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
     s = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
-    with pytest.raises(InputError, match="up to 64 rotors, not of 256"):
+    with pytest.raises(InputError, match="up to 100, not of 256"):
         s.simulate([0.0, 1.0], engine="fast")
 
 

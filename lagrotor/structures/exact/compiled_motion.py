@@ -1,6 +1,7 @@
-"""The fast extra: the equations written out, compiled by heyoka, and integrated by its Taylor series.
+"""The fast extra: the equations written out, and compiled by heyoka, once a process for a structure whatever its spins.
 
-Compiled once a process for a structure whatever its spins: about two seconds for nine rotors, four for 256 in a chain.
+Few rotors are integrated by heyoka's Taylor series. The series of many outgrow a processor's caches, and a drive has none:
+there the right-hand side alone is compiled, for the integrators of the core.
 """
 
 from dataclasses import fields, replace
@@ -13,6 +14,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.numerics.heyoka_programs import heyoka_module
 from lagrotor.numerics.integrate import Solution
+from lagrotor.numerics.segment import RightHandSide
 from lagrotor.numerics.taylor_steps import compiled_solver, dummy_size, march, taylor_order
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
@@ -20,30 +22,29 @@ from lagrotor.structures.exact.exact_motion import ExactMotion
 from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.written_out import accelerations
 
-_RING, _MOST = 11, 64  # half bandwidth of a ring; what compiles in about half a minute
+_RING = 11  # half bandwidth of a ring
+_SERIES, _SERIES_SLIM = 32, 128  # rotors up to which series are faster; slim: in chains and rings of massless bars
+_WIDE, _HEAVY = 100, 512  # rotors of a net, of a chain or ring with heavy bars, that compile in about half a minute
 _BETWEEN = 10.0  # radians at the structure's rate between two projections onto the constraints
 
 
-def integrate_compiled(
+def runs_by_series(motion: ExactMotion) -> bool:
+    """Whether its Taylor series run a structure fastest."""
+    few = _SERIES if motion.saddle.band > _RING or motion.c.coupling.any() else _SERIES_SLIM
+    return motion.force is None and motion.ground is None and len(motion.c.R) <= few
+
+
+def integrate_series(
     s: Assembly, motion: ExactMotion, start: Array, times: Array, tols: tuple[float, float]
 ) -> list[Solution]:
     """For both tolerances, which a processor's vectors integrate side by side at the price of the tighter one: states
-    (n, 6 N) as of `motion.rhs` at times in s, off the constraints by its error; steps times order for evaluations.
+    (n, 6 N) as of `motion.rhs` at its times, off the constraints by their error; steps times order for evaluations.
 
-    Raises InputError without heyoka, for what it cannot compile, and StopError where it stops.
+    Raises InputError without heyoka, and StopError where it stops.
     """
-    if motion.force is not None or motion.ground is not None:
-        raise InputError("simulate: engine='fast' takes no drive and no ground: use engine='core'")
-    narrow = motion.saddle.band <= _RING and not motion.c.coupling.any()
-    if len(s.joints) > _MOST and not narrow:
-        raise InputError(
-            f"simulate: engine='fast' compiles chains and rings of massless bars, and other structures up to {_MOST} rotors, "
-            f"not of {len(s.joints)}: use engine='core'"
-        )
-    c, order = motion.c, taylor_order(min(tols))
-    solver, span = _solver(_without_spins(s), order, get_ident()), (0.0, float(times[-1]))
-    solver.pars[: len(c.R)], solver.pars[len(c.R)] = c.G[:, None], c.rate
-    sizes, watch = np.array([dummy_size(tol, order) for tol in tols]), LineWatch(motion)
+    order, watch = taylor_order(min(tols)), LineWatch(motion)
+    solver = _solver(_without_spins(s), order, get_ident())
+    solver.pars[:] = _parameters(motion)[:, None]
     watch.keep(0.0, start)
 
     def keep(stepped: Any) -> bool:
@@ -54,9 +55,33 @@ def integrate_compiled(
         watch.check()
         return motion.projected(y)
 
-    both = np.repeat(start[:, None], 2, axis=1)
-    states, _, nfev = march(solver, both, times, span, sizes, onto, _BETWEEN / c.rate, after_step=keep)
+    both, sizes = np.repeat(start[:, None], 2, axis=1), np.array([dummy_size(tol, order) for tol in tols])
+    span = (0.0, float(times[-1]))
+    states, _, nfev = march(solver, both, times, span, sizes, onto, _BETWEEN, after_step=keep)
     return [Solution(found, nfev // 2) for found in states.transpose(2, 0, 1)]
+
+
+def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
+    """(s, y) → y', as `motion.rhs` gives it. Raises InputError without heyoka, and for what takes minutes to compile."""
+    N, force, ground = len(motion.c.R), motion.force, motion.ground
+    wide, heavy = motion.saddle.band > _RING, motion.c.coupling.any()
+    if (N > _WIDE and wide) or (N > _HEAVY and heavy):
+        raise InputError(
+            f"simulate: engine='fast' compiles chains and rings of massless bars, of heavy ones up to {_HEAVY} rotors, and other "
+            f"structures up to {_WIDE}, not of {N}: use engine='core'"
+        )
+    compiled = _compiled(_without_spins(s), force is not None, ground is not None)
+    rate, parameters = motion.c.rate, _parameters(motion)
+
+    def rhs(s: float, y: Array) -> Any:
+        given = [np.asarray(drive(s / rate), dtype=float).ravel() for drive in (force, ground) if drive]
+        return compiled(y, pars=np.concatenate([parameters, *given]), time=s)
+
+    return rhs
+
+
+def _parameters(motion: ExactMotion) -> Array:
+    return np.append(motion.c.G, motion.c.rate)
 
 
 @lru_cache(maxsize=16)
@@ -66,20 +91,37 @@ def _without_spins(s: Assembly) -> Assembly:
 
 @lru_cache(maxsize=16)
 def _solver(bare: Assembly, order: int, thread: int) -> Any:
-    """The integrator in time t and the state (r, r'/rate); parameters: the axial momenta G (N), the rate."""
+    """The integrator of the state (r, r'/rate), in two lanes; parameters: the axial momenta G (N), the rate."""
+    return compiled_solver(_equations(bare), order, lanes=2)
+
+
+@lru_cache(maxsize=16)
+def _compiled(bare: Assembly, forced: bool, shaken: bool) -> Any:
+    """heyoka's function of the state; parameters: G (N), the rate, the force on the tips (N, 3), the ground's acceleration."""
+    equations = _equations(bare, forced, shaken)
+    names, rates = zip(*equations, strict=True)
+    return heyoka_module().cfunc(rates, names, compact_mode=True, fast_math=True)
+
+
+def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> list[tuple[Any, Any]]:
+    """(variable, its rate) of the state, in heyoka's expressions."""
     heyoka = heyoka_module()
-    c = coefficients(bare)
-    N, time = len(c.R), heyoka.time
+    c, par = coefficients(bare), heyoka.par
+    N = len(c.R)
     names = heyoka.make_vars(*(f"{letter}{i:06d}" for letter in "rv" for i in range(3 * N)))
-    rate = heyoka.par[N]
+    rate = par[N]
     r = [names[3 * i : 3 * i + 3] for i in range(N)]
     v = [[rate * x for x in names[3 * (N + i) : 3 * (N + i) + 3]] for i in range(N)]
-    G = [heyoka.par[i] * heyoka.exp(-k * time) if k else heyoka.par[i] for i, k in enumerate(c.decay.tolist())]
+    G = [par[i] * heyoka.exp(-k * heyoka.time / rate) if k else par[i] for i, k in enumerate(c.decay.tolist())]
     plain = replace(c, **{name: getattr(c, name).tolist() for name in ("R", "A", "S", "friction", "hinge", "coupling")})
+    pushes, shakes = N + 1, N + 1 + (3 * N if forced else 0)
+    more = [
+        [plain.R[i] * par[pushes + 3 * i + k] * forced - plain.S[i] * par[shakes + k] * shaken for k in range(3)]
+        for i in range(N)
+    ]
 
     def add(terms: list[Any]) -> Any:
         return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
-    found = accelerations(plain, r, v, G, heyoka, add)
-    rates = [x for axis in v for x in axis] + [x / rate for axis in found for x in axis]
-    return compiled_solver(list(zip(names, rates, strict=True)), order, lanes=2)
+    found = accelerations(plain, r, v, G, heyoka, add, more if forced or shaken else ())
+    return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in found for x in axis)], strict=True))

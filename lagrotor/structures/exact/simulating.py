@@ -1,7 +1,6 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
 import warnings
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -13,6 +12,7 @@ from lagrotor.numerics.integrate import Engine, Problem, Solution, check_engine,
 from lagrotor.numerics.segment import StopError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
+from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import closed
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
 from lagrotor.structures.exact.lines_passed import LineWatch
@@ -41,8 +41,7 @@ def simulate(
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
     tolerance, and a LagrotorWarning says when it exceeds tol. engine: "core", or "fast" with heyoka (`pip install
-    lagrotor[fast]`): both runs at the price of one, after some seconds of compiling a structure, once for all spins; no
-    drive and no ground.
+    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
 
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
     where bars and axes are in line, IntegrationError where they come to be, or the motion cannot go on.
@@ -78,25 +77,27 @@ def simulate(
 def _integrated(
     s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float
 ) -> list[Solution]:
-    """States (n, 6 N) of (r, r'/rate) with the local error and a tighter one; the core's are on the constraints, those of
-    the fast extra off by their error.
+    """States (n, 6 N) of (r, r'/rate) with the local error and a tighter one; those of a Taylor series are off the
+    constraints by their error.
     """
     rate, tols = motion.c.rate, (local, max(local / _APART, 1e-13))
-    if engine == "fast":
-        from lagrotor.structures.exact.compiled_motion import integrate_compiled
+    try:
+        if engine == "fast" and compiled_motion.runs_by_series(motion):
+            return compiled_motion.integrate_series(s, motion, start, rate * times, tols)
+        return [_by_right_hand_side(s, motion, start, rate * times, engine, tol) for tol in tols]
+    except StopError as stopped:  # at a time without unit
+        raise StopError(stopped.at / rate, stopped.reason) from None
 
-        return integrate_compiled(s, motion, start, times, tols)
-    most = 50_000 + 2_000 * rate * float(times[-1])
-    problem: Any = Problem(right_hand_side(motion), start, most, project=motion.projected, typical_rate=1.0)
-    found = []
-    for tol in tols:
-        watch = LineWatch(motion)
-        try:
-            found.append(integrate(replace(problem, free=watch.watched(problem.free)), rate * times, tol))
-            watch.keep(rate * times[-1], found[-1].states[-1])
-            watch.check()
-        except StopError as stopped:  # at a time without unit
-            raise StopError(stopped.at / rate, stopped.reason) from None
+
+def _by_right_hand_side(
+    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, tol: float
+) -> Solution:
+    rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
+    watch, most = LineWatch(motion), 50_000 + 2_000 * float(times[-1])
+    problem: Any = Problem(watch.watched(rhs), start, most, project=motion.projected, typical_rate=1.0)
+    found = integrate(problem, times, tol)
+    watch.keep(float(times[-1]), found.states[-1])
+    watch.check()
     return found
 
 
