@@ -19,7 +19,7 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import Phi, k, r0, sigma
-from lagrotor.theory import paired_series
+from lagrotor.theory import paired_series, series_orbit
 
 SCENES = {
     "massless": Scene(spins=(10, -10)),
@@ -123,3 +123,8 @@ def test_refusals() -> None:
         paired_scene(SCENES["massless"], 1.5)
     kept = paired_scene(Scene(spins=(10, -10), shock=Shock((1, 0, 0), 1, 0.1)), 0.1)
     assert kept.shock is not None
+    with pytest.raises(InputError, match="order = 100 is above 16, from where it takes minutes"):
+        corrected_trajectories(100)
+    with pytest.raises(InputError, match="order = 33 is above 32"):
+        series_orbit(SCENES["massless"], 0.1, 33)
+    assert series_orbit(SCENES["massless"], 0.1, 17).error < 1e-12

@@ -33,6 +33,7 @@ from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of
 # bars and amplitudes. LARGEST_RATIO: of consecutive pairs of orders, beyond which no estimate is given. OF_AXES: the
 # least size, in those of the axes, of the terms of a frequency or an exponent, of which single ones may vanish.
 GROWTH_OF_RATIO, SAFETY, LARGEST_RATIO, OF_AXES = 1.3, 2.5, 0.9, 0.25
+_MOST_WITH_SYMBOLS, _MOST_OF_NUMBERS = 16, 32  # orders that take seconds, not minutes
 
 
 class Remainder(NamedTuple):
@@ -218,10 +219,16 @@ def check_order(order: int) -> int:
 def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> PairedSeries:
     """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
 
-    Raises InputError unless the order is a whole number, 1 or more.
+    Raises InputError unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
     """
     check_order(order)
     shape, ratio = sp.sympify(shape), sp.sympify(ratio)
+    most = _MOST_WITH_SYMBOLS if shape.free_symbols | ratio.free_symbols else _MOST_OF_NUMBERS
+    if order > most:
+        raise InputError(
+            f"the series of the paired precession: order = {order} is above {most}, from where it takes minutes and more; "
+            "for one pair lagrotor.precession_orbit gives the exact orbit at any amplitude"
+        )
     field = field_of(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     found = lindstedt_poincare(equations(shape, ratio, field), unknowns_at_rest(field), mode, order, field)
