@@ -12,6 +12,7 @@ _BLOCK = 100
 _SWEEPS = 25
 _PATIENCE = 5_000  # evaluations before they are weighed against the share of the run that is done
 _PIECE = 2_000  # steps, after which a longer one than had failed before is tried again
+_IN_VAIN = 3  # times that a step is shortened at one place by what its order says, and leaves too much as before
 
 
 def adams_order(error: float) -> int:
@@ -139,7 +140,8 @@ def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
 def adams(segment: Segment, error: float) -> Run:
     """Adams predictor and corrector in equal steps, changed where the pair's own difference requires it.
 
-    Raises StopError with what was reached, also where far more than its share of `max_nfev` is spent.
+    Raises StopError with what was reached, also where far more than its share of `max_nfev` is spent, and where shorter
+    steps leave as much: the right-hand side is not known well enough for the tolerance.
     """
     t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
@@ -148,12 +150,13 @@ def adams(segment: Segment, error: float) -> Run:
         segment.longest,
         min(limit ** (1 / q) / 5, 0.05) / (max(segment.relative_speed, segment.typical_rate) + 1e-300),
     )
-    found, done, nfev, end = np.empty((len(t_eval), len(y))), 0, 1, y
+    found, done, nfev, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
         with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
             piece = _piece(replace(segment, longest=longest), q, y, t, h, steps, limit)
         nfev += piece.nfev
+        in_vain = in_vain + 1 if len(piece.states) == 1 and piece.change > 0.5 else 0
         # A step too long once, for its error or because it is not stable, is not tried again for a while.
         if piece.change < 1:
             longest = 1.2 * piece.change * h
@@ -167,8 +170,9 @@ def adams(segment: Segment, error: float) -> Run:
             done, t, y = until, reached, piece.states[-1]
         h = min(h * min(piece.change, 2.0), longest)
         share = (t - segment.left) / (right - segment.left)
-        if t < right and (nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev) or t + h == t):
-            reason = "the step vanishes" if t + h == t else f"{nfev} evaluations spent"
+        spent = nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev)
+        if t < right and (spent or in_vain == _IN_VAIN or t + h == t):
+            reason = f"{nfev} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
             raise StopError(t, reason, _on_constraints(segment, found[:done], y, nfev))
     if not (np.isfinite(end).all() and np.isfinite(found).all()):
         raise StopError(t, "a value is not finite", nfev=nfev)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.numerics import Problem
+from lagrotor.numerics import Problem, adams
 from lagrotor.numerics import integrate as module
 from lagrotor.numerics.integrate import check_tolerance, integrate
 from lagrotor.numerics.segment import Array, RightHandSide, Run, Segment, StopError
@@ -214,6 +214,21 @@ def test_the_allowance_is_for_the_whole_run() -> None:
     tight = Problem(drift, np.zeros(2), needed - 10, kick(1, 0.1), 2.0, 0.1)
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(tight, np.array([4.0]), 1e-11)
+
+
+def test_steps_are_not_shortened_for_what_rounding_leaves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A force known to twelve digits: no shorter step lowers the error beyond, and one that does no more is left alone."""
+
+    def rounded(s: float, y: Array) -> list[float]:
+        return [y[1], -((3 * y[0] + 1e4) - 1e4) / 3]
+
+    times = np.linspace(0, 20, 41)
+    problem = Problem(rounded, START, ENOUGH, typical_rate=1.0)
+    found = integrate(problem, times, 1e-12)
+    assert found.states[:, 0] == pytest.approx(np.cos(times), abs=5e-12)
+    assert found.nfev < 8_000
+    monkeypatch.setattr(adams, "_IN_VAIN", 1_000)
+    assert integrate(problem, times, 1e-12).nfev > 40_000
 
 
 @pytest.mark.parametrize("tol", [0, -1e-9, 1e-14, 0.2, float("nan"), float("inf"), "1e-9", None])
