@@ -254,6 +254,7 @@ F = sp.Function("f")
         ({"L": F(t)}, r"plain symbols here; use those of coordinates"),
         ({"L": "nonsense("}, "is no expression"),
         ({"L": sp.nan}, "not finite"),
+        ({"L": C.q[0] - sp.oo}, "not finite"),
         ({"constraints": (C.v[0],)}, "give it to rolling"),
         ({"constraints": C.q[0]}, r"must be a tuple of expressions: write \(x,\)"),
         ({"rolling": (C.q[0],)}, "give it to constraints"),

@@ -110,6 +110,13 @@ def test_a_pulse_from_before_the_start_meets_the_axes_where_they_start() -> None
     assert error(scene, t) < swing / 4  # turned back to t = -0.1 s it is above half
 
 
+def test_a_pulse_meets_the_axes_where_they_are_at_its_peak() -> None:
+    turning, t = Scene((0, 0), rates=((0, -4, 0), (0, -4, 0))), np.linspace(0, 1.5, 7)
+    scene = replace(turning, shock=Shock((0, 0.02, 0.02), 0.7, 0.02))
+    swing = np.abs(simulate(turning, t, "minimal", 1e-11).axes - simulate(scene, t, "minimal", 1e-11).axes).max()
+    assert error(scene, t) < swing / 4  # turned back to t = 0 it is above the whole
+
+
 def test_a_pulse_beyond_the_run_is_none() -> None:
     scene, t = started(0.01), np.linspace(0, 1, 5)
     for at in (-1.0, 2.0):

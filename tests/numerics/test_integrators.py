@@ -52,6 +52,17 @@ def test_evaluations_are_those_that_were_made(engine) -> None:
     assert run.nfev == pytest.approx(calls, abs=2)
 
 
+def test_the_first_step_of_lsoda_is_short_where_the_start_is_fast() -> None:
+    seen = list[float]()
+
+    def fast(s: float, y: Array) -> list[float]:
+        seen.append(s)
+        return [-1e6 * y[0]]
+
+    lsoda(Segment(fast, np.array([1.0]), 0.0, 1.0, np.array([0.5])), 1e-8)
+    assert 0 < max(seen[:4]) < 1e-9
+
+
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])
 def test_each_engine_stops_when_it_crawls(engine) -> None:
     with pytest.raises(StopError):

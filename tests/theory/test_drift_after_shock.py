@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, cancelling_force, natural_rate, toppling_after_shock
+from lagrotor import Link, Scene, Shock, cancelling_force, natural_rate, shock_response, toppling_after_shock
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import (
     exact_cancelling_force,
@@ -16,7 +16,7 @@ from lagrotor.models import (
     wandering_rate,
 )
 from lagrotor.numerics import measured_order
-from lagrotor.theory import cancelling_force_error, toppling_error, wander_after_shock, wander_error
+from lagrotor.theory import calibrated_factors, cancelling_force_error, toppling_error, wander_after_shock, wander_error
 from tests.theory.random_pairs import COUNTS, held, random_pair, shocked
 
 TURNS = 24
@@ -115,6 +115,20 @@ def test_exact_cancelling_force():
 def test_the_time_in_which_the_mean_x_grows_falls_as_the_cube():
     leave = [time_to_wander(scene(f), 0.03, 0.06 / abs(wander_after_shock(scene(f)))) for f in (4, 8)]
     assert measured_order((4, 8), leave) == pytest.approx(-3, abs=0.1)
+
+
+@pytest.mark.parametrize("k", [0.5, 2.0])
+def test_over_no_time_the_errors_are_the_next_orders(k):
+    """With q² = (p_x² + sigma p_y²)/G², P = −p_y; k tells its powers apart."""
+    given = scene(3, 2, link=Link(k, 0.2, 0.01))
+    (a, b), G = given.inertias, given.momenta[0]
+    p_x, p_y = shock_response(given).impulse[:2]
+    q, P = np.sqrt(p_x**2 + given.sigma * p_y**2) / G, abs(p_y)
+    c, d = calibrated_factors.FOURTH_ORDER.value, calibrated_factors.FIFTH_ORDER.value
+    fourth = G * q**4 * (c[0] / k + c[1] / k**3) + P * q**2 * (c[2] + c[3] / k**2)
+    fifth = G * q**5 * (d[0] + d[1] / k**4) + P * q**3 * (d[2] + d[3] / k**2)
+    assert toppling_error(given, 0.0) == pytest.approx(fourth / (a + b))
+    assert wander_error(given, 0.0) == pytest.approx(fifth / (a + b))
 
 
 def test_what_is_out_of_range_is_refused():

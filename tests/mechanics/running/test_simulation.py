@@ -71,6 +71,7 @@ def test_a_right_hand_side_is_for_any_solver_and_knows_the_time(engine: str) -> 
     L = m * l**2 * theta_v**2 / 2 + m * l * (g - A * w**2 * sp.cos(w * t)) * sp.cos(theta)
     driven = System(ANGLE, L, dissipation=k * theta_v**2 / 2)
     rhs = driven.rhs(VALUES, engine)
+    assert isinstance(rhs(0.0, np.zeros(2)), np.ndarray if engine == "fast" else list)
     for time, y in ((0.3, (0.5, 0.2)), (1.7, (-1.0, 3.0))):
         pull = 9.81 - 0.1 * 20**2 * np.cos(20 * time)
         expected = [y[1], -pull / 0.8 * np.sin(y[0]) - 0.2 * y[1] / (1.3 * 0.8**2)]
@@ -257,6 +258,7 @@ def test_the_exponent_of_a_saddle_is_its_rate() -> None:
     found = saddle.simulate({}, (0,), (0,), [0, 50.0], 1e-9).lyapunov()
     assert found.exponent == pytest.approx(2, abs=0.1)
     assert found.history.shape == found.t.shape == (200,)
+    assert found.exponent == found.history[-1] and found.t[-1] == 50
     with pytest.raises(InputError, match="one sample"):
         saddle.simulate({}, (0,), (0,), [0.0]).lyapunov()
 
