@@ -5,7 +5,8 @@ is not returned. Where no factor can be solved so, the equilibrium is refused wi
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 
 import sympy as sp
 
@@ -16,15 +17,21 @@ from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
 _SHOWN = 300  # letters of the conditions in a refusal
+_TRIED = 4  # coordinates, of which each multiple of a right angle is tried
 Solution = dict[sp.Symbol, sp.Expr]
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Values of the unknowns, `at`, and the conditions (relations) under which they are real and nothing is singular."""
+    """Values of the unknowns, `at`, and the conditions (relations) under which they are real and nothing is singular.
+
+    regular: whether the mass matrix is regular there. Where it is not, as at the pole of spherical coordinates, no force
+    along a coordinate is necessary for rest and may not be enough: other coordinates decide.
+    """
 
     at: Mapping[sp.Symbol, sp.Expr]
     domain: tuple[sp.Basic, ...] = ()
+    regular: bool = True
 
 
 def equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol] = ()) -> tuple[Equilibrium, ...]:
@@ -62,11 +69,34 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     fixed = {q: q for q in c.q if q not in wanted and any(q in e.free_symbols for e in conditions)}
     found: list[Equilibrium] = []
     circles = {c**2 + s**2 - 1 for c, s in pairs.values()}
-    for solution in _solve(polynomials, symbols, {}, circles):
+    try:
+        solutions = [*_solve(polynomials, symbols, {}, circles)]
+    except InputError as refusal:
+        if system.multipliers or not {*wanted} <= {*system.c.q}:
+            raise
+        raise InputError(f"{refusal}{_at_right_angles(system, conditions, wanted)}") from None
+    for solution in solutions:
         equilibrium = _equilibrium(solution, wanted, pairs, fixed)
+        if equilibrium is not None:
+            equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
         if equilibrium is not None and equilibrium not in found:
             found.append(equilibrium)
     return tuple(found)
+
+
+def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:
+    return decide_zero(system.mass.subs(dict(at)).det(method="berkowitz")).answer != "zero"
+
+
+def _at_right_angles(system: Equations, conditions: Sequence[sp.Expr], wanted: Sequence[sp.Symbol]) -> str:
+    """The equilibria whose coordinates are zero or right angles, where they are few enough to be tried one by one."""
+    found = []
+    for values in product((0, sp.pi / 2, sp.pi, -sp.pi / 2), repeat=len(wanted) if len(wanted) <= _TRIED else 0):
+        put = dict(zip(wanted, values, strict=False))
+        if put and all(sp.expand(e.subs(put)) == 0 for e in conditions) and _regular(system, put):
+            found.append(put)
+    first = f", the first at {found[0]}" if found else ""
+    return f"; {len(found)} are at multiples of a right angle{first}" if len(wanted) <= _TRIED else ""
 
 
 def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:

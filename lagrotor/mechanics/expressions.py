@@ -23,6 +23,8 @@ def expression(where: str, given: Any) -> sp.Expr:
         )
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise InputError(f"{where} = {e} is not finite: correct it")
+    if e.has(sp.I):
+        raise InputError(f"{where} = {e} is complex: what a system moves by is real; write its real part")
     return e
 
 

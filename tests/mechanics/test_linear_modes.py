@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import LinearSystem, System, coordinates, t
+from lagrotor.mechanics import Frame, LinearSystem, System, coordinates, t
 
 m, l, g, k, R, Omega, I1, I3 = sp.symbols("m l g k R Omega I_1 I_3", positive=True)
 
@@ -213,3 +213,22 @@ def test_the_condition_of_stability_says_what_the_eigenvalues_say(entries: list[
         return
     stable = bool((abs(squares.imag) < 1e-9).all() and (squares.real < 0).all())
     assert bool(linear.stable_if) is stable
+
+
+def test_where_the_coordinates_are_singular_an_equilibrium_says_so() -> None:
+    """A pendulum turned about x, then y: of its eight points without a force along a coordinate, four are horizontal."""
+    c = coordinates("a b")
+    bob = Frame(c).turned("xy", c.q).body(m, centre=(0, 0, -l))
+    found = System(c, bob.kinetic - bob.potential((0, 0, -g))).equilibria()
+    assert {(e.regular, abs(e.at[c.q[0]])) for e in found} == {(True, 0), (True, sp.pi), (False, sp.pi / 2)}
+
+
+def test_what_cannot_be_solved_is_tried_at_right_angles() -> None:
+    """Forces that factors of degree two do not solve. A sine of a is zero at eight points; both cosines are at four more."""
+    c = coordinates("a b")
+    (a, b), (a_v, b_v) = c.q, c.v
+    V = sp.sin(a) ** 3 * sp.sin(b) + 2 * sp.cos(a) * sp.cos(b) ** 3
+    system = System(c, a_v**2 + b_v**2 - V)
+    with pytest.raises(InputError, match=r"12 are at multiples of a right angle, the first at \{a: 0, b: 0\}"):
+        system.equilibria()
+    assert system.linearise({a: 0, b: 0}).modes()

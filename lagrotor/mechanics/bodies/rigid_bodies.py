@@ -50,10 +50,14 @@ class Body:
     def outline(self) -> Outline:
         """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration.
 
-        Where there is neither, lines along its axes.
+        Where there is neither, lines along its axes. A body that turns in a plane, with inertia about one axis alone, is a
+        uniform rod on the line through both points, where these are apart.
         """
         lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
         I = [self.inertia[i, i] for i in range(3)]
+        if lines and sum(x != 0 for x in I) == 1:
+            half = self.centre * sp.sqrt(3 * sum(I) / self.mass) / self.centre.norm()
+            return [*lines, [list(self.centre - half), list(self.centre + half)]]
         axis = next((k for k in (2, 1, 0) if I[k - 2] == I[k - 1] and I[k]), None)
         if axis is not None:
             radius, rim = sp.sqrt(I[axis] / self.mass), []

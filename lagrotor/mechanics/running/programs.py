@@ -98,6 +98,12 @@ def generated(
     return Generated(program, states, parameters)
 
 
+@lru_cache(maxsize=64)
+def rows_program(system: Equations) -> Generated:
+    """(q, v[, t]) → the rows of G, one after another."""
+    return generated(system, (), list(system.rows))
+
+
 def function_program(system: Equations, expression: sp.Expr) -> Generated:
     """(q, v[, t]) → an expression in q, v, t, the accelerations and the multipliers of a motion."""
     if not expression.free_symbols & {*system.c.a, *system.multipliers}:

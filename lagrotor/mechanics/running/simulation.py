@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import ConstraintError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running import lyapunov, run_pictures, sections
+from lagrotor.mechanics.running.dependence import warn_of_dependence
 from lagrotor.mechanics.running.integration import (
     Array,
     Values,
@@ -50,7 +51,8 @@ def simulate(
     size; a motion whose neighbours part fast is off by more. engine: "core", or "fast" with heyoka.
 
     Raises InputError for a value that is missing or makes no sense, ConstraintError for a start off the constraints,
-    SingularError for a singular mass matrix, IntegrationError where the motion cannot go on.
+    SingularError for a singular mass matrix, IntegrationError where the motion cannot go on. A LagrotorWarning names the time
+    where it passed a position at which its constraints are dependent.
     """
     times, tol = increasing(t), check_tolerance(tol)
     check_engine(engine)
@@ -67,7 +69,10 @@ def simulate(
             )
         start = np.concatenate([q, v])
     found = states(system, values, start, times[0], times, tol, engine)
-    return Run(system, values, times, found[:, :n], found[:, n:], tol, engine)
+    run = Run(system, values, times, found[:, :n], found[:, n:], tol, engine)
+    if system.multipliers:
+        warn_of_dependence(run)
+    return run
 
 
 def _shown(values: Sequence[float] | Array) -> str:

@@ -255,3 +255,11 @@ def test_the_momentum_about_the_vertical_is_a_noether_integral_of_any_body() -> 
     vertical = (turned.place(list(spin)))[2]
     assert same(found, vertical)
     assert not same(total_derivative(found, ANGLES), 0)
+
+
+def test_a_body_that_turns_in_a_plane_is_drawn_as_the_rod_that_it_hangs_by() -> None:
+    """(0, I, 0) with I = m L²/12 about a centre L/2 below the pivot: from there to L below. The twin has its pivot there."""
+    frame = Frame(ANGLES).turned("y", ANGLES.q[0])
+    rod = frame.body(m, (0, m * l**2 / 12, 0), (0, 0, -l / 2))
+    assert [list(map(sp.simplify, point)) for point in rod.outline[1]] == [[0, 0, 0], [0, 0, -l]]
+    assert [len(line) for line in frame.body(m, (0, m * l**2 / 12, 0)).outline] == [18]

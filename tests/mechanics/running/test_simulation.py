@@ -1,5 +1,6 @@
 """Runs of any system: closed solutions, independent integrations, conserved quantities, refusals."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk
 
-from lagrotor.errors import ConstraintError, InputError, IntegrationError, SingularError
+from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.mechanics import System, coordinates, t
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
@@ -329,3 +330,36 @@ def test_a_charge_in_a_uniform_field_turns_at_the_cyclotron_rate(x_v: float, y_v
     run = charge.simulate({B: rate}, (0, 0), (x_v, y_v), times, 1e-10)
     turned = (x_v + 1j * y_v) * np.exp(-1j * rate * times)
     assert run.v[:, 0] + 1j * run.v[:, 1] == pytest.approx(turned, abs=1e-7)
+
+
+def test_a_run_past_dependent_constraints_says_where() -> None:
+    """A snakeboard whose steering passes a right angle: both wheels then forbid the same."""
+    c = coordinates("x y theta psi phi")
+    (_, _, th, _, ph), (x_v, y_v, th_v, ps_v, ph_v) = c.q, c.v
+    L = 3 * (x_v**2 + y_v**2) + th_v**2 / 100 + (th_v + ps_v) ** 2 / 30 + ph_v**2 / 1000
+    wheels = [
+        side * l * sp.cos(ph) * th_v - sp.sin(th - side * ph) * x_v + sp.cos(th - side * ph) * y_v for side in (1, -1)
+    ]
+    board = System(c, L, rolling=tuple(wheels))
+    q0, v0 = board.consistent({l: 0.2}, (0, 0, 0.1, 0, 0.3), (0.3, 0, 0, 0.1, 1.0))
+    with pytest.warns(LagrotorWarning, match=r"near t = 1.2\d* s the constraints become dependent"):
+        board.simulate({l: 0.2}, q0, v0, np.linspace(0, 2, 41))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        board.simulate({l: 0.2}, q0, v0, np.linspace(0, 1, 21))
+
+
+def test_constraints_that_turn_round_stay_independent() -> None:
+    """The twin: a skate turns right round, and its one constraint with it."""
+    c = coordinates("x y phi")
+    skate = System(
+        c, (c.v[0] ** 2 + c.v[1] ** 2 + c.v[2] ** 2) / 2, rolling=(sp.sin(c.q[2]) * c.v[0] - sp.cos(c.q[2]) * c.v[1],)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        skate.simulate({}, (0, 0, 0), (1, 0, 3), np.linspace(0, 4, 9))
+
+
+def test_a_complex_lagrangian_is_refused() -> None:
+    with pytest.raises(InputError, match="is complex"):
+        System(ANGLE, sp.I * ANGLE.v[0] ** 2)
