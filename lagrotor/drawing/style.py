@@ -8,6 +8,7 @@ import matplotlib as mpl
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 OKABE_ITO = {
     "black": "#000000",
@@ -25,6 +26,8 @@ PAPER = OKABE_ITO["vermillion"]
 CORRECTED = OKABE_ITO["bluish green"]
 EXACT = OKABE_ITO["black"]
 MODEL = OKABE_ITO["blue"]
+
+HALO = [withStroke(linewidth=3, foreground="white")]  # round a label that lies on a line
 
 _GRID = "#dddddd"
 _INK = "#222222"

@@ -8,13 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
-from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
+from lagrotor.drawing.style import HALO
 from lagrotor.drawing.wheel import INK, MARK, Camera, carried, wheel
 from lagrotor.numerics.rotations import Array
-
-HALO = [withStroke(linewidth=3, foreground="white")]
 
 
 def canvas(figure: Figure, seen: Array, room: float = 0.12) -> Axes:

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.drawing.style import MODEL, OKABE_ITO, PAPER, paper_style
+from lagrotor.drawing.style import HALO, MODEL, OKABE_ITO, PAPER, paper_style
 from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
@@ -26,7 +26,8 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
         ink = BAR if spin == 0 else ROTORS[spin < 0]
         panel.plot(x, y, "o", color=ink, markersize=9, fillstyle="full" if spin else "none", zorder=2)
         if len(s.joints) <= 16:
-            panel.annotate(f"{spin:.4g}".replace("-", "−"), (x, y), (6, 6), textcoords="offset points", color=INK)
+            label = f"{spin:.4g}".replace("-", "−")
+            panel.annotate(label, (x, y), (6, 6), textcoords="offset points", color=INK, path_effects=HALO)
         panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
