@@ -134,8 +134,6 @@ def _named_function(name: str, tex: str) -> Any:
 class transpose(sp.Function):  # type: ignore[misc]  # noqa: N801
     """A transposed."""
 
-    is_commutative = False
-
     def _latex(self, printer: Any, exp: Any = None) -> str:
         return rf"{_bracketed(printer, self.args[0])}^{{T}}"
 

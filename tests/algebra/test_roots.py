@@ -203,3 +203,9 @@ def test_random_expressions_agree_with_their_values_at_sixty_digits(expression: 
         assert abs(sp.N(expression.subs(decision.witness), 60)) > 1e-40
     else:
         assert not found or max(found) > 1e-40
+
+
+@pytest.mark.parametrize("kind", ["odd", "even", "prime", "integer", "negative", "nonnegative", "imaginary", "zero"])
+def test_points_are_of_the_kind_that_is_declared(kind: str) -> None:
+    symbol = sp.Symbol("s", **{kind: True})
+    assert all(getattr(point[symbol], f"is_{kind}") for point in points([symbol]))

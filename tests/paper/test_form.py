@@ -31,6 +31,7 @@ def test_a_text_in_vectors_gives_its_components() -> None:
         ("phi_dot*cos(theta)", r"\dot{\phi} \cos \theta"),
         ("Q*I_0*transpose(Q)", r"Q I_{0} Q^{T}"),
         ("Delta_t*F", r"\Delta t \vec{F}"),
+        ("M + M", "M + M"),
         ("norm(X_1)", r"\left\|\vec{X}_{1}\right\|"),
         ("2*hat_r_1_dot", r"2 \dot{\hat{r}}_{1}"),
     ],

@@ -131,6 +131,9 @@ def test_the_weakest_relation_decides() -> None:
     closer = Relation(1 - x**2 / 2, sp.cos(x), x, 2)
     for relations in ((close, closer), (closer, close)):
         assert decide(Statement("5.01", relations)).order == 2
+    none, one = Relation(1 + x, 1 + 2 * x, x, 0), Relation(x, x + x**2, x, 1)
+    for relations in ((none, one), (one, none)):
+        assert decide(Statement("5.01", relations)).order == 0
 
 
 def test_what_lies_outside_the_class_is_undecided_not_true() -> None:
