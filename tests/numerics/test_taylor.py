@@ -8,7 +8,8 @@ import pytest
 
 from lagrotor import Link, Scene, Shock, consistent_scene, simulate
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.models import minimal
+from lagrotor.models import minimal, spheres
+from lagrotor.models import simulate as simulating
 from lagrotor.models.integrated import integrated
 from lagrotor.models.programs.minimal_program import program
 from lagrotor.numerics import taylor
@@ -42,6 +43,14 @@ def test_the_fast_extra_gives_the_same_motion(heyoka, shock: Shock | None) -> No
     loose = simulate(scene, TIMES, "minimal", 1e-5, "fast")
     assert loose.axes == pytest.approx(core.axes, abs=1e-4)
     assert loose.evaluations < fast.evaluations
+
+
+def test_unit_vectors_run_by_taylor_steps_only_where_there_is_no_bar_to_come_into_line_with() -> None:
+    paired, apart = Scene((10, -7)), Scene((10, -7), link=None)
+    found = [
+        simulating._fast_runs(model, scene) for model in (minimal.MODEL, spheres.MODEL) for scene in (paired, apart)
+    ]
+    assert found == [True, True, False, True]
 
 
 @pytest.mark.parametrize("link", [Link(0.8), Link(1.4, 0.2, 0.0), Link(1, 0.01, 0.1)])
