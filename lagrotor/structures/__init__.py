@@ -27,7 +27,9 @@ if TYPE_CHECKING:
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
     from lagrotor.structures.waves.dispersion import dispersion as dispersion
     from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds
+    from lagrotor.structures.waves.edge_waves import border_packet as border_packet
     from lagrotor.structures.waves.edge_waves import edge_waves as edge_waves
+    from lagrotor.structures.waves.edge_waves import way_round as way_round
     from lagrotor.structures.waves.patterns import honeycomb as honeycomb
     from lagrotor.structures.waves.patterns import polygon_ring as polygon_ring
     from lagrotor.structures.waves.patterns import square as square

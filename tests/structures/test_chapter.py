@@ -25,6 +25,7 @@ MUTANTS = [
         "G_0 * r_0**2 / (k * (a - b)) * (G_0 / G - 1)",
         marks=AFTER_RUNS,
     ),
+    ("n3_waves", "2 * (1 + squared", "2 * (1 - squared"),
     ("n5_chern", "(mu**2 - omega**2 * G**2 - quarter)", "(mu**2 - omega**2 * G**2 + quarter)"),
     ("n5_chern", "((mu + omega * G) ** 2 - quarter)", "((mu - omega * G) ** 2 - quarter)"),
     ("n5_chern", "edge = 9 * spring**2", "edge = 8 * spring**2"),

@@ -1,10 +1,20 @@
-"""Chern numbers: Nash's honeycomb of springs, its reversed and trivial twins, rigid bars, and waves along a border."""
+"""Chern numbers: a honeycomb of springs, its reversed and trivial twins, rigid bars, and waves along a border."""
 
 import numpy as np
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.structures import bloch, chern_numbers, edge_waves, honeycomb, square, square_octagon, straight_row
+from lagrotor.structures import (
+    bloch,
+    border_packet,
+    chern_numbers,
+    edge_waves,
+    honeycomb,
+    square,
+    square_octagon,
+    straight_row,
+    way_round,
+)
 
 SPRINGS = {"spring": 50.0, "hinge": 200.0}
 BARS = {"move": (0.3, 0.3), "hinge": 200.0}
@@ -12,7 +22,7 @@ BARS = {"move": (0.3, 0.3), "hinge": 200.0}
 
 @pytest.mark.parametrize("grid", [18, 24])
 def test_gyroscopes_on_a_honeycomb_of_springs_have_bands_of_chern_number_one(grid: int) -> None:
-    """Nash et al. 2015: the two bands of precession have ±1; so have the two of nutation."""
+    """The two bands of precession have ±1, as waves that run one way (Nash et al. 2015) need; so have the two of nutation."""
     found = chern_numbers(honeycomb(**SPRINGS, spins=30.0), grid)
     assert found.groups == ((0, 0), (1, 1), (2, 2), (3, 3)) and found.numbers == (-1, 1, -1, 1) and found.off < 1e-9
 
@@ -147,3 +157,20 @@ def test_a_wave_in_the_gap_stays_on_the_border_in_an_exact_run() -> None:
     wave = (u[:, None] * np.exp(1j * rate * run.t)[:, None]).real
     assert np.abs(run.axes[..., :2] - wave).max() < 1e-3 * tilt
     assert min(on_border(run.axes[:, n, :2]) for n in range(13)) > 0.6
+
+
+@pytest.mark.parametrize(("spins", "hinge"), [(20.0, 100.0), (-20.0, 100.0), (20.0, (100.0, 300.0))])
+def test_a_packet_on_the_border_goes_round_one_way_in_the_exact_motion(spins: float, hinge) -> None:
+    """Against the first step on the lower border, clockwise, where the number below the gap is −1; the twin has zero."""
+    p, q = honeycomb(spring=100.0, spins=spins, hinge=hinge), 2 * np.pi * np.mgrid[:12, :12].reshape(2, -1).T / 12
+    s, tilt, rates = border_packet(p, 4, p.dispersion(q).gaps[1])
+    angle = way_round(s.simulate(np.linspace(0, 6, 121), tilt, rates, tol=1e-5))
+    if isinstance(hinge, float):
+        assert (angle[-1] - angle[0]) * np.sign(spins) < -np.pi
+    else:
+        assert np.ptp(angle) < np.pi / 2
+
+
+def test_a_packet_without_modes_in_the_gap_is_refused() -> None:
+    with pytest.raises(InputError, match="no mode from 1 to 2 rad/s"):
+        border_packet(honeycomb(spring=100.0, spins=20.0, hinge=100.0), 2, (1.0, 2.0))

@@ -244,3 +244,29 @@ def test_long_waves_of_the_honeycomb_run_at_a_speed_that_depends_on_their_direct
         assert np.max(long_wave_speeds(pattern, np.sign(speed) * np.array(direction))) == pytest.approx(
             abs(speed), rel=1e-6
         )
+
+
+def test_the_modes_of_a_piece_of_the_honeycomb_come_to_its_bands() -> None:
+    """The slowest, all tips alike, is the bottom of the lowest band; the fastest comes to the top of the last as 1/N²."""
+    p = honeycomb(spring=50.0, hinge=200.0, spins=30.0)
+    bands = dispersion(p, 2 * np.pi * np.mgrid[:24, :24].reshape(2, -1).T / 24).rates
+    few, many = (p.piece(N, N).modes().rates for N in (3, 6))
+    assert few.min() == pytest.approx(bands.min(), rel=1e-12) and many.min() == pytest.approx(bands.min(), rel=1e-12)
+    assert 3.5 < (bands.max() - few.max()) / (bands.max() - many.max()) < 4.5
+    other = dispersion(honeycomb(spring=52.0, hinge=200.0, spins=30.0), [(0.0, 0.0), (0.1, 0.2)]).rates
+    assert abs(other.max() - many.max()) > 2e-3
+
+
+@pytest.mark.parametrize("spins", [(10.0, -10.0), (10.0, 10.0)])
+@pytest.mark.parametrize("theta", [0.7, np.pi / 2, 2.2])
+def test_heavy_bars_slow_the_zigzag_as_in_closed_form(theta: float, spins: tuple[float, float]) -> None:
+    a, b, q = J + 2 * (HEAVY.mass / 4 + HEAVY.inertia), HEAVY.mass / 4 - HEAVY.inertia, np.linspace(0.1, 3.0, 12)
+    below = [a * (1 - c * np.cos(q)) + 2 * b * np.cos(q) * (np.cos(q) - c) for c in (np.cos(theta), -np.cos(theta))]
+    up = np.sin(q) / below[0] if spins[1] < 0 else np.abs(np.cos(q)) / np.sqrt(below[0] * below[1])
+    found = zigzag(theta, spins=spins, link=HEAVY).dispersion(2 * q).rates[:, -1]
+    assert np.abs(found - 10 * np.sin(theta) * up).max() < 1e-12
+    if spins[1] < 0:  # the twin: the band of the ring, which a zigzag of massless bars has
+        ring = a * (1 - np.cos(theta) * np.cos(q)) + 2 * b * (
+            np.sin(q) ** 2 - np.cos(theta) ** 2 + np.cos(theta) * np.cos(q)
+        )
+        assert np.abs(found - 10 * np.sin(theta) * np.sin(q) / ring).max() > 1e-2

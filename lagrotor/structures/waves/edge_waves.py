@@ -1,4 +1,4 @@
-"""Waves that run along the border of a strip, at a rate in a gap of the bulk.
+"""Waves that run along the border of a strip or a piece, at a rate in a gap of the bulk.
 
 As many more run one way than the other along a border as the Chern numbers of the bands below the gap add up to
 (Hatsugai, Phys. Rev. Lett. 71, 3697 (1993)).
@@ -8,7 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lagrotor.errors import InputError
 from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact.structure_run import StructureRun
+from lagrotor.structures.structure import Structure
 from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import Dispersion, dispersion
 
@@ -37,3 +40,32 @@ def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> Edge
     crossing = above[1:].astype(int) - above[:-1]
     there = (place[1:] + place[:-1]) / 2
     return EdgeWaves(int(crossing[there < 0.5].sum()), int(crossing[there > 0.5].sum()), d, place)
+
+
+def border_packet(p: Cell, count: int, gap: tuple[float, float], tilt: float = 0.01) -> tuple[Structure, Array, Array]:
+    """A piece of count × count cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
+
+    The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; tilt: its largest one.
+    Raises InputError where none is in the gap.
+    """
+    s = p.piece(count, count)
+    m, (low, high) = s.modes(), gap
+    inside = (m.rates > low) & (m.rates < high)
+    if not inside.any():
+        raise InputError(
+            f"border_packet: {count} × {count} cells have no mode from {low:g} to {high:g} rad/s: take more"
+        )
+    x = np.array(s.joints) - np.mean(s.joints, axis=0)
+    pushed = int(np.argmin(np.hypot(x[:, 0], x[:, 1] - x[:, 1].min())))
+    rates, shapes = m.rates[inside], m.shapes[inside]
+    parts = np.conj(shapes[:, pushed, 0])[:, None, None] * shapes
+    u, v = parts.sum(0), (1j * rates[:, None, None] * parts).sum(0)
+    size = tilt / np.abs(u).max()
+    return s, size * u.real, size * v.real
+
+
+def way_round(run: StructureRun) -> Array:
+    """Angle (n,) at which the centre of the squared tilts stands about the middle of the structure, rad; positive round e_z."""
+    x = np.array(run.structure.joints) - np.mean(run.structure.joints, axis=0)
+    centre = (run.axes[..., :2] ** 2).sum(-1).T @ x
+    return np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))
