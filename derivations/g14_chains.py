@@ -47,8 +47,7 @@ def gyroscopes(n: int) -> System:
 
 # %%
 counts = {
-    made.__name__: {n: operations(motion_program(made(n)).program) for n in (6, 12, 18)}
-    for made in (rods, gyroscopes)
+    made.__name__: {n: operations(motion_program(made(n)).program) for n in (6, 12, 18)} for made in (rods, gyroscopes)
 }
 doubling = {name: found[12] / found[6] for name, found in counts.items()}
 for found in counts.values():

@@ -95,9 +95,8 @@ def decide_zero(expression: sp.Expr) -> Decision:
         return Decision("undecided", (), str(refusal), seen=expression)
 
 
-@lru_cache(
-    maxsize=1024
-)  # of the differences that a paper's audit decides, three in five come again under other premises
+# Of the differences that a paper's audit decides, three in five come again under other premises.
+@lru_cache(maxsize=1024)
 def _decided(expression: sp.Expr) -> Decision:
     found = survey(expression)
     roots = find_roots(found)

@@ -26,7 +26,7 @@ from lagrotor.pair.trajectory import Trajectory
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Ensemble(Shown):
     """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), evaluations (n,).
 

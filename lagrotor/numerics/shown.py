@@ -1,4 +1,4 @@
-"""What people see of a result: numbers in powers of ten, and in a notebook its `summary`, name → words, as a table."""
+"""What people see of a result: numbers in powers of ten, and its `summary`, name → words, in lines or as a table."""
 
 from html import escape
 
@@ -19,11 +19,16 @@ def scientific(value: float, digits: int = 0) -> str:
 
 
 class Shown:
-    """A result with a `summary`; Jupyter draws it as a table."""
+    """A result with a `summary`, printed line by line; Jupyter draws it as a table. A dataclass of it has repr=False."""
 
     def summary(self) -> dict[str, str]:
         """What the result is and what it found, name → words."""
         raise NotImplementedError
+
+    def __repr__(self) -> str:
+        rows = self.summary()
+        width = max(map(len, rows))
+        return "\n".join([type(self).__name__, *(f"  {name:{width}}  {says}" for name, says in rows.items())])
 
     def _repr_html_(self) -> str:
         rows = "".join(

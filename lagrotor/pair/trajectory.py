@@ -28,7 +28,7 @@ UNIT_ERROR = 1e-3
 UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "link_length": "m", "momenta": "kg m²/s"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Trajectory(Shown):
     """A run of a scene by a model.
 

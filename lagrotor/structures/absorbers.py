@@ -25,8 +25,7 @@ class Absorber:
     white noise.
 
     The mean square is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
-    absorber and with
-    a damping ratio ζ of its own, 1/(2ζ).
+    absorber and with a damping ratio ζ of its own, 1/(2ζ).
     """
 
     tuning: Array

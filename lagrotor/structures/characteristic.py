@@ -2,8 +2,7 @@
 
 Letters: G_i = I3 ω_i; a (a_i) the inertias A_ii, b (b_k) the couplings A_ij of the bars, kappa (kappa_i) = g S_i − hinge_i,
 c (c_i) friction, k_j and d_j a brace's stiffness and damping. Equal values share a letter; a value zero has none.
-Lengths of
-axes and directions of bars are the numbers given, as rationals.
+Lengths of axes and directions of bars are the numbers given, as rationals.
 """
 
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.linear_modes import LinearSystem
+from lagrotor.numerics.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 
@@ -20,13 +20,20 @@ s = sp.Symbol("s")
 _MOST = 6  # rotors
 
 
-@dataclass(frozen=True)
-class Characteristic:
+@dataclass(frozen=True, repr=False)
+class Characteristic(Shown):
     """polynomial in `s`, up to a constant factor; system: the matrices; values: {letter: its number}."""
 
     polynomial: sp.Expr
     system: LinearSystem
     values: dict[sp.Symbol, float]
+
+    def summary(self) -> dict[str, str]:
+        """The polynomial and the numbers of its letters, name → words."""
+        return {
+            "polynomial": str(self.polynomial),
+            "letters": ", ".join(f"{letter} = {value:.6g}" for letter, value in self.values.items()) or "none",
+        }
 
 
 def characteristic(structure: Assembly) -> Characteristic:

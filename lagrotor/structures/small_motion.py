@@ -5,8 +5,8 @@ With u_i = (x, y) of axis i, M u'' + C u' + K u = 0 under n_b . (R_i u_i − R_j
     M = A ⊗ 1,   C = friction − G_i [[0, −1], [1, 0]],   K = hinge − g S_i + sum_braces k (n nᵀ).
 
 Upright the bars carry nothing (weight acts along the axes), so they enter as rows alone; u = Z q with Z a basis of what
-they
-leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices: Graver, Servatius & Servatius (1993).
+they leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices: Graver, Servatius & Servatius
+(1993).
 """
 
 from dataclasses import dataclass, replace
@@ -17,18 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
-ZERO = (
-    1e-6  # of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits)
-)
+# Of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits).
+ZERO = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
-class Modes:
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes(Shown):
     """n modes: rates (n,) in rad/s and growth (n,) in 1/s of u = Re(shape e^((growth + i rate) t)), shapes (n, N, 2).
 
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
@@ -38,6 +38,13 @@ class Modes:
     growth: Array
     shapes: Complex
     topple: int
+
+    def summary(self) -> dict[str, str]:
+        """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
+        most = range(min(len(self.rates), 12))
+        rows = {f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s" for i in most}
+        rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
+        return rows | rest | {"topple": f"{self.topple} of {len(self.rates)}"}
 
 
 @dataclass(frozen=True, eq=False)

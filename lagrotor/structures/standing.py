@@ -18,6 +18,7 @@ from math import inf
 
 import numpy as np
 
+from lagrotor.numerics.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
@@ -25,8 +26,8 @@ from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
 
 
-@dataclass(frozen=True, eq=False)
-class Standing:
+@dataclass(frozen=True, eq=False, repr=False)
+class Standing(Shown):
     """Whether it stands, in words why; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
 
     critical_spin: the factor on all spins from which on it stands, inf where there is none.
@@ -41,6 +42,11 @@ class Standing:
     def __bool__(self) -> bool:
         return self.stands
 
+    def summary(self) -> dict[str, str]:
+        """Whether it stands and why, and what spins it needs, name → words."""
+        least = "none" if self.critical_spin == inf else f"{self.critical_spin:.6g}"
+        return {"stands": "yes" if self.stands else "no", "why": self.why, "least factor on all spins": least}
+
 
 def stands(s: Assembly) -> Standing:
     """Whether small motions about upright stay bounded. Raises InputError where upright is not where it stands."""
@@ -51,13 +57,15 @@ def stands(s: Assembly) -> Standing:
 
 
 def _why(linear: SmallMotion, factor: float) -> str:
-    n, falling = linear.freedoms, int((np.linalg.eigvalsh(_unit(linear)) < -1e-12).sum())
+    K = np.linalg.eigvalsh(_unit(linear))
+    n, falling = linear.freedoms, int((K < -1e-12).sum())
     if linear.growth == 0:
         if linear.drifts:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
-        return "every small motion stays bounded: " + (
-            f"the spins hold {falling} of {n} freedoms" if falling else "its springs hold it" if n else "no freedom"
-        )
+        if not n:
+            return "the bars leave no freedom"
+        held = "its springs hold it" if K[0] > 1e-12 else "nothing pulls at it, and the spins stop a push"
+        return "every small motion stays bounded: " + (f"the spins hold {falling} of {n} freedoms" if falling else held)
     first = f"{falling} of {n} freedoms fall, the fastest by e every {1 / linear.growth:.3g} s; "
     if falling % 2:
         return first + "an odd number of them, which no spins hold"

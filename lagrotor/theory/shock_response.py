@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 _WIDTHS_BEFORE = 4.0
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ShockResponse(Shown):
     """What a pulse leaves, to first order in it. Vectors are (x, y_1, y_2), (3,).
 

@@ -4,11 +4,14 @@ import sys
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import lagrotor
 from lagrotor import (
+    Pattern,
     Scene,
     Shock,
+    Structure,
     corrected_trajectories,
     floquet,
     orbit_family,
@@ -18,8 +21,13 @@ from lagrotor import (
     sweep,
 )
 from lagrotor.errors import InputError
+from lagrotor.mechanics import System, coordinates
 
 PAIR = Scene(spins=(10, -10))
+CORNER = Structure([(0, 0), (1, 0), (1, 1)], [(0, 1), (1, 2)], spins=[30, 0, 30])
+
+
+PENDULUM = System(C := coordinates("theta"), C.v[0] ** 2 / 2 + sp.cos(C.q[0]))
 RESULTS = {
     "Trajectory": lambda: simulate(PAIR, [0, 1]),
     "PrecessionOrbit": lambda: precession_orbit(PAIR, 0.1),
@@ -27,6 +35,12 @@ RESULTS = {
     "Floquet": lambda: floquet(PAIR, 0.1),
     "ShockResponse": lambda: shock_response(Scene(spins=(10, -10), shock=Shock((4, 0, 0), at=1, width=0.05))),
     "Ensemble": lambda: sweep([PAIR], [0, 1]),
+    "Modes": CORNER.modes,
+    "Standing": CORNER.stands,
+    "Characteristic": CORNER.characteristic,
+    "StructureRun": lambda: CORNER.simulate([0, 0.1, 0.2]),
+    "Dispersion": lambda: Pattern([(0, 0)], [(1, 0)], bars=[(0, 0, 1)], spins=10).dispersion([0.1, 1.0]),
+    "Lyapunov": lambda: PENDULUM.simulate({}, (0.5,), (0.0,), [0, 1, 2]).lyapunov(),
 }  # fmt: skip
 
 
@@ -36,6 +50,8 @@ def test_every_result_is_a_table_in_a_notebook(name: str) -> None:
     html = result._repr_html_()
     assert html.startswith(f"<table><caption>{name}</caption>")
     assert all(result.summary().values()) and html.count("<tr>") == len(result.summary())
+    lines = repr(result).split("\n")
+    assert lines[0] == name and len(lines) == 1 + len(result.summary())
 
 
 def test_a_film_is_shown_in_a_notebook(tmp_path) -> None:

@@ -9,13 +9,14 @@ from lagrotor.mechanics.running.integration import MOST, Array, projection
 from lagrotor.mechanics.running.motion import Motion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
 from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.shown import Shown
 
 _PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
 _TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
 
 
-@dataclass(frozen=True)
-class Lyapunov:
+@dataclass(frozen=True, eq=False, repr=False)
+class Lyapunov(Shown):
     """The largest Lyapunov exponent, 1/s: the mean growth rate of the distance of neighbours along the run.
 
     error: the standard error of that mean, from ten parts of the run; history (m,): the mean so far at the times t (m,).
@@ -25,6 +26,13 @@ class Lyapunov:
     error: float
     t: Array
     history: Array
+
+    def summary(self) -> dict[str, str]:
+        """The exponent, its error and the time it belongs to, name → words."""
+        return {
+            "largest exponent [1/s]": f"{self.exponent:.4g} ± {self.error:.1g}",
+            "over": f"{self.t[-1] - self.t[0]:g} s" if len(self.t) else "no time",
+        }
 
 
 def lyapunov(run: Motion) -> Lyapunov:

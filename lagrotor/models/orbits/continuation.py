@@ -17,7 +17,7 @@ from lagrotor.pair.scene import Scene
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class OrbitFamily(Shown):
     """Orbits along the family: amplitudes r0 (n,), frequencies (rad/s) (n,), unknowns (n, 4), and why it stopped.
 

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 _INTEGRATED = 1e-13
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Floquet(Shown):
     """multipliers (6,), complex: four ones, mu, 1/mu. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
 

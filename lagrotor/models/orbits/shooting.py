@@ -24,10 +24,8 @@ Array = NDArray[np.float64]
 # by tests/models/test_orbit_errors.py, against collocation.
 INTEGRATED = 3e-14
 _LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
-_COARSE, _NEAR = (
-    1e-9,
-    1e-5,
-)  # tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost
+# Tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost.
+_COARSE, _NEAR = 1e-9, 1e-5
 _SAME_SLOPE = 1e-6  # distance within which the Jacobian is taken for the same
 _NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
 FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)

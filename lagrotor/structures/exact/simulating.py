@@ -36,8 +36,8 @@ def simulate(
     """The exact motion from t = 0, read at the increasing times t (n,), s.
 
     tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
-    Both are
-    brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and `run.rates[:, 0]` show.
+    Both are brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and
+    `run.rates[:, 0]` show.
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
     tolerance, and a LagrotorWarning says when it exceeds tol. engine: "core", or "fast" with heyoka (`pip install

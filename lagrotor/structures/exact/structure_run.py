@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lagrotor.numerics.shown import Shown, scientific
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import exact_motion
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, eq=False)
-class StructureRun:
+@dataclass(frozen=True, eq=False, repr=False)
+class StructureRun(Shown):
     """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), the estimated largest error of an axis, evaluations of all
     runs."""
 
@@ -25,6 +26,17 @@ class StructureRun:
     rates: Array
     error: float
     nfev: int
+
+    def summary(self) -> dict[str, str]:
+        """The structure, the times, and how well the run is known, name → words."""
+        s, energy = self.structure, self.energy
+        return {
+            "structure": f"{len(s.joints)} rotors, {len(s.bars)} bars",
+            "times": f"{len(self.t)}, 0 to {self.t[-1]:g} s",
+            "estimated error of an axis": scientific(self.error, 1),
+            "energy [J]": f"{energy[0]:.6g} at first, {energy[-1]:.6g} at last",
+            "evaluations": str(self.nfev),
+        }
 
     @property
     def tips(self) -> Array:

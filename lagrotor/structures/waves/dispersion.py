@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.shown import Shown
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.waves.bloch import Bloch, bloch
 from lagrotor.structures.waves.cell import Cell
@@ -14,8 +15,8 @@ from lagrotor.structures.waves.cell import Cell
 _SAME = 1e-9  # of the largest rate: a difference below it is none
 
 
-@dataclass(frozen=True, eq=False)
-class Dispersion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Dispersion(Shown):
     """Waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad a cell.
 
     rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
@@ -31,6 +32,16 @@ class Dispersion:
     shapes: Complex
     freedoms: Array
     zero_bands: int
+
+    def summary(self) -> dict[str, str]:
+        """Bands, gaps and whether a wave grows, name → words."""
+        gaps = ", ".join(f"{low:.4g} to {high:.4g}" for low, high in self.gaps) or "none"
+        return {
+            "wave numbers": str(len(self.q)),
+            "bands": f"{self.rates.shape[1]}, of them {self.zero_bands} without a rate",
+            "gaps [rad/s]": gaps,
+            "falls": "yes" if self.falls else "no",
+        }
 
     @property
     def gaps(self) -> tuple[tuple[float, float], ...]:
@@ -61,7 +72,7 @@ class Dispersion:
     @property
     def falls(self) -> bool:
         """Whether some wave grows."""
-        return bool(np.nanmax(self.growth) > 0)
+        return bool((self.growth > 0).any())
 
 
 def dispersion(p: Cell, q: ArrayLike) -> Dispersion:

@@ -17,7 +17,7 @@ from lagrotor.theory.paired_precession.series import paired_series, shape_of
 ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PrecessionOrbit(Shown):
     """A paired precession with bounds of its errors. Called with times it gives both axes. At t = 0 they are parallel.
 
