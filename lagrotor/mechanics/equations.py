@@ -22,7 +22,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.constraints import dependent_rows
-from lagrotor.mechanics.expressions import expression
+from lagrotor.mechanics.expressions import expression, shortest
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, singular_mass, t, total_derivative
 
 
@@ -148,7 +148,7 @@ class Equations:
     @property
     def energy(self) -> sp.Expr:
         """The Jacobi integral E = v·∂L/∂v − L. `power` is its time derivative."""
-        return free.energy(self.L, self.c)
+        return shortest(free.energy(self.L, self.c))
 
     @property
     def power(self) -> sp.Expr:

@@ -1,11 +1,14 @@
-"""What is given as an expression is one: of plain symbols, finite, no text."""
+"""What is given as an expression is one: of plain symbols, finite, no text. What is found is written as short as it can be."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.errors import InputError
+from lagrotor.algebra import normal_form
+from lagrotor.errors import InputError, NotExactError
+
+_MOST_OPERATIONS = 600  # of an expression that a shorter form is sought of: one that is still read
 
 
 def expression(where: str, given: Any) -> sp.Expr:
@@ -26,6 +29,28 @@ def expression(where: str, given: Any) -> sp.Expr:
     if e.has(sp.I):
         raise InputError(f"{where} = {e} is complex: what a system moves by is real; write its real part")
     return e
+
+
+def shortest(e: sp.Expr) -> sp.Expr:
+    """The expression, its normal form, or that with A sin² for A − A cos²: whichever has the fewest operations."""
+    if sp.count_ops(e) > _MOST_OPERATIONS:
+        return e
+    try:
+        reduced = normal_form(e)
+    except NotExactError:
+        return e
+    return min((e, reduced, _with_sines(reduced)), key=sp.count_ops)
+
+
+def _with_sines(e: sp.Expr) -> sp.Expr:
+    """A sum with A sin² for each pair of terms A, −A cos²."""
+    terms = {*sp.Add.make_args(e)}
+    for term in sorted(terms, key=sp.default_sort_key):
+        for cosine in term.atoms(sp.cos):
+            rest = term / cosine**2
+            if term in terms and -rest in terms:
+                terms = terms - {term, -rest} | {-rest * sp.sin(cosine.args[0]) ** 2}
+    return sp.Add(*terms)
 
 
 def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:

@@ -21,7 +21,7 @@ import sympy as sp
 from lagrotor.algebra import Decision, decide_equal, decide_zero
 from lagrotor.errors import DomainError, InputError, NotASymmetryError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
-from lagrotor.mechanics.expressions import expression
+from lagrotor.mechanics.expressions import expression, shortest
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, momenta, t, total_derivative
 
 Kind = TypeVar("Kind", bound=Equations)
@@ -82,7 +82,8 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
             f"δL = {variation(system, xi)} and the gauge function {gauge}; give gauge=F with δL = dF/dt, or see how "
             "p · ξ changes: noether_rate"
         )
-    return FirstIntegral(momenta(system.L, system.c).dot(list(xi)) - sp.sympify(gauge), decision.domain)
+    found = momenta(system.L, system.c).dot(list(xi)) - sp.sympify(gauge)
+    return FirstIntegral(shortest(found), decision.domain)
 
 
 def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:

@@ -51,7 +51,7 @@ class ShockResponse(Shown):
         """What the pulse leaves, name → words; vectors are (x, y_1, y_2)."""
 
         def three(vector: Array) -> str:
-            return ", ".join(f"{value:.6g}" for value in vector)
+            return ", ".join(f"{value + 0.0:.6g}" for value in vector)  # −0 is 0
 
         return {
             "frequency [rad/s]": f"{self.frequency:.9g}",
