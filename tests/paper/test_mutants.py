@@ -6,12 +6,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from itertools import islice
 
 import pytest
 import sympy as sp
 
-from lagrotor.paper import Relation, Statement, decide
+from lagrotor.paper import Relation, Statement, Verdict, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 MOST = 6  # twins of one relation that are judged
@@ -74,19 +75,24 @@ def is_another(relation: Relation, twin: Relation, seed: int) -> bool:
     return order < relation.claimed + 0.5
 
 
-def judged() -> list:
-    cases = []
-    for stem in PAPER.scripts.names("derivations", "s"):
-        cases += [
-            pytest.param(statement, id=statement.id) for statement in PAPER.statements(stem) if not statement.names
-        ]
-    return cases
+# What is held against something: all but the lines that only introduce letters.
+JUDGED = [i for i in PAPER.equations if not all(line.names for line in PAPER.lines(i))]
 
 
-def twin_statements(statement: Statement) -> Iterator[Statement]:
+@cache
+def statements() -> dict[str, Statement]:
+    """id → statement; at collection no script is run."""
+    return {s.id: s for stem in PAPER.stating_scripts for s in PAPER.statements(stem) if not s.names}
+
+
+@cache
+def verdict_on(identifier: str) -> Verdict:
+    return decide(statements()[identifier])
+
+
+def twin_statements(verdict: Verdict) -> Iterator[Statement]:
     """The statement with one printed member changed; of a refuted one it is the correction that is changed and judged."""
-    verdict = decide(statement)
-    refuted = verdict.verdict == "refuted"
+    statement, refuted = verdict.statement, verdict.verdict == "refuted"
     relations = statement.correction if refuted else statement.relations
     for i, relation in enumerate(relations):
         candidates = (replace(relation, printed=side) for side in side_twins(relation.printed))
@@ -97,42 +103,46 @@ def twin_statements(statement: Statement) -> Iterator[Statement]:
             yield replace(statement, relations=changed, correction=())
 
 
-@pytest.mark.parametrize("statement", judged())
-def test_a_changed_print_is_refuted(statement: Statement) -> None:
-    made = list(twin_statements(statement))
-    assert made, f"{statement.id}: nothing in it can be changed: it says nothing"
+def test_everything_that_can_be_changed_is() -> None:
+    assert set(statements()) == set(JUDGED)
+
+
+@pytest.mark.parametrize("identifier", JUDGED)
+def test_a_changed_print_is_refuted(identifier: str) -> None:
+    made = list(twin_statements(verdict_on(identifier)))
+    assert made, f"{identifier}: nothing in it can be changed: it says nothing"
     for twin in made:
         verdict = decide(twin)
-        assert verdict.verdict == "refuted", (statement.id, [r.printed for r in twin.relations], verdict.verdict)
+        assert verdict.verdict == "refuted", (identifier, [r.printed for r in twin.relations], verdict.verdict)
 
 
-@pytest.mark.parametrize("statement", judged())
-def test_a_verdict_falls_with_each_of_its_premises(statement: Statement) -> None:
-    verdict = decide(statement)
-    for premise in verdict.premises:
+@pytest.mark.parametrize("identifier", JUDGED)
+def test_a_verdict_falls_with_each_of_its_premises(identifier: str) -> None:
+    statement = statements()[identifier]
+    for premise in verdict_on(identifier).premises:
         if premise not in statement.premises:  # the order that the print itself claims
             assert premise.small is not None
             continue
-        left = tuple(other for other in verdict.premises if other != premise)
+        left = tuple(other for other in verdict_on(identifier).premises if other != premise)
         without = decide(replace(statement, premises=left))
-        assert without.verdict in ("refuted", "undecided"), (statement.id, premise.says, without.verdict)
+        assert without.verdict in ("refuted", "undecided"), (identifier, premise.says, without.verdict)
 
 
-@pytest.mark.parametrize("statement", judged())
-def test_a_refuted_equation_has_a_correction_that_holds(statement: Statement) -> None:
-    verdict = decide(statement)
+@pytest.mark.parametrize("identifier", JUDGED)
+def test_a_refuted_equation_has_a_correction_that_holds(identifier: str) -> None:
+    statement, verdict = statements()[identifier], verdict_on(identifier)
     assert verdict.verdict != "undecided", verdict.evidence
     if verdict.verdict == "refuted":
-        assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), statement.id
-        assert statement.wrong, f"{statement.id}: say in a line what was wrong"
-        assert all(relation.quantity for relation in statement.correction), f"{statement.id}: name what is corrected"
+        assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), identifier
+        assert statement.wrong, f"{identifier}: say in a line what was wrong"
+        assert all(relation.quantity for relation in statement.correction), f"{identifier}: name what is corrected"
     elif statement.correction:  # what holds where the printed condition does not
-        assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), statement.id
+        assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), identifier
 
 
-@pytest.mark.parametrize("statement", judged())
-def test_what_holds_assumes_nothing(statement: Statement) -> None:
-    verdict = decide(statement)
+@pytest.mark.parametrize("identifier", JUDGED)
+def test_what_holds_assumes_nothing(identifier: str) -> None:
+    verdict = verdict_on(identifier)
     assert (verdict.verdict == "holds") <= (verdict.premises == ())
     assert (verdict.verdict == "holds-if") <= (verdict.premises != ())
 
