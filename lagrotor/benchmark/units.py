@@ -1,7 +1,8 @@
 """The commands' times in units of `python -c "import sympy"`, beside the targets: `python -m lagrotor.benchmark.units`.
 
 Each command runs in processes of its own, five times, and the median counts; the unit is measured between them, so that a
-machine that is busy slows both. `--whole` adds the long commands: the whole audit, the main job and the tests, once each.
+machine that is busy slows both. `--whole` adds the long commands: the whole audit, the main job and the tests, once each; of
+these only the wall-clock counts, since the processor time of their worker processes is not seen here.
 """
 
 import os
