@@ -34,7 +34,7 @@ tables = [
         tuple(wanted(found.measured, found.decided, found.operations)),
         f"Multiples of processor time, on {where}. Each rod more takes {each['rods']} operations, each gyroscope more "
         f"{each['gyroscopes']}; the first, on the ground, takes much less ({found.operations['gyroscopes'][0]} for a "
-        "gyroscope). What grows by equal steps from so little more than doubles, and the more so the fewer there are.",
+        "gyroscope). Twice as many therefore take more than twice the operations, most so where there are few.",
     ),
     Table(
         "Mechanisms: tools, and what each needs",

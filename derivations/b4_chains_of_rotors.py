@@ -3,14 +3,14 @@
 #
 # **Objective.** What a run of many rotors costs with this tool and with engines, at the same error.
 #
-# **Assumptions.** Equal rotors of 10 rad/s in a staircase, massless bars of 1 m, no weight, three seconds from random tilts of
-# 0.05 and rates of 0.5 rad/s. The engines have three hinges a rotor, and their accelerations under the bars go to odeint:
-# Pinocchio by its own solver for constraints, or with its matrices by sparse LU, as Drake with its. MuJoCo has the bars as
-# tendons of fixed length and Runge and Kutta's method of fourth order, Drake's own steps the rod as a constraint. One
+# **Assumptions.** Equal rotors of 10 rad/s in a staircase, massless bars of 1 m, no weight, three seconds from random tilts
+# of 0.05 and rates of 0.5 rad/s. The engines have three hinges a rotor. Accelerations under the bars, integrated by odeint,
+# come from Pinocchio's solver for constraints, or from Pinocchio's or Drake's matrices by sparse LU. MuJoCo has the bars as
+# tendons of fixed length, with the Runge–Kutta method of fourth order; Drake's own steps have them as constraints. One
 # machine and one thread, the tools in turns, recorded by `python -m lagrotor.benchmark.structure_comparison`.
 #
-# **Notation.** Error: the largest of a tip's coordinate, m. `simulate` integrates twice, for its error estimate; the engines give
-# none. With the fast extra both integrations run side by side in the processor's vectors, at the price of one.
+# **Notation.** Error: the largest error of a tip's coordinate, m. `simulate` integrates twice, for its error estimate; the
+# engines give none. With the fast extra both integrations run side by side in the processor's vectors, at the price of one.
 
 # %%
 import numpy as np
@@ -50,7 +50,7 @@ wanted = Table(
         )
         for n in SIZES
     ),
-    "Multiples of processor time to the same error. Of 256 rotors Pinocchio does not run here: its data hold four tensors of the "
+    "Multiples of processor time to the same error. Pinocchio does not run 256 rotors here: its data hold four tensors of the "
     "cube of 768 speeds, 14 GB.",
 )
 wanted

@@ -51,7 +51,7 @@ prove(-squared, Omega**2 * (1 + 3 * sp.cos(tilt) ** 2), "the frequency of noddin
 # %% [markdown]
 # ## Against the mass in Cartesian coordinates
 #
-# The same mass as $(x, y, z)$ under its tension, $\ddot r = -g e_z - (|\dot r|^2 - g z) r / l^2$, integrated by itself.
+# The same mass as $(x, y, z)$ under its tension, $\ddot r = -g e_z - (|\dot r|^2 - g z) r / l^2$, integrated independently.
 
 # %%
 values = {m: 1.3, l: 0.8, g: 9.81}

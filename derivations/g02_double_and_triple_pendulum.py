@@ -61,7 +61,7 @@ polynomial = hanging.characteristic(s) / hanging.mass.det() * (l / g) ** 3
 prove(polynomial, 6 * sp.laguerre(3, -(s**2) * l / g), "the cubic of three rods")
 
 # %% [markdown]
-# ## Against the textbook's equations in the angles to the vertical, integrated by themselves
+# ## Against the textbook's equations in the angles to the vertical, integrated independently
 
 # %%
 values, times = {m: 1.0, l: 0.7, g: 9.81}, np.linspace(0, 4, 101)

@@ -61,7 +61,7 @@ threshold = upright.stable_if.lhs
 prove(threshold, p**2 - 4 * J * m * g * l, "the sleeping top's threshold", names=r"p^2-p_{\min}^2")
 
 # %% [markdown]
-# ## Against Euler's equations of the body and its rotation matrix, integrated by themselves
+# ## Against Euler's equations of the body and its rotation matrix, integrated independently
 
 # %%
 values = {I1: 0.2, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}

@@ -53,7 +53,7 @@ upright = averaged.linearise({theta: sp.pi}).stable_if
 prove(upright.lhs, A**2 * w**2 - 2 * g * l, "upright is stable where this is positive", names=r"A^2\omega^2-2gl")
 
 # %% [markdown]
-# ## Against the textbook's equation, integrated by itself; and the threshold, measured
+# ## Against the textbook's equation, integrated independently; and the threshold, measured
 
 # %%
 values, times, twin = {m: 1.0, l: 0.5, g: 9.81, A: 0.05, w: 100.0}, np.linspace(0, 3, 151), {A: 0.0501}

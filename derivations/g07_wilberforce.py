@@ -5,7 +5,8 @@
 #
 # **Assumptions.** A linear coupling $\tfrac12\epsilon z\vartheta$ of stretch and twist; tuned: both frequencies are equal.
 #
-# **Notation.** $z$ the stretch, $\vartheta$ the twist, $I$ the inertia about the vertical, $\omega^2=k/m=\delta/I$.
+# **Notation.** $z$ the stretch, $\vartheta$ the twist, $I$ the inertia about the vertical, $k$ and
+# $\delta$ the stiffnesses, $\omega^2=k/m=\delta/I$.
 
 # %%
 import numpy as np
@@ -38,9 +39,9 @@ stable
 # %% [markdown]
 # ## Against the closed solution
 #
-# Released stretched, $z=\tfrac12 z_0(\cos\omega_1t+\cos\omega_2t)$ and
-# $\vartheta=\tfrac12 z_0\sqrt{m/I}\,(\cos\omega_1t-\cos\omega_2t)$: after half a beat, at $t=\pi/(\omega_1-\omega_2)$, all energy
-# is in the twist.
+# With $\omega_{1,2}^2=\omega^2\pm\epsilon/(2\sqrt{mI})$, released stretched by $z_0$ and at rest,
+# $z=\tfrac12 z_0(\cos\omega_1t+\cos\omega_2t)$ and $\vartheta=\tfrac12 z_0\sqrt{m/I}\,(\cos\omega_1t-\cos\omega_2t)$: after
+# half a beat, at $t=\pi/(\omega_1-\omega_2)$, all energy is in the twist.
 
 # %%
 values, times, twin = {m: 0.5, I: 1e-4, w: 6.0, eps: 1e-2}, np.linspace(0, 40, 801), {eps: 1.001e-2}

@@ -55,7 +55,9 @@ prove(A[0] ** 2 + A[1] ** 2, m**2 * k**2 + 2 * m * kepler.energy * spin**2, "its
 prove(A[0] * x + A[1] * y, spin**2 - m * k * r, "the equation of the orbit", names=r"A\cdot r")
 
 # %% [markdown]
-# ## Against Kepler's equation, $t\,n = u - e\sin u$
+# ## Against Kepler's equation
+#
+# $n\,t = u - e\sin u$ with the mean motion $n$, the eccentricity $e$ and the eccentric anomaly $u$.
 
 # %%
 values, times, twin = {m: 2.0, k: 2.0}, np.linspace(0, 20, 201), {k: 2.001}

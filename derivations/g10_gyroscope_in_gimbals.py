@@ -6,8 +6,10 @@
 #
 # **Assumptions.** All centres of mass at the centre; no friction.
 #
-# **Notation.** $\alpha$ turns the outer gimbal about $z$, $\beta$ the inner about its $x$, $\gamma$ the rotor about its own axis
-# $y$; at $\beta=0$ the three axes are at right angles. $H$ the rotor's axial momentum.
+# **Notation.** $\alpha$ turns the outer gimbal about $z$, $\beta$ the inner about its $x$, $\gamma$ the rotor about its own
+# axis $y$; at $\beta=0$ the three axes are at right angles. $A_o$ the inertia of the outer gimbal about its axis;
+# $B_i, C_i, A_i$ those of the inner one about its $x, y, z$; $I_3$, $I_1$ those of the rotor along and across its axis; $H$
+# its axial momentum.
 
 # %%
 import numpy as np

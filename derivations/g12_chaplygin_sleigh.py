@@ -6,7 +6,8 @@
 #
 # **Assumptions.** A horizontal plane; the blade lies on the body's axis, the distance $l$ behind the centre of mass.
 #
-# **Notation.** $x, y$ the blade, $\varphi$ its direction, $u$ the speed along it, $J$ the inertia about the centre.
+# **Notation.** $x, y$ the blade, $\varphi$ its direction, $\omega=\dot\varphi$, $u$ the speed along it, $J$ the inertia about
+# the centre.
 
 # %%
 import numpy as np
@@ -44,7 +45,10 @@ assert sleigh.cyclic == ()
 prove(sleigh.power, 0, "the blade does no work", names=r"\dot E")
 
 # %% [markdown]
-# ## Against the closed solution, $\omega=\omega_0\,\mathrm{sech}\,\nu t$, $u=u_\infty\tanh\nu t$, from $u=0$
+# ## Against the closed solution
+#
+# From $u=0$: $\omega=\omega_0\,\mathrm{sech}\,\nu t$ and $u=u_\infty\tanh\nu t$ with $u_\infty=\omega_0\sqrt{(J+ml^2)/m}$ and
+# $\nu=m\,l\,u_\infty/(J+ml^2)$.
 
 # %%
 values, times, twin = {m: 2.0, l: 0.3, J: 0.5}, np.linspace(0, 12, 241), {J: 0.5001}

@@ -43,7 +43,7 @@ prove(rolling.power, 0, "the plane does no work", names=r"\dot E")
 # %% [markdown]
 # ## Against Newton and Euler
 #
-# Momentum, angular momentum about the centre, and the force at the contact eliminated; integrated by themselves.
+# Momentum, angular momentum about the centre, and the force at the contact eliminated; integrated independently.
 
 # %%
 values, times, twin = {m: 2.0, R: 0.5, g: 9.81}, np.linspace(0, 3, 121), {R: 0.5001}
@@ -88,9 +88,9 @@ off
 # %% [markdown]
 # ## Rolling upright is stable above $\dot\psi_0^2 = g/(3R)$ (Routh, Advanced Rigid Dynamics, §244)
 #
-# The heading turns with the lean, and to first order $\ddot\vartheta = \kappa\,(\vartheta - \eta^2(\vartheta-\vartheta_0))$ with
-# $\eta$ the speed over the critical one: for $\eta>1$ a lean swings between $\vartheta_0$ and
-# $\vartheta_0(\eta^2+1)/(\eta^2-1)$, below it grows.
+# The heading turns with the lean, and to first order $\ddot\vartheta = \kappa\,(\vartheta - \eta^2(\vartheta-\vartheta_0))$
+# with $\kappa>0$, $\vartheta_0$ the lean at the start and $\eta$ the speed over the critical one: for $\eta>1$ a lean swings
+# between $\vartheta_0$ and $\vartheta_0(\eta^2+1)/(\eta^2-1)$, below it grows.
 
 # %%
 critical, first = np.sqrt(9.81 / (3 * 0.5)), 1e-5

@@ -85,7 +85,7 @@ off
 # ## What is made by hand for the pair, beside what is generated
 #
 # Operations of one evaluation of the right-hand side, of the package's own programs and of those that its `System` makes of
-# the same Lagrangian, with a massless bar and with one that has mass. Eliminating the bar by hand halves them and more. In
+# the same Lagrangian, with a massless bar and with one that has mass. Eliminating the bar by hand more than halves them. In
 # Euler angles the order of elimination saves a tenth, and keeps the digits near the pole. Unit vectors are written by hand
 # without the bar's mass only; with it, the package runs what is generated.
 

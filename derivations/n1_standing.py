@@ -5,11 +5,11 @@
 # to it.
 #
 # **Assumptions.** Small motion about upright axes; in the closed forms equal rotors and loads and massless bars. The
-# numbers hold the linear verdicts to the exact motion, with heavy bars too.
+# numbers compare the linear results with the exact motion, with heavy bars too.
 #
-# **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included;
-# $\kappa=gS$ its weight's moment; $b$ the coupling by a heavy bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for
-# motion as $e^{st}$.
+# **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included; $\kappa=gS$
+# its weight's moment, $S$ the sum of its masses times their heights; $N$ the number of rotors; $b$ the coupling by a heavy
+# bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for motion as $e^{st}$.
 
 # %%
 from math import inf, sqrt
@@ -52,8 +52,8 @@ prove(
 )
 
 # %% [markdown]
-# The factor $\lambda$ holds no spin: one motion falls at $\sqrt{\kappa/a}$, as if nothing turned. It is the one on which
-# the two gyroscopic moments cancel, $x=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
+# The factor $\lambda$ contains no spin: one motion grows at the rate $\sqrt{\kappa/a}$, as without spins. It is the one on
+# which the two gyroscopic moments cancel, $x=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
 # the joint line. A heavy bar mixes the motions, but at $s=0$ and for large $s$ its polynomial has the signs
 
 # %%
@@ -69,10 +69,10 @@ prove(heavy.coeff_monomial(s**6), 2 * (a - b) * (a + b) ** 2, "its leading coeff
 #
 # ## The same for any structure
 #
-# On $n$ freedoms $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of freedoms
-# falls, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes one of
-# $2N$ freedoms, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no rigid plate
-# ($n=3$).
+# On $n$ freedoms $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of freedoms falls
+# without spins, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes
+# one of $2N$ freedoms, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no rigid
+# plate ($n=3$).
 #
 # Where all fall alike, every freedom belongs to a pair of motions on which the spins act with one $\beta$:
 # $\lambda^2+\beta^2s^2=0$, which is a quadratic in $p=s^2$ with the discriminant
@@ -143,11 +143,12 @@ odd = polynomial([-1, 1, 1, 1], **square).subs({G_1: -G_2, G_3: G_2, G_4: G_2})
 prove(odd, 4 * (2 * lam**2 + G_2**2 * s**2) ** 2, "the square with one spin opposite", names="P(s)")
 
 # %% [markdown]
-# In general the $\beta$ of an $L\times L$ grid are the singular values of the matrix of its $G_{rc}$ over $L$: a rotor
-# couples the $x$ of its row with the $y$ of its column. The grid stands from some spin on exactly if that matrix is
-# regular. As the squares of its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, no choice of spins needs less
-# than $2\sqrt L\sqrt{a\kappa}$, and only Hadamard matrices reach it. For $L=3$ there is none; there the determinant bounds
-# more closely: linear in each $G_{rc}$, it is largest at $\pm G_{max}$, and the least singular value is at most its cube root.
+# In general the $\beta$ of an $L\times L$ grid are the singular values of the matrix of its $G_{rc}$, row $r$ and column $c$,
+# over $L$: a rotor couples the $x$ of its row with the $y$ of its column. The grid stands from some spin on exactly if that
+# matrix is regular. As the squares of its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, no choice of spins needs
+# less than $2\sqrt L\sqrt{a\kappa}$, and only Hadamard matrices reach it. For $L=3$ there is none; there the determinant
+# bounds more closely: linear in each $G_{rc}$, it is largest at $\pm G_{max}$, and the least singular value is at most its
+# cube root.
 
 
 # %%
@@ -228,12 +229,12 @@ prove(
 )
 
 # %% [markdown]
-# With $2k>\kappa$ equal spins stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never, whatever the
-# spring: the factor $\lambda$ is toppling, on which they do not act.
+# With $2k>\kappa$ equal spins make the pair stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never do,
+# whatever the spring: the factor $\lambda$ is toppling, on which they do not act.
 #
 # ## Friction
 #
-# In the complex tilt $x+iy$ of a pair of motions, friction $c$ makes of it $as^2+(c-i\beta)s-\kappa=0$. Without friction
+# With friction $c$ the complex tilt $x+iy$ of a pair of motions obeys $as^2+(c-i\beta)s-\kappa=0$. Without friction
 # $s=iw$ with $\kappa=\beta w-aw^2$. To first order $s=iw+cg$:
 
 # %%
@@ -248,10 +249,11 @@ prove(
 )
 
 # %% [markdown]
-# The slow precession, $0<w<\beta/2a$, grows at $cw/(\beta-2aw)$, the fast one decays: under weight friction undoes what
-# spin holds, at any spin (Kelvin, Tait & Chetaev). Where springs hold, $\kappa<0$ and $w<0$ or $w>\beta/a$: both decay.
+# The slow precession, $0<w<\beta/2a$, grows at $cw/(\beta-2aw)$, the fast one decays: under weight friction makes unstable
+# what the spins stabilise, at any spin (Kelvin, Tait & Chetaev). Where springs hold, $\kappa<0$ and $w<0$ or $w>\beta/a$:
+# both decay.
 #
-# ## Held to the exact motion
+# ## Compared with the exact motion
 
 
 # %%

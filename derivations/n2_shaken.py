@@ -5,7 +5,7 @@
 # from which spin on it does better than a tuned mass damper of the same mass.
 #
 # **Assumptions.** Small motion, massless bars, equal rotors; the optima are those of an undamped sway. The closed forms
-# are held to the transfer functions of the library, those to the exact motion.
+# are compared with the transfer functions of the library, those with the exact motion.
 #
 # **Notation.** $a$ the inertia of an axis about its joint, $h$ its hinge's stiffness less its weight's moment; $u$ the
 # common tilt along the bar, $v_1, v_2$ the tilts across it; $\Omega$ the rate of the sway without spins; $\mu$ the mass
@@ -82,8 +82,9 @@ prove(
 # %% [markdown]
 # ## The optimal brace and damper
 #
-# Let a brace and a damper act on the motion that the spins couple to the sway: with $K=M\Omega^2$, $k_z=m\Omega^2f^2$,
-# $c=2\zeta m\Omega$, $g=\gamma\Omega\sqrt{Mm}$, time in $1/\Omega$ and force in $K$ the sway's transfer function is
+# Let a brace and a damper act on the motion that the spins couple to the sway. With $M$ the inertia and $K=M\Omega^2$ the
+# stiffness of the sway, $m$, $k_z=m\Omega^2f^2$ and $c=2\zeta m\Omega$ the inertia, stiffness and damping of the other
+# motion, $g=\gamma\Omega\sqrt{Mm}$ the coupling, time in $1/\Omega$ and force in $K$, the sway's transfer function is
 
 # %%
 gamma, zeta, nu, mu = sp.symbols("gamma zeta nu mu", positive=True)
@@ -213,7 +214,7 @@ prove(
 )
 
 # %% [markdown]
-# ## Held to a structure
+# ## Compared with a structure
 #
 # Two thin discs of 1 kg, radius 0.5 m, on axes of 1 m, 50 kg on each tip, swaying along the bar at $\Omega=2\pi$ rad/s: a
 # tuned mass of the discs' mass has $\mu=1/50$.
@@ -260,7 +261,7 @@ Remark(
 )
 
 # %% [markdown]
-# And the transfer function to the exact motion: the pair shaken along the bar until its start is forgotten.
+# The transfer function, compared with the exact motion: the pair is shaken along the bar until its start has decayed.
 
 # %%
 shaken_pair, push, drive_rate = pair(0.4, spins_worst_case(0.4)), 1e-3, 5.0

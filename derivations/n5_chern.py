@@ -6,8 +6,8 @@
 #
 # **Assumptions.** Small motion about upright axes that stand on hinges, no friction.
 #
-# **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ its hinge, $k$ the stiffness of a spring between
-# tips, lengths of axes 1; $\mu=\kappa+\tfrac32k-a\omega^2$. The numbers are found by the method of Fukui, Hatsugai and
+# **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ its hinge, $k$ the stiffness of a spring between tips,
+# lengths of axes 1; $\mu=\kappa+\tfrac32k-a\omega^2$. The Chern numbers are computed by the method of Fukui, Hatsugai and
 # Suzuki with the symplectic product of waves.
 
 # %%
@@ -27,7 +27,7 @@ i, root = sp.I, sp.sqrt(3)
 # ## The honeycomb of springs where its bands come nearest
 #
 # Three springs hold each tip, along $n_1,n_2,n_3$ at 120°, $k\sum nn^T=\tfrac32k$. At the corner $K$ of the zone the far
-# ends have the phases $1,\varepsilon,\varepsilon^2$ with $\varepsilon=e^{2\pi i/3}$:
+# ends have the phases $1,\varepsilon,\varepsilon^2$ with $\varepsilon=e^{2\pi i/3}$. The springs of one tip add up to
 
 # %%
 directions = [sp.Matrix([0, 1]), sp.Matrix([-root / 2, -sp.Rational(1, 2)]), sp.Matrix([root / 2, -sp.Rational(1, 2)])]
@@ -39,6 +39,10 @@ prove(
     "the springs of one tip",
     names=r"\sum nn^T",
 )
+
+# %% [markdown]
+# A wave $e^{-i\omega t}$ at $K$ needs $\det D(K)=0$, where $D$ is the stiffness less $\omega^2$ times the mass matrix and
+# $i\omega$ times the gyroscopic one. With equal spins
 
 # %%
 joined = -k * sum((n * n.T * phase for n, phase in zip(directions, phases, strict=True)), sp.zeros(2, 2))
@@ -72,7 +76,7 @@ prove(
 )
 
 # %% [markdown]
-# a double root remains: the bands touch, at any strength. Unequal hinges on A and B tell the two left alone apart:
+# a double root remains: the bands touch, at any spring. Unequal hinges on the two rotors A and B of a cell separate them:
 
 # %%
 unequal = (mu_A - omega * G) * (mu_B + omega * G) * ((mu_A + omega * G) * (mu_B - omega * G) - quarter)
@@ -147,7 +151,7 @@ Remark(
 #
 # Bars leave, at each $q$, the null space of their rows. A Chern number needs as many freedoms at every $q$. At $q=0$ two
 # translations are among them, and if the bars carry a self-stress there, tensions that balance at every joint, one freedom
-# more appears for each. In a honeycomb equal tensions balance: it has one freedom a cell, two at $q=0$, and no number.
+# more appears for each. In a honeycomb equal tensions balance: it has one freedom a cell, two at $q=0$, and no Chern number.
 
 # %%
 rows = sp.Matrix([[*n, *(-n)] for n in directions])

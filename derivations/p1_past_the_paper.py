@@ -29,7 +29,7 @@ Omega_0, energy, wander, growth, power = (sp.Symbol(name) for name in ("Omega_0"
 
 
 def equal(left: sp.Basic, right: sp.Basic) -> sp.Eq:
-    """left = right, as it stands."""
+    """left = right, unevaluated."""
     return sp.Eq(left, right, evaluate=False)
 
 

@@ -7,7 +7,7 @@
 # **Assumptions.** No gravity, ideal joints, small tilts from rest. A force acts on the tip of rotor 1. Nothing is assumed of
 # the spins or of the bar.
 #
-# **Notation.** $r_i = (x_i, y_i, 1)$ the axes; $a$, $b$ the inertias of the axes with their share of the bar;
+# **Notation.** $r_i = (x_i, y_i, 1)$ the axes; $a$, $b$ the inertias of the axes with their share of the bar; $k = \ell/R$;
 # $G_i = I_3\omega_i$; $\varepsilon$ the size of what is linearised.
 
 # %%
@@ -70,8 +70,8 @@ prove(
 # %% [markdown]
 # ## Parallel axes
 #
-# Were the axes parallel, $y_1 = y_2$, the last two equations would differ by what no force along the bar can supply. From
-# rest the axes therefore stay parallel only if the spins are equal and the force acts along the bar.
+# If the axes are parallel, $y_1 = y_2$, the difference of the last two equations must vanish by itself, at every $\dot X$.
+# From rest the axes therefore stay parallel only if the spins are equal and the force acts along the bar.
 
 # %%
 twisting = (reduced[2] - reduced[1]).subs({y2_v: y1_v, y2_a: y1_a})

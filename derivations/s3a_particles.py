@@ -150,7 +150,8 @@ verdict(
 # %% [markdown]
 # ## Torque
 #
-# The torque is the work of the external forces in a small turn $\vec n$ about the centre, by the angle of the turn.
+# The work of the external forces in a small turn $\vec n$ about the centre is $\vec\tau\cdot\vec n$: the torque is its
+# gradient.
 
 # %%
 turn = vector("n")

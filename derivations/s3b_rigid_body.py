@@ -4,8 +4,8 @@
 # **Objective.** The velocity field of a rigid body, its angular momentum by the inertia tensor, and how the tensor turns with
 # the body.
 #
-# **Assumptions.** A body of three particles, as in the script before; of the tensor, any body. That it is rigid is a premise
-# of what rests on it.
+# **Assumptions.** A body of three particles, as in the script before; of the tensor, any body. That it is rigid is a premise,
+# named where it is used.
 #
 # **Notation.** $Q = R_z(\phi)R_x(\theta)R_z(\psi)$ carries the body's frame; $\vec d_i = \vec X_i - \vec X_{cm}$, in the
 # body's frame $\vec d = Q^T\vec d_i$; $\vec\Omega$ the angular velocity in the ground's frame; $\mathbb 1(\vec d)^2$ is read
@@ -131,7 +131,7 @@ verdict(
 # %% [markdown]
 # ## The tensor of the turned body
 #
-# A body is known to its tensor through the second moments $C = \int \vec d\,\vec d^T\,dm$ alone,
+# The tensor depends on the body through the second moments $C = \int \vec d\,\vec d^T\,dm$ alone,
 # $I = \mathrm{tr}\,C\;\mathbb 1 - C$.
 
 # %%

@@ -30,7 +30,8 @@ Omega, L, X_r = map(vector, ("Omega", "L", "X_r"))
 # ## A vertex
 #
 # A vertex at $\vec X_r = Q\vec d$ from the centre moves with $\dot Q\vec d + Q\dot{\vec d}$, the field of 3.09. The paper has
-# the factors of the cross product in the other order:
+# the factors of the cross product in the other order. Its next sentence has $1 + \Delta t\,\Omega_\times$, which is no
+# rotation: it stretches what lies across $\vec\Omega$, squared, by
 
 # %%
 Q, d, d_v = (body[name] for name in ("Q", "d", "d_v"))

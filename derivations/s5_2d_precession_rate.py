@@ -40,8 +40,8 @@ tilting = J * (sp.sin(theta_1) ** 2 + sp.sin(theta_2) ** 2) + I3 * (sp.cos(theta
 prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two integrals", names=r"\dot\phi")
 
 # %% [markdown]
-# With $J = I_3$ the bracket is $I(4 - S^2)$, the paper's. The printed line is held with $A$ and $B$ as they are on the pair,
-# under no premise; it must then give back $\dot\phi$.
+# With $J = I_3$ the denominator is $I(4 - S^2)$, the paper's. Into the printed line $A$ and $B$ are put as they are on the
+# pair, under no premise; it must then give back $\dot\phi$.
 
 # %%
 on_pair = {s.id: s for s in PAPER.stated("s5_2c_first_integrals")}

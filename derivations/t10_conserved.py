@@ -5,8 +5,9 @@
 #
 # **Assumptions.** No force from outside; any spins and any bar, but for the last two sections: opposite spins.
 #
-# **Notation.** $E$ the energy, $G_i$ the axial momenta, $P$ the momentum about the joint line, $A$, $B$ the paper's integrals;
-# Euler angles $\theta_i,\phi_i,\psi_i$; Mercator coordinates $u_i,\alpha_i$ about the joint line.
+# **Notation.** $E$ the energy, $G_i$ the axial momenta, $P$ the momentum about the joint line, which runs through both ground
+# joints; $A$, $B$ the paper's integrals (s5_2c); $r_i$ the axes; $a$, $b$ the inertias with the bar's share, $k=\ell/R$; Euler
+# angles $\theta_i,\phi_i,\psi_i$; Mercator coordinates $u_i,\alpha_i$ about the joint line.
 
 # %%
 import numpy as np
@@ -75,8 +76,9 @@ prove(
 )
 
 # %% [markdown]
-# (turning them oppositely does). Noether's theorem gives the momentum $P=\partial L/\partial\dot\alpha_1+\partial
-# L/\partial\dot\alpha_2$. In Cartesian components of the axes it is the moment about the joint line:
+# Turning them in opposite senses changes the bar. Noether's theorem gives the momentum
+# $P=\partial L/\partial\dot\alpha_1+\partial L/\partial\dot\alpha_2$. In Cartesian components of the axes it is the moment
+# about the joint line:
 
 # %%
 assert reduced.invariance((0, 1, 0, -1)).answer == "nonzero"

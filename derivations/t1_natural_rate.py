@@ -7,7 +7,9 @@
 # **Assumptions.** No gravity; ideal joints; the spins reduced, so that each axis feels $G_i\,r_i\times\dot r_i$. The bar may
 # have mass and inertia or none.
 #
-# **Notation.** $r_i=(x_i,y_i,z_i)$ the axes; $a$, $b$ the inertias with the bar's share; $k=\ell/R$; $G_i=I_3\omega_i$.
+# **Notation.** $r_i=(x_i,y_i,z_i)$ the axes; $m$, $K$, $\ell$ the bar's mass, inertia and length; $J$ the inertia of an axis
+# of length $R$ about its joint; with the bar's share $a=J+mR^2/4+KR^2/\ell^2$ and $b=mR^2/4-KR^2/\ell^2$; $k=\ell/R$;
+# $G_i=I_3\omega_i$.
 
 # %%
 import numpy as np
@@ -182,8 +184,8 @@ Remark(
 # %% [markdown]
 # ## Range of validity
 #
-# The frequency is that of the limit of small motion. At an amplitude $r$ (sine of the inclination) it is off in second
-# order: parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly, and `natural_rate_error` bounds every pair by
+# The frequency is that of the limit of small motion. At an amplitude $r$ (sine of the inclination) it is off in second order:
+# parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly (s5_3a), and `natural_rate_error` bounds every pair by
 # $\frac12(1+k^{-2})\,r^2\,\Omega_0$, where the factor ½ is empirical. Measured on exact runs of 20 swings:
 
 

@@ -4,11 +4,13 @@
 # **Objective.** Why a quarter of a period decides the periodic orbit; frequency against amplitude, and where the family
 # turns or ends.
 #
-# **Assumptions.** Opposite spins, any bar. Here few orbits of each bar; `ends()` follows the families to $r_0 = 0.99$.
+# **Assumptions.** Opposite spins, any bar. Only a few orbits of each bar are computed here; `ends()` follows the families to
+# $r_0 = 0.99$.
 #
-# **Notation.** Mercator coordinates about the joint line, $r_i=(\tanh u_i,-\sin\alpha_i\,\mathrm{sech}\,u_i,
-# \cos\alpha_i\,\mathrm{sech}\,u_i)$; $U=(u_1+u_2)/2$, $\Delta=\alpha_2-\alpha_1$, $\alpha=(\alpha_1+\alpha_2)/2$; $r_0$ the
-# sine of the inclination when the axes are parallel; $\Omega_0$ the natural rate.
+# **Notation.** Mercator coordinates about the joint line, which runs through both ground joints:
+# $r_i=(\tanh u_i,-\sin\alpha_i\,\mathrm{sech}\,u_i, \cos\alpha_i\,\mathrm{sech}\,u_i)$; $U=(u_1+u_2)/2$,
+# $\Delta=\alpha_2-\alpha_1$, $\alpha=(\alpha_1+\alpha_2)/2$; $r_0$ the sine of the inclination when the axes are parallel;
+# $\Omega_0$ the natural rate; $k=\ell/R$ the bar's length over an axis'.
 
 # %%
 import numpy as np

@@ -4,11 +4,12 @@
 # **Objective.** The drift in y that first order does not have, its rate and cause, and the force along y in the shock
 # of section 5.2.1 that cancels it: the paper's $-11$ N, chosen without saying why.
 #
-# **Assumptions.** Opposite spins at rest upright; shock on rotor 1; second order in it. Just after the shock: how the rates
-# change later is shown at the end.
+# **Assumptions.** Opposite spins at rest upright; shock on rotor 1; second order in it. The rates are those just after the
+# shock; the last section shows how they change later.
 #
-# **Notation.** $p_x$, $p_y$ the impulses times $R$; $G=G_1=-G_2$; $A_w = e^{-(\Omega_0 w)^2/4}$;
-# $\sigma=(a+b)/(a-b)$; $P$ the momentum about the joint line; $\langle\cdot\rangle$ the mean over the swing.
+# **Notation.** $p_x$, $p_y$ the impulses times $R$; $G=G_1=-G_2$; $A_w = e^{-(\Omega_0 w)^2/4}$ with $w$ the width of the
+# pulse; $\sigma=(a+b)/(a-b)$; $k=\ell/R$; $P$ the momentum about the joint line, which runs through both ground joints;
+# $\alpha$ the mean angle of the axes about it; $\langle\cdot\rangle$ the mean over the swing.
 
 # %%
 import numpy as np
@@ -34,8 +35,8 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## The conserved momentum
 #
-# Turning everything about the joint line is a symmetry, so that
-# $P=\sum_i \partial T/\partial\dot r_i\cdot(e_x\times r_i)+G_i x_i$ is constant, for any bar.
+# Turning everything about the joint line is a symmetry (t10), so that
+# $P=\sum_i \partial T/\partial\dot r_i\cdot(e_x\times r_i)+G_i x_i$ is constant, for any bar; $T$ is the kinetic energy.
 
 # %%
 x1, y1, z1, x2, y2, z2 = AXES.q
@@ -113,12 +114,15 @@ prove(shock_toppling().expressions[0], rate, "which is what the library holds")
 # ## The force that cancels it
 #
 # Where the bracket vanishes, the mean turning does: a quadratic equation for $p_y$. Its small root, written so that no
-# digits cancel, is $p_y=-c/(1+\rho)$ with
+# digits cancel, is $p_y=-(2+A_w^2)\,p_x^2/\big(2kG\,(1+\rho)\big)$ with
 
 # %%
 root = sp.Symbol("rho_r")
 inside = 1 - att**2 * sigma * (2 + att**2) * P_X**2 / (4 * k**2 * G**2)
 prove(cancelling_impulse().domain[-1].lhs, inside, "ρ², the domain of the cancelling impulse: ρ² ≥ 0")
+
+# %% [markdown]
+# The library's closed form is this root, with the same $\rho$:
 
 # %%
 small_root = -(2 + att**2) * P_X**2 / (2 * k * G * (1 + root))
@@ -190,18 +194,27 @@ Remark(
 # %% [markdown]
 # ## Why the rate depends on the window
 #
-# The mean x does not stay at zero: it grows at the rate $\dot X$ of t7. A pair that leans along the joint line by $X$ has its
-# inertia about it, and what a twist takes of $P$, lowered by $1-X^2$. With $S=G\langle\Delta^2\rangle/(2k)$ the energy of
-# turning is
+# The mean $x$ does not stay at zero: it grows at the rate $\dot X$ of t7. Let both axes lean along the joint line by $X$ and
+# turn about it at the rate $\nu$. The square of a tip's distance from the line then has the factor $1-X^2$, and so has what
+# the twist $\Delta=y_1-y_2$ makes of $x_1-x_2$, now $(1-X^2)\Delta^2/(2k)$. With $S=G\langle\Delta^2\rangle/(2k)$ the
+# Lagrangian of the turning is $(1-X^2)\,\big((a+b)\,\nu^2+S\,\nu\big)$, and its energy, with $P=\partial L/\partial\nu$,
 
 # %%
-lean, taken = sp.symbols("X S", real=True)
+lean, taken, nu = sp.symbols("X S nu", real=True)
+leaning = (1 - lean**2) * ((a + b) * nu**2 + taken * nu)
 energy = (P - (1 - lean**2) * taken) ** 2 / (4 * (a + b) * (1 - lean**2))
+at_P = sp.solve(leaning.diff(nu) - P, nu)[0]
+prove((P * nu - leaning).subs(nu, at_P), energy, "the energy of turning of a pair that leans by X", names="E")
+
+# %% [markdown]
+# Its derivative by $P$ is the rate of turning:
+
+# %%
 turning = energy.diff(P)
 prove(turning, (P / (1 - lean**2) - taken) / (2 * (a + b)), "the rate of turning of a pair that leans by X")
 
 # %% [markdown]
-# and it pushes the twist, whose conjugate is $G X$, by
+# Its derivative by $X$ acts on the twist, whose conjugate momentum is $G X$:
 
 # %%
 push = energy.diff(lean)
@@ -214,21 +227,24 @@ prove(
 )
 
 # %% [markdown]
-# Without a force along y, $P=0$ and $S=-2(a+b)\dot\alpha$. In the time $T$, with $X=\dot X T$, the twist $p_x/G$ grows by the
-# integral of $-\partial E/\partial X/G$, and the rate of turning changes with it:
+# Without a force along y, $P=0$ and, at the start, $S=-2(a+b)\,\nu$. In the time $T$, with $X=\dot X T$, the twist $p_x/G$
+# grows by the integral of $-\partial E/\partial X/G$,
 
 # %%
-nu, X_dot, T = sp.symbols("nu X_dot T", real=True)
+X_dot, T = sp.symbols("X_dot T", real=True)
 force_on_twist = -push.series(lean, 0, 2).removeO().subs({P: 0, taken: -2 * (a + b) * nu})
 grown = sp.integrate(force_on_twist.subs(lean, X_dot * T) / G, T)
 prove(grown, (a + b) * nu**2 * X_dot * T**2 / G, "the growth of the twist")
+
+# %% [markdown]
+# and the rate of turning, $-G\Delta^2/(4k(a+b))$ at $P=0$, changes with it by
 
 # %%
 changed = -G * (P_X / G) * grown / (2 * k * (a + b))
 prove(changed, -P_X / G * nu**2 * X_dot * T**2 / (2 * k), "the change of the rate of turning")
 
 # %% [markdown]
-# Held against exact runs, whose mean rates are compared over 8 and over 24 swings:
+# Compared with exact runs, by their mean rates over 8 and over 24 swings:
 
 # %%
 tested = scene(12)

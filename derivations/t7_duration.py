@@ -5,11 +5,12 @@
 # mean, and the time in which an axis itself, passes a bound.
 #
 # **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$, at rest upright; a shock on rotor 1; third order in it. The law is the
-# initial rate; how far it carries is said with each time.
+# initial rate; each time of the mean is given with the error of that rate over it.
 #
-# **Notation.** $U=(u_1+u_2)/2$ with $x_i=\tanh u_i$; $\Delta=\alpha_2-\alpha_1$ the twist, $\alpha$ the mean turning angle about
-# the joint line; $P$ the momentum about it; $X$ and $\Delta_s$ the means of $U$ and $\Delta$ over the swing, $d$ the swing's
-# amplitude in $\Delta$; $p_x$, $p_y$ the impulses times $R$; $A_w=e^{-(\Omega_0w)^2/4}$.
+# **Notation.** $U=(u_1+u_2)/2$ with $x_i=\tanh u_i$; $\Delta=\alpha_2-\alpha_1$ the twist, $\alpha$ the mean turning angle
+# about the joint line, which runs through both ground joints, $P$ the momentum about it; $a$, $b$ the inertias with the bar's
+# share, $k=\ell/R$; $X$ and $\Delta_s$ the means of $U$ and $\Delta$ over the swing, $d$ the swing's amplitude in $\Delta$;
+# $p_x$, $p_y$ the impulses times $R$; $A_w=e^{-(\Omega_0w)^2/4}$.
 
 # %%
 import numpy as np
@@ -90,7 +91,7 @@ prove(
 # ## The swing
 #
 # $L_2$ has the solution $U=X+u\cos\Phi$, $\Delta=\Delta_s+d\sin\Phi$, $\dot\Phi=\Omega_0=G/\sqrt{a^2-b^2}$, with any constant
-# $X$, $\Delta_s$; its equations of motion hold with
+# $X$, $\Delta_s$ and $u=d\sqrt{a^2-b^2}/(2(a+b))$: its equations of motion hold,
 
 # %%
 Phi, natural = sp.Symbol("Phi", real=True), G / sp.sqrt(a**2 - b**2)

@@ -6,8 +6,9 @@
 #
 # **Assumptions.** Equal spins, any bar; an infinitesimal twist.
 #
-# **Notation.** $\Delta$ the twist; $r$ the common axis, $x=r\cdot e_x=\tanh U$; $\rho$ the sine of the cone's half-angle
-# $\theta$; $\beta=b/(a-b)$; $\Phi$ the phase of the precession.
+# **Notation.** $\Delta$ the twist; $r$ the common axis, $x=r\cdot e_x=\tanh U$, $\alpha$ its angle about the joint line;
+# $\rho$ the sine of the cone's half-angle $\theta$; $a$, $b$ the inertias with the bar's share, $\beta=b/(a-b)$; $G=G_1=G_2$;
+# $\Phi$ the phase of the precession.
 
 # %%
 import numpy as np
@@ -34,8 +35,8 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## The parallel pair is one rotor, exactly
 #
-# Of the three Euler–Lagrange expressions of the pair (t8) a parallel motion, $\Delta=0$ for all time, leaves in that of the
-# twist
+# Of the three Euler–Lagrange expressions of the pair (t8), of $U$, $\Delta$ and $\alpha$, a parallel motion, $\Delta=0$ for
+# all time, leaves
 
 # %%
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
@@ -52,12 +53,15 @@ prove(
     ),
 )
 
+# %% [markdown]
+# In that of the twist this is
+
 # %%
 prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the twist")
 
 # %% [markdown]
-# Nothing, on every parallel motion, exactly if $G_1=G_2$. The other two are then twice the equations of one rotor of inertia
-# $a+b$ and momentum $G$, whose Lagrangian in Mercator coordinates is
+# It vanishes on every parallel motion if and only if $G_1=G_2$. The other two are then twice the equations of one rotor of
+# inertia $a+b$ and momentum $G$, whose Lagrangian in Mercator coordinates is
 
 # %%
 one_rotor = (a + b) / 2 * (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2 + G * sp.tanh(U) * alpha_v
@@ -95,7 +99,7 @@ prove(
 # ## Hill's equation
 #
 # On the cone, $x=\rho\cos\Phi$ and $|r'|^2=\rho^2$ in units of the precession's rate, which is
-# $G/((a+b)\cos\theta)$. With $\beta=b/(a-b)$ the twist obeys
+# $G/((a+b)\cos\theta)$ (s5_3a). With $\beta=b/(a-b)$ the twist obeys
 # $$\big((1-\rho^2\cos^2\Phi)\,\Delta'\big)' + 2\beta\rho^2\sin^2\Phi\;\Delta = 0,$$
 # of period $\pi$.
 
