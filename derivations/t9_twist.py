@@ -161,7 +161,8 @@ prove(
 )
 
 # %% [markdown]
-# The first term is the library's closed form, and the second its error, over $1-\rho^2$ for all that follows:
+# The first term is the library's closed form, and the second its error. The factor $1/(1-\rho^2)$ for all further terms is
+# empirical, checked on Hill's equation:
 
 # %%
 grown = twist_growth().expressions[0]

@@ -17,7 +17,7 @@ Series = Any  # a FourierSeries, or what is added, multiplied and differentiated
 
 @dataclass(frozen=True)
 class FourierSeries:
-    """The nonzero coefficients {(n, h): value}, through eps**order."""
+    """The nonzero coefficients {(n, h): value} through eps**order: of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
 
     terms: Mapping[Key, Coefficient]
     order: int

@@ -86,9 +86,9 @@ class LinearSystem:
 
     @property
     def stable_if(self) -> sp.Basic:
-        """When every mode stays bounded or decays, as a condition on the parameters, sufficient and, but for equality,
-        necessary.
+        """When every mode stays bounded or decays: a condition on the parameters.
 
+        It is sufficient and, but for equality, necessary.
         Without friction (det(s² M + s C + K) even in s): all roots s² real, negative and distinct: the coefficients and
         the Hankel minors of the roots' power sums are positive. Otherwise: the Routh–Hurwitz determinants are positive.
         Factors that are positive by the symbols' assumptions are divided out. Zero roots, of cyclic coordinates, are left

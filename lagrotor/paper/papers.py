@@ -76,7 +76,7 @@ class Paper(Catalogue):
         return Audit(found, tuple(i for i in self.equations if i not in judged))
 
     def check_scripts(self) -> None:
-        """Before anything runs: the letters can be read, no equation has two verdicts, and none that there is not."""
+        """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown."""
         _ = self.glossary
         for identifier, (stem, line) in self.scripts.stating.items():
             if identifier not in self.equations:

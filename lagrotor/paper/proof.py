@@ -1,5 +1,7 @@
-"""What a derivation shows: formulas, remarks, and steps decided by `prove(left, right, "in words")`, which displays both sides or
-refuses."""
+"""What a derivation shows: formulas, remarks, and steps decided by `prove(left, right, "in words")`.
+
+`prove` displays both sides, or raises ProofError.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

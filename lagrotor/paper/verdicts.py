@@ -50,7 +50,7 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 
 @dataclass(frozen=True)
 class Statement:
-    """What one equation of a paper is held to; id: its id, empty where it belongs to none; title: what it is about.
+    """What one equation of a paper is compared with; id: its id, empty where it belongs to none; title: what it is about.
 
     relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
     correction: what should be printed, as relations of their own. wrong: what is wrong, in a line. names: the line only

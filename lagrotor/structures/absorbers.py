@@ -21,10 +21,9 @@ from lagrotor.structures.coefficients import Array
 
 @dataclass(frozen=True, eq=False)
 class Absorber:
-    """f², the brace's tuning; ζ, the damper; value: the largest |X K/F| over all rates, or the mean square under
-    white noise.
+    """f², the brace's tuning; ζ, the damper; value: the largest |X K/F| over all rates, or the mean square.
 
-    The mean square is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
+    The mean square, under white noise, is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
     absorber and with a damping ratio ζ of its own, 1/(2ζ).
     """
 
@@ -34,27 +33,37 @@ class Absorber:
 
 
 def spins_worst_case(gamma: ArrayLike) -> Absorber:
-    """f² = 1 − γ²/2, ζ² = 3γ²/8, largest |X K/F| = √2/γ at the two fixed points; for 0 < γ < √2."""
+    """The spins' best brace and damper in the worst case: f² = 1 − γ²/2, ζ² = 3γ²/8; the largest |X K/F| is √2/γ.
+
+    That is its height at the two fixed points. Raises DomainError unless 0 < γ < √2.
+    """
     g2 = _checked("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(3 * g2 / 8), np.sqrt(2 / g2))
 
 
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
-    """f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1); for 0 < γ < √2."""
+    """The spins' best brace and damper under white noise: f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4.
+
+    The mean square is sqrt(4/γ² − 1). Raises DomainError unless 0 < γ < √2.
+    """
     g2 = _checked("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
 
 
 def mass_worst_case(mu: ArrayLike) -> Absorber:
-    """f = 1/(1 + μ), ζ² = 3μ/(8 (1 + μ)) of the mass' own rate, |X K/F| = sqrt(1 + 2/μ): Den Hartog; μ the ratio of
-    masses."""
+    """The best tuned mass in the worst case (Den Hartog): f = 1/(1 + μ), ζ² = 3μ/(8 (1 + μ)) of the mass' own rate.
+
+    The largest |X K/F| is sqrt(1 + 2/μ), μ the ratio of masses. Raises DomainError unless μ > 0.
+    """
     m = _checked("mu", mu, np.inf)
     return Absorber(1 / (1 + m) ** 2, np.sqrt(3 * m / (8 * (1 + m))), np.sqrt(1 + 2 / m))
 
 
 def mass_white_noise(mu: ArrayLike) -> Absorber:
-    """f² = (1 + μ/2)/(1 + μ)², ζ² = μ (1 + 3μ/4)/(4 (1 + μ)(1 + μ/2)), mean square sqrt((4 + 3μ)/(μ (1 + μ))):
-    Warburton."""
+    """The best tuned mass under white noise (Warburton): f² = (1 + μ/2)/(1 + μ)², ζ² = μ (1 + 3μ/4)/(4 (1 + μ)(1 + μ/2)).
+
+    The mean square is sqrt((4 + 3μ)/(μ (1 + μ))). Raises DomainError unless μ > 0.
+    """
     m = _checked("mu", mu, np.inf)
     damping = np.sqrt(m * (1 + 3 * m / 4) / (4 * (1 + m) * (1 + m / 2)))
     return Absorber((1 + m / 2) / (1 + m) ** 2, damping, np.sqrt((4 + 3 * m) / (m * (1 + m))))

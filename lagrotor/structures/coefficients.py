@@ -36,9 +36,9 @@ def finite(where: str, given: ArrayLike, kind: type = float) -> NDArray[Any]:
 
 @dataclass(frozen=True, eq=False)
 class Coefficients:
-    """Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s),
-    friction, hinge.
+    """The numbers of a structure, in arrays.
 
+    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
     Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
     ground point (3,), natural length, stiffness, damping, each with one row a brace.
     """

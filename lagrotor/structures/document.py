@@ -23,8 +23,7 @@ def read_structure(path: str | Path) -> Structure:
 
 
 def structure_of(given: dict[str, Any]) -> Structure:
-    """The structure of a table with the fields' names. Raises InputError for names that are none, or values that make
-    no sense."""
+    """The structure of a table with the fields' names. Raises InputError for other names and for values out of range."""
     names = [field.name for field in fields(Assembly)]
     if unknown := [name for name in given if name not in names]:
         known = ", ".join(names)

@@ -16,8 +16,9 @@ _MOST = 12  # rotors
 
 @dataclass(frozen=True)
 class Patterns:
-    """tried patterns, how many of them stand at some spin, the least spin (rad/s, inf where none), and the first that
-    needs it."""
+    """tried: patterns; standing: how many stand at some spin; least: the least spin (rad/s, inf where none); best: the
+    first pattern that needs it.
+    """
 
     tried: int
     standing: int

@@ -106,7 +106,7 @@ def _size(s: Complex) -> Array:
 def small_motion(s: Assembly) -> SmallMotion:
     """The linear system of a structure about upright.
 
-    Raises InputError where a bar is of another length, so that upright is not where it stands.
+    Raises InputError where a bar is not as long as its tips are apart when upright.
     """
     if not s.natural:
         raise InputError(

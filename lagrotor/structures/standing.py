@@ -49,7 +49,7 @@ class Standing(Shown):
 
 
 def stands(s: Assembly) -> Standing:
-    """Whether small motions about upright stay bounded. Raises InputError where upright is not where it stands."""
+    """Whether small motions about upright stay bounded. Raises InputError where upright breaks a bar's length."""
     linear, found, factor = small_motion(s), modes(s), critical_spin(s)
     growth, falls = linear.growth, linear.growth > 0
     shape = found.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
@@ -82,10 +82,10 @@ def _why(linear: SmallMotion, factor: float) -> str:
 
 
 def critical_spin(s: Assembly) -> float:
-    """The factor on all spins from which on the structure stands at every larger one; 0 without need of spin, inf
-    where none is.
+    """The factor on all spins from which on the structure stands, at every larger one too.
 
-    With friction on what falls: inf. Raises InputError where upright is not where it stands.
+    0 where it stands without spin, inf where no factor suffices, as with friction on a motion that falls without spins.
+    Raises InputError where upright breaks a bar's length.
     """
     return threshold(small_motion(s))
 

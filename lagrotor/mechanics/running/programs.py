@@ -54,7 +54,7 @@ class Generated:
 
 @lru_cache(maxsize=64)
 def motion_program(system: Equations) -> Generated:
-    """(q, v[, t]) → (v, a[, 1]).
+    """The program of a system's right-hand side, (q, v[, t]) → (v, a[, 1]).
 
     Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
     """

@@ -1,5 +1,4 @@
-"""The linear verdicts held to the exact motion: growth of a falling motion as measured, and how far bounded "
-"motion stays off."""
+"""The linear results compared with the exact motion: the growth of a falling one, the distance of a bounded one."""
 
 import numpy as np
 
@@ -20,7 +19,7 @@ def first_order(linear: SmallMotion) -> Array:
 def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> float:
     """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
 
-    The amplitude is the projection on that mode's left vector, so that nothing else is seen. Raises InputError where
+    The amplitude is the projection on that mode's left vector, so that no other mode contributes. Raises InputError where
     nothing grows.
     """
     linear, found = small_motion(s), modes(s)
@@ -36,8 +35,10 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
 
 
 def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: int = 0) -> tuple[float, float]:
-    """(largest tilt, distance from the linear motion), both over the start's: an exact run of `turns` of the slowest
-    mode."""
+    """(largest tilt, distance from the linear motion), both over the start's, in an exact run.
+
+    The run lasts `turns` periods of the slowest mode, from a random start of size `tilt`.
+    """
     from scipy.linalg import expm
 
     linear, found = small_motion(s), modes(s)

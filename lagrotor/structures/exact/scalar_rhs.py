@@ -17,7 +17,7 @@ MOST = 12  # axes and bars beyond which arrays cost less
 
 
 def right_hand_side(motion: ExactMotion) -> RightHandSide:
-    """(s, y) → y', as `motion.rhs` gives it: of few rotors in single numbers."""
+    """The right-hand side (s, y) → y' of an exact motion, that of `motion.rhs`: for few rotors in single numbers."""
     c = motion.c
     if len(c.R) + len(c.i) > MOST:
         return motion.rhs

@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StructureRun(Shown):
-    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), the estimated largest error of an axis, evaluations of all
-    runs."""
+    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), 1/s.
+
+    error: the estimated largest error of an axis; nfev: evaluations of the right-hand side, of all runs.
+    """
 
     structure: Assembly
     t: Array

@@ -53,7 +53,10 @@ class Bloch:
 
 
 def bloch(p: Cell) -> Bloch:
-    """The matrices of a pattern. Raises InputError for what `Structure` refuses in a cell and its neighbours."""
+    """The matrices of a pattern's small motion at any wave number.
+
+    Raises InputError for what `Structure` refuses in a cell and its neighbours.
+    """
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])
     number = {(j, shift): N + k for k, (j, shift) in enumerate(away)}

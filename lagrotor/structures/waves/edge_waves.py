@@ -65,7 +65,7 @@ def border_packet(p: Cell, count: int, gap: tuple[float, float], tilt: float = 0
 
 
 def way_round(run: StructureRun) -> Array:
-    """Angle (n,) at which the centre of the squared tilts stands about the middle of the structure, rad; positive round e_z."""
+    """Angle (n,) of the centre of the squared tilts about the middle of the structure, rad; positive round e_z."""
     x = np.array(run.structure.joints) - np.mean(run.structure.joints, axis=0)
     centre = (run.axes[..., :2] ** 2).sum(-1).T @ x
     return np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))
