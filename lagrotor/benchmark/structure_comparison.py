@@ -36,7 +36,7 @@ TIMES = np.linspace(0, 3, 31)
 _LONGEST = 60.0  # s of a run, after which no finer setting is tried
 _ONCE = 10.0  # s of a run that is not repeated
 _SLOW = 300  # times the fastest tool
-_ROUNDS = 3
+_ROUNDS = 5
 _TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(3, 24))
 _MODULES = {"MuJoCo": "mujoco", "Pinocchio": "pinocchio", "Drake": "pydrake"}
 Run = Callable[[float], Array]
@@ -86,7 +86,7 @@ def tools(n: int) -> dict[str, tuple[Run, tuple[float, ...]]]:
         found["lagrotor, fast"] = (lambda tol: begun(s, tol, "fast").tips, _TOLERANCES)
     for name, (prepare, steps) in ENGINES.items():
         if find_spec(_MODULES[name.split(",")[0]]):
-            found[name] = (_prepared(prepare, rig), steps[-2:] or _TOLERANCES[11:])
+            found[name] = (_prepared(prepare, rig), steps[-2:] or _TOLERANCES[7:])
     return found
 
 
