@@ -144,11 +144,11 @@ prove(odd, 4 * (2 * lam**2 + G_2**2 * s**2) ** 2, "the square with one spin oppo
 
 # %% [markdown]
 # In general the $\beta$ of an $L\times L$ grid are the singular values of the matrix of its $G_{rc}$, row $r$ and column $c$,
-# over $L$: a rotor couples the $x$ of its row with the $y$ of its column. The grid stands from some spin on exactly if that
-# matrix is regular. As the squares of its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, no choice of spins needs
-# less than $2\sqrt L\sqrt{a\kappa}$, and only Hadamard matrices reach it. For $L=3$ there is none; there the determinant
-# bounds more closely: linear in each $G_{rc}$, it is largest at $\pm G_{max}$, and the least singular value is at most its
-# cube root.
+# over $L$: a rotor couples the $x$ of its row with the $y$ of its column, $L\lambda x_r+s\sum_cG_{rc}y_c=0$ and
+# $L\lambda y_c-s\sum_rG_{rc}x_r=0$. The grid stands from some spin on exactly if that matrix is regular. As the squares of
+# its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, no choice of spins needs less than $2\sqrt L\sqrt{a\kappa}$,
+# and only Hadamard matrices reach it. For $L=3$ there is none; there the determinant bounds more closely: linear in each
+# $G_{rc}$, it is largest at $\pm G_{max}$, and the least singular value is at most its cube root.
 
 
 # %%

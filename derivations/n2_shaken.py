@@ -131,7 +131,7 @@ prove(
 )
 
 # %% [markdown]
-# The mean of the two is $q=3\gamma^2/2$: $\zeta^2=3\gamma^2/8$. In all:
+# The mean of the two, the usual compromise (Brock 1946), is $q=3\gamma^2/2$:
 
 # %%
 prove((level[1] + level[-1]) / 2 / 4, sp.Rational(3, 8) * gamma**2, "the damper for the worst case", names=r"\zeta^2")

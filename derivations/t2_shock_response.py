@@ -42,7 +42,7 @@ prove(N**3, -squared * N, "N³ = −Ω_0² N", written=r"N^3 = -\Omega_0^2\,N")
 # %% [markdown]
 # so the exponential ends after the second power,
 # $$e^{-Ns} = 1 - N\,\frac{\sin\Omega_0 s}{\Omega_0} + N^2\,\frac{1-\cos\Omega_0 s}{\Omega_0^2}.$$
-# Its derivative by $s$ is $-N$ times itself:
+# It is 1 at $s=0$, and its derivative by $s$ is $-N$ times itself:
 
 # %%
 s, w_0 = sp.symbols("s Omega_0", positive=True)

@@ -177,8 +177,10 @@ Formula(relative, r"\frac{\text{error}}{\text{growth}}")
 # %% [markdown]
 # ## Where the axes stay parallel
 #
-# For $b>0$ the stiffness is positive. Lyapunov's criterion for $(P y')'+Qy=0$ of period $T$, $\int d\Phi/P\int Q\,d\Phi\le4$,
-# proves that a twist is bounded on cones with
+# For $b>0$ the stiffness is positive. Lyapunov's criterion for $(P y')'+Qy=0$ of period $T$, $\int d\Phi/P\int Q\,d\Phi\le4$
+# (Magnus & Winkler, Hill's Equation, ch. V), proves that a twist is bounded. As
+# $\int_0^\pi d\Phi/(1-\rho^2\cos^2\Phi)=\pi/\sqrt{1-\rho^2}$ and $\int_0^\pi2\beta\rho^2\sin^2\Phi\,d\Phi=\pi\beta\rho^2$,
+# these are cones with
 
 # %%
 lyapunov_criterion()

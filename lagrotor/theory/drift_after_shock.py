@@ -2,8 +2,8 @@
 
 A shock F_y gives the pair the momentum −p_y about the joint line, p_y = R times the impulse along y, and the exact
 integral P = A (alpha_1' + alpha_2') + G (x_1 − x_2) + … keeps it. The bar lets the axes twist apart only by leaning
-towards each other, x_1 − x_2 = (y_1 − y_2)²/(2 k): a twist, of either sign, costs momentum, and the pair pays by turning
-about the joint line,
+towards each other, x_1 − x_2 = (y_1 − y_2)²/(2 k): a twist, of either sign, takes some of this momentum, and the
+pair turns about the joint line,
 
     <y'> = ( p_y + G <(y_1 − y_2)²> / (2 k) ) / (2 A),        A = a + b.
 

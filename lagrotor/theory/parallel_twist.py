@@ -1,6 +1,6 @@
 """Equal spins: the parallel pair is one rotor, exactly; and the twist that may grow out of it.
 
-With r_1 = r_2 = r the bar exerts nothing on the twist when G_1 = G_2: the pair is one rotor of inertia a + b and
+With r_1 = r_2 = r nothing drives the twist when G_1 = G_2: the pair is one rotor of inertia a + b and
 momentum G for each axis, and precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist
 Delta obeys, on any parallel motion r(t), x = r . e_x,
 
