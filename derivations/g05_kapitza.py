@@ -22,7 +22,7 @@ bob = Frame(c).moved(0, 0, A * sp.cos(w * t)).turned("y", -theta).body(m, centre
 pendulum = System(c, bob.kinetic - bob.potential((0, 0, -g)))
 
 # %% [markdown]
-# ## The equation of motion (Landau & Lifshitz, §30): gravity as the pivot feels it
+# ## The equation of motion (Landau & Lifshitz, §30): gravity in the accelerated frame of the pivot
 
 # %%
 (turned,) = accelerations(pendulum.L, c)

@@ -38,7 +38,7 @@ along_y = kepler.noether(list(field), gauge=m**2 * y_v * (x * y_v - y * x_v) + m
 prove(along_y.expression, A[0], "the Laplace–Runge–Lenz vector by Noether", names="A_x")
 
 # %% [markdown]
-# ## Conserved, as the equations of motion have it, and what it says
+# ## Conserved by the equations of motion; the orbit that follows
 #
 # $|A|^2 = m^2k^2 + 2mE\ell^2$, and $A\cdot r = \ell^2 - mkr$: the orbit $r = \ell^2/(mk + |A|\cos\varphi)$, an ellipse for $E<0$.
 

@@ -488,7 +488,7 @@ Remark(
 )
 
 # %% [markdown]
-# ## Held to the exact motion
+# ## Compared with the exact motion
 #
 # The polygon of $N$ rotors closes: its modes are the band at $q=2\pi m/N$ without error, and one of them is run.
 

@@ -124,7 +124,8 @@ verdict(
 # %% [markdown]
 # ## Torque
 #
-# A force $\vec F$ at the tip has the generalized forces $R\,\vec F\cdot\partial\hat r/\partial q$. The spin does not feel it:
+# A force $\vec F$ at the tip has the generalized forces $R\,\vec F\cdot\partial\hat r/\partial q$. It does not change the
+# spin:
 
 # %%
 push = [R * F.dot(r_hat.diff(angle)) for angle in ROTOR.q]

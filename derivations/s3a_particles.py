@@ -201,7 +201,7 @@ prove(
 
 # %% [markdown]
 # The paper requires the first of these only. Two particles a unit apart along $x$ that push each other across that line
-# obey it, and turn by themselves:
+# satisfy it, and start to turn without any torque from outside:
 
 # %%
 opposite = action_and_reaction.on(twisting)

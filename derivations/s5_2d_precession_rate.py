@@ -123,7 +123,7 @@ verdict(
 )
 
 # %% [markdown]
-# ## What the formula then says
+# ## What the formula then predicts
 #
 # With equal inclinations, $B = 2I\omega$ and the printed $A$, the formula gives back the $\dot\phi_0$ that was put into $A$,
 # for every $\dot\phi_0$:

@@ -4,8 +4,8 @@
 # **Objective.** The small motions about the upright rest position for any two spins and any bar: the matrices, the natural
 # frequency, the zero modes; and how far the frequency holds at an amplitude.
 #
-# **Assumptions.** No gravity; ideal joints; the spins reduced, so that each axis feels $G_i\,r_i\times\dot r_i$. The bar may
-# have mass and inertia or none.
+# **Assumptions.** No gravity; ideal joints; the spins eliminated (Routh), which leaves the force $G_i\,r_i\times\dot r_i$ on
+# each axis. The bar may have mass and inertia or none.
 #
 # **Notation.** $r_i=(x_i,y_i,z_i)$ the axes; $m$, $K$, $\ell$ the bar's mass, inertia and length; $J$ the inertia of an axis
 # of length $R$ about its joint; with the bar's share $a=J+mR^2/4+KR^2/\ell^2$ and $b=mR^2/4-KR^2/\ell^2$; $k=\ell/R$;

@@ -58,6 +58,7 @@ def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Z
     """Whether δL + Q · ξ = dF/dt and G ξ = 0 identically, F the gauge function: then p · ξ − F is conserved.
 
     Sufficient: a ξ that preserves the constraints only as a surface, or a δL that is dF/dt only on it, is not enough.
+    Raises InputError as `variation` does, and for a gauge function that contains an acceleration.
     """
     gauge = expression("noether: gauge", gauge)
     if higher := gauge.free_symbols & {*system.c.a}:

@@ -38,7 +38,7 @@ def mean_error(values: Array, turns: float) -> float:
 
 
 def turning_rate(run: Trajectory) -> float:
-    """Mean alpha' (rad/s) of both axes over a run of evenly spaced times."""
+    """Mean alpha' (rad/s) of both axes over a run of evenly spaced times, alpha the angle about the joint line."""
     r, v = run.axes, run.rates
     rate = (r[..., 1] * v[..., 2] - r[..., 2] * v[..., 1]) / (r[..., 1] ** 2 + r[..., 2] ** 2)
     return mean_over(run.t, rate.mean(0))
@@ -65,7 +65,7 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
 def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
     """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes.
 
-    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
+    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time. Raises as `cancelling_force`.
     """
     from scipy.optimize import newton
 

@@ -76,7 +76,10 @@ class Paper(Catalogue):
         return Audit(found, tuple(i for i in self.equations if i not in judged))
 
     def check_scripts(self) -> None:
-        """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown."""
+        """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown.
+
+        Raises InputError with file and line otherwise.
+        """
         _ = self.glossary
         for identifier, (stem, line) in self.scripts.stating.items():
             if identifier not in self.equations:
@@ -124,7 +127,10 @@ class Paper(Catalogue):
         return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
 
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
-        """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them."""
+        """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
+
+        Raises InputError for an equation that is judged twice.
+        """
         found: dict[str, Verdict] = {}
         for verdict in verdicts:
             if verdict.id in found:
@@ -155,7 +161,10 @@ class Paper(Catalogue):
 
     @cached_property
     def claim_tests(self) -> dict[str, ClaimTest]:
-        """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them."""
+        """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them.
+
+        Raises InputError for a claim that is tested twice or is not in claims.toml.
+        """
         if not self.claims:
             return {}
         found: dict[str, ClaimTest] = {}

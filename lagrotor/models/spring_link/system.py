@@ -124,7 +124,8 @@ class RigidBodySystem:
     def step(self, dt: float) -> None:
         """The paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R. No matrix is inverted.
 
-        Semi-implicit: positions move with the new velocities, which the forces at the old state made.
+        Semi-implicit: positions move with the new velocities, which the forces at the old state made. Raises InputError for
+        a dt not above zero.
         """
         if not (isfinite(dt) and dt > 0):
             raise InputError(f"step: dt = {dt!r} s must be a finite number above zero")
