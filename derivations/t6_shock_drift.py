@@ -88,8 +88,13 @@ prove(
 # A pulse multiplies the swing by $A_w$; a cosine and a sine have mean square ½. The mean of the squared twist is then
 
 # %%
-mean_twist = offset**2 * (1 + att**2 / 2) + att**2 / 2 * sigma * p_y**2 / G**2
-prove(mean_square_twist(), mean_twist, "the mean of (y_1 − y_2)² over the swing")
+mean_twist = (P_X / G) ** 2 * (1 + att**2 / 2) + att**2 / 2 * sigma * p_y**2 / G**2
+prove(
+    mean_square_twist(),
+    mean_twist,
+    "the mean of (y_1 − y_2)² over the swing",
+    names=r"\langle(y_1 - y_2)^2\rangle",
+)
 
 # %% [markdown]
 # ## The rate
@@ -105,10 +110,11 @@ prove(
     rate,
     -(p_y + ((2 + att**2) * P_X**2 + att**2 * sigma * p_y**2) / (4 * k * G)) / (2 * (a + b)),
     "the mean rate of turning about the joint line, second order",
+    names=r"\langle\dot\alpha\rangle",
 )
 
 # %%
-prove(shock_toppling().expressions[0], rate, "which is what the library holds")
+prove(shock_toppling().expressions[0], rate, "the library's rate", names=r"\langle\dot\alpha\rangle")
 
 # %% [markdown]
 # ## The force that cancels it
@@ -119,7 +125,7 @@ prove(shock_toppling().expressions[0], rate, "which is what the library holds")
 # %%
 root = sp.Symbol("rho_r")
 inside = 1 - att**2 * sigma * (2 + att**2) * P_X**2 / (4 * k**2 * G**2)
-prove(cancelling_impulse().domain[-1].lhs, inside, "ρ², the domain of the cancelling impulse: ρ² ≥ 0")
+prove(cancelling_impulse().domain[-1].lhs, inside, "the domain of the cancelling impulse is ρ² ≥ 0", names=r"\rho^2")
 
 # %% [markdown]
 # The library's closed form is this root, with the same $\rho$:
@@ -135,7 +141,7 @@ prove(sp.expand(held**2), inside, "ρ² of the library's cancelling impulse", na
 # %%
 numerator = sp.Poly(sp.expand(sp.numer(sp.together(rate.subs(p_y, small_root)))), root)
 modulus = sp.Poly(sp.numer(sp.together(root**2 - inside)), root)
-prove(sp.rem(numerator, modulus).as_expr(), 0, "the rate at the cancelling impulse")
+prove(sp.rem(numerator, modulus).as_expr(), 0, "the rate at the cancelling impulse", names=r"\langle\dot\alpha\rangle")
 
 
 # %% [markdown]
@@ -211,7 +217,12 @@ prove((P * nu - leaning).subs(nu, at_P), energy, "the energy of turning of a pai
 
 # %%
 turning = energy.diff(P)
-prove(turning, (P / (1 - lean**2) - taken) / (2 * (a + b)), "the rate of turning of a pair that leans by X")
+prove(
+    turning,
+    (P / (1 - lean**2) - taken) / (2 * (a + b)),
+    "the rate of turning of a pair that leans by X",
+    names=r"\partial E/\partial P",
+)
 
 # %% [markdown]
 # Its derivative by $X$ acts on the twist, whose conjugate momentum is $G X$:
@@ -222,6 +233,7 @@ prove(
     sp.series(push, lean, 0, 2).removeO(),
     (P**2 - taken**2) * lean / (2 * (a + b)),
     "what turning does to the twist, first order in X",
+    names=r"\partial E/\partial X",
     small=lean,
     order=1,
 )
@@ -234,14 +246,14 @@ prove(
 X_dot, T = sp.symbols("X_dot T", real=True)
 force_on_twist = -push.series(lean, 0, 2).removeO().subs({P: 0, taken: -2 * (a + b) * nu})
 grown = sp.integrate(force_on_twist.subs(lean, X_dot * T) / G, T)
-prove(grown, (a + b) * nu**2 * X_dot * T**2 / G, "the growth of the twist")
+prove(grown, (a + b) * nu**2 * X_dot * T**2 / G, "the growth of the twist", names=r"\delta\Delta")
 
 # %% [markdown]
 # and the rate of turning, $-G\Delta^2/(4k(a+b))$ at $P=0$, changes with it by
 
 # %%
 changed = -G * (P_X / G) * grown / (2 * k * (a + b))
-prove(changed, -P_X / G * nu**2 * X_dot * T**2 / (2 * k), "the change of the rate of turning")
+prove(changed, -P_X / G * nu**2 * X_dot * T**2 / (2 * k), "the change of the rate of turning", names=r"\delta\nu")
 
 # %% [markdown]
 # Compared with exact runs, by their mean rates over 8 and over 24 swings:

@@ -57,7 +57,7 @@ prove(
 # In that of the twist this is
 
 # %%
-prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the twist")
+prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the twist", names=r"\text{across}")
 
 # %% [markdown]
 # It vanishes on every parallel motion if and only if $G_1=G_2$. The other two are then twice the equations of one rotor of
@@ -65,6 +65,9 @@ prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the
 
 # %%
 one_rotor = (a + b) / 2 * (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2 + G * sp.tanh(U) * alpha_v
+Formula(one_rotor, r"\mathcal L^{\text{rotor}}")
+
+# %%
 rotor = euler_lagrange(one_rotor, TWISTED)
 equal = {G_1: G, G_2: G}
 prove(
@@ -85,7 +88,7 @@ x = sp.tanh(U)
 x_a = U_a / sp.cosh(U) ** 2 - 2 * sp.tanh(U) * U_v**2 / sp.cosh(U) ** 2
 speed = (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2
 inertia, stiffness = twist_coefficients()
-prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist")
+prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist, x = tanh U", names=r"\text{inertia}")
 
 # %%
 prove(
@@ -114,8 +117,9 @@ prove(
 # %% [markdown]
 # ## Growth on narrow cones
 #
-# Put $\Delta=e^{\mu\Phi}u$ with $\mu=\mu_1\rho+\mu_3\rho^3+\dots$ and $u=1+\rho^2(p\cos2\Phi+\dots)+\dots$ of period $\pi$. The
-# means over a period, order by order, fix the exponent; the second harmonic at second order fixes $p$.
+# Let $H$ be the left side of Hill's equation over $e^{\mu\Phi}$. Put $\Delta=e^{\mu\Phi}u$ with
+# $\mu=\mu_1\rho+\mu_3\rho^3+\dots$ and $u=1+\rho^2(p\cos2\Phi+\dots)+\dots$ of period $\pi$. The means of $H$ over a period
+# must vanish order by order and fix the exponent; the second harmonic at second order fixes $p$.
 
 # %%
 beta, mu_1, mu_3, p = sp.symbols("beta mu_1 mu_3 p", real=True)
@@ -130,16 +134,22 @@ def mean(order: int, weight: sp.Expr = sp.S.One) -> sp.Expr:
     return sp.integrate(sp.expand(hill.coeff(rho, order) * weight), (Phi, 0, sp.pi)) / sp.pi
 
 
-prove(mean(2), mu_1**2 + beta, "the mean at second order: μ_1² = −β")
+prove(mean(2), mu_1**2 + beta, "the mean at second order: μ_1² = −β", names=r"\langle H\rangle_2")
 
 # %%
-prove(mean(2, 2 * sp.cos(2 * Phi)), -4 * p - beta, "the second harmonic at second order: p = −β/4")
+prove(
+    mean(2, 2 * sp.cos(2 * Phi)),
+    -4 * p - beta,
+    "the second harmonic at second order: p = −β/4",
+    names=r"\langle 2H\cos 2\Phi\rangle_2",
+)
 
 # %%
 prove(
     mean(4),
     2 * mu_1 * mu_3 - mu_1**2 / 2 - beta * p / 2,
     "the mean at fourth order",
+    names=r"\langle H\rangle_4",
 )
 
 # %% [markdown]
@@ -148,7 +158,7 @@ prove(
 
 # %%
 third = sp.solve(mean(4).subs(p, -beta / 4).subs(beta, -(mu_1**2)), mu_3)[0]
-prove(third, mu_1 * (sp.Rational(1, 4) - mu_1**2 / 16), "the exponent's third order, with β = −μ_1²")
+prove(third, mu_1 * (sp.Rational(1, 4) - mu_1**2 / 16), "the exponent's third order, with β = −μ_1²", names=r"\mu_3")
 
 # %%
 growing = sp.series((mu_1 * rho + third * rho**3) / sp.sqrt(1 - rho**2), rho, 0, 4).removeO()
@@ -156,6 +166,7 @@ prove(
     growing,
     mu_1 * rho * (1 + (sp.Rational(3, 4) - mu_1**2 / 16) * rho**2),
     "the growth rate in units of G/(a + b)",
+    names=r"(\mu_1\rho + \mu_3\rho^3)/\cos\theta",
     small=rho,
     order=3,
 )
@@ -167,7 +178,12 @@ prove(
 # %%
 grown = twist_growth().expressions[0]
 unstable = grown.replace(sp.Max, lambda *parts: next(part for part in parts if part != 0))
-prove((unstable * (a + b)) ** 2, G**2 * rho**2 * (-b / (a - b)), "the square of the closed form, for b < 0")
+prove(
+    (unstable * (a + b)) ** 2,
+    G**2 * rho**2 * (-b / (a - b)),
+    "the square of the closed form, for b < 0",
+    names=r"\text{growth}^2",
+)
 
 # %%
 relative = rho**2 * (sp.Rational(3, 4) + sp.Abs(b / (a - b)) / 16) / (1 - rho**2)
