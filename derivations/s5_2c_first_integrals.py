@@ -62,7 +62,7 @@ prove(
 
 # %%
 of_B = system.noether_rate([0, 0, 1, 0, 0, -1])
-prove(of_B, 0, "the rate of B")
+prove(of_B, 0, "the rate of B", names=r"\dot B")
 
 # %% [markdown]
 # It is the axial momentum $I_3(\omega_1 - \omega_2)$:

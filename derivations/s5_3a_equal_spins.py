@@ -100,7 +100,7 @@ prove(
 )
 
 # %%
-prove(system.constraints[2].subs(parallel), 0, "the bar's constraint along parallel axes")
+prove(system.constraints[2].subs(parallel), 0, "the bar's constraint along parallel axes", names="g")
 
 # %% [markdown]
 # So the pair is one rotor with $a + b$ in place of $J$, whatever the bar's inertia $K$. The natural frequency of any two

@@ -49,7 +49,12 @@ Formula(link_constraint(r1, r2), "g")
 upright = dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True))
 slopes = sp.Matrix([pair.constraints]).jacobian(list(AXES.q)).subs(upright)
 allowed = sp.Matrix([[1, 0, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0], [0, 0, 1], [0, 0, 0]])
-prove(slopes * allowed, sp.zeros(3, 3), "the directions x, y_1, y_2 leave all three constraints alone")
+prove(
+    slopes * allowed,
+    sp.zeros(3, 3),
+    "the directions x, y_1, y_2 leave all three constraints alone",
+    names=r"\partial(g_1, g_2, g)/\partial(x, y_1, y_2)",
+)
 
 # %% [markdown]
 # ## Equations of motion
@@ -79,15 +84,15 @@ prove(
 )
 
 # %% [markdown]
-# In matrices they read $M\ddot q + C\dot q=0$ with $q=(x,y_1,y_2)$, and are what the library holds.
+# In matrices they read $M\ddot q + C\dot q=0$ with $q=(x,y_1,y_2)$ and the library's matrices.
 
 # %%
 matrices = impulse_matrices()
 M, C, n = matrices.mass, matrices.gyroscopic, matrices.null
-prove(M, linear.jacobian([x_a, a1, a2]), "the mass matrix")
+prove(M, linear.jacobian([x_a, a1, a2]), "the mass matrix", names="M")
 
 # %%
-prove(C, linear.jacobian([x_v, v1, v2]), "the gyroscopic matrix, antisymmetric")
+prove(C, linear.jacobian([x_v, v1, v2]), "the gyroscopic matrix, antisymmetric", names="C")
 
 # %% [markdown]
 # ## The natural frequency
@@ -100,6 +105,7 @@ prove(
     (velocities[v1], velocities[v2]),
     ((a * G_1 - b * G_2) * x / (a**2 - b**2), (a * G_2 - b * G_1) * x / (a**2 - b**2)),
     "the velocities across the bar, by x",
+    names=(r"\dot y_1", r"\dot y_2"),
 )
 
 # %% [markdown]
@@ -120,6 +126,7 @@ prove(
     natural_frequency().expressions[0] ** 2,
     (a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2) / (2 * (a + b) * (a**2 - b**2)),
     "the square of the natural frequency, as the library has it",
+    names=r"\Omega_0^2",
 )
 
 # %% [markdown]
@@ -134,10 +141,11 @@ prove(
     (opposite, equal, single),
     (G**2 / (a**2 - b**2), G**2 / (a + b) ** 2, G**2 / (2 * a**2)),
     "opposite spins, equal spins, one spin",
+    names=[r"\Omega_0^2"] * 3,
 )
 
 # %%
-prove(INERTIAS[b].subs(K, m * ell**2 / 4), 0, "a dumbbell, two point masses at the bar's ends, has b = 0")
+prove(INERTIAS[b].subs(K, m * ell**2 / 4), 0, "a dumbbell, two point masses at the bar's ends, has b = 0", names="b")
 
 # %% [markdown]
 # ## The zero modes
@@ -150,6 +158,7 @@ prove(
     (s**2 * M + s * C).det(),
     2 * (a + b) * (a**2 - b**2) * s**4 * (s**2 + squared),
     "the characteristic polynomial",
+    names=r"\det(s^2 M + s\,C)",
 )
 
 # %% [markdown]
@@ -157,13 +166,18 @@ prove(
 
 # %%
 rest = dict.fromkeys(AXES.v, 0)
-prove((pair.L.subs(rest), *pair.push.subs(rest)), (0,) * 7, "at rest there is neither energy nor force")
+prove(
+    (pair.L.subs(rest), sum(e**2 for e in pair.push.subs(rest))),
+    (0, 0),
+    "at rest there is neither energy nor force",
+    names=("L", "|Q|^2"),
+)
 
 # %% [markdown]
 # The fourth is a uniform motion along the null vector of $C$:
 
 # %%
-prove(C * n, sp.zeros(3, 1), "the direction n that no gyroscopic force opposes")
+prove(C * n, sp.zeros(3, 1), "the direction n that no gyroscopic force opposes", names=r"C\,n")
 
 # %%
 value = natural_rate(Scene((10, -10), link=Link(1, 0.01, 0.1)))

@@ -89,7 +89,7 @@ prove(drift, n * n.T / (n.T * M * n)[0], "and it is along n", written=r"\text{dr
 prove(M * drift + C * D, sp.eye(3), "the constant terms", written=r"M\cdot\text{drift} + C\,D = 1")
 
 # %%
-prove(C * drift, sp.zeros(3, 3), "the terms in s")
+prove(C * drift, sp.zeros(3, 3), "the terms in s", written=r"C\cdot\text{drift} = 0")
 
 # %%
 prove(M * S, C * D, "the terms in the cosine", written=r"M\,S = C\,D")
@@ -103,7 +103,12 @@ prove(squared * M * D, -C * S, "the terms in the sine", written=r"\Omega_0^2\,M\
 # %%
 along_x = {G_1: G, G_2: -G, P_1: 0, P_2: 0}
 twisted = [e.subs(along_x) for e in shock_displacement().expressions]
-prove(twisted, (0, P_X / (2 * G), -P_X / (2 * G)), "displacement (x, y_1, y_2) by a shock along x, opposite spins")
+prove(
+    twisted,
+    (0, P_X / (2 * G), -P_X / (2 * G)),
+    "displacement by a shock along x, opposite spins",
+    names=("x", "y_1", "y_2"),
+)
 
 # %% [markdown]
 # ## The width of the pulse
@@ -115,7 +120,12 @@ prove(twisted, (0, P_X / (2 * G), -P_X / (2 * G)), "displacement (x, y_1, y_2) b
 w = sp.Symbol("w", positive=True)
 pulse = sp.exp(-((t / w) ** 2)) / (w * sp.sqrt(sp.pi))
 component = sp.integrate(pulse * sp.exp(-sp.I * Omega * t), (t, -sp.oo, sp.oo))
-prove(sp.expand(component), sp.exp(-((Omega * w) ** 2) / 4), "the Fourier component of a Gaussian of unit impulse")
+prove(
+    sp.expand(component),
+    sp.exp(-((Omega * w) ** 2) / 4),
+    "the Fourier component of a Gaussian of unit impulse",
+    names=r"\int f(t)\,e^{-i\Omega t}\,dt",
+)
 
 # %% [markdown]
 # ## Energy
@@ -139,7 +149,12 @@ prove(
 # %%
 equal_spins = {G_1: G, G_2: G, P_1: 0, P_2: 0}
 equal_x = P_X**2 / (4 * (a + b))
-prove((along.subs(equal_spins), across.subs(equal_spins)), (0, equal_x), "energy of the drift and of the swing")
+prove(
+    (along.subs(equal_spins), across.subs(equal_spins)),
+    (0, equal_x),
+    "energy of the drift and of the swing",
+    names=(r"E_{\text{drift}}", r"E_{\text{swing}}"),
+)
 
 # %%
 paper = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))

@@ -209,7 +209,7 @@ Remark(
 # ## Times: of the mean, and of an axis
 #
 # Two different quantities. The mean of $x$ over the swing, of both axes, reaches the bound after about $0.1/\dot X$, if the
-# initial rate lasts; an axis itself swings, in first order by $A_wp_x/(2G\sqrt\sigma)$, and may pass the bound within the
+# initial rate lasts; an axis itself swings, in first order by $u=A_wp_x/(2G\sqrt\sigma)$, and may pass the bound within the
 # first swings.
 
 
