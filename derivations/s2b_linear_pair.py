@@ -104,14 +104,19 @@ along_bar = sp.Poly(sp.together(reduced[0].subs(X_a, 0).subs(turning)).as_numer_
 drift = sp.solve(along_bar, [X_0, X_1], dict=True)[0]
 y_drift = y_rates.subs(drift).applyfunc(sp.cancel)
 D = a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
-prove(drift[X_1], -R * (a * G_1 - b * G_2) * F[1] / D, "the common drift along the bar")
+prove(drift[X_1], -R * (a * G_1 - b * G_2) * F[1] / D, "the common drift along the bar", names="X_1")
 
 # %% [markdown]
 # Across the bar the two axes drift by themselves; their mean is
 
 # %%
 mean_drift_y = R * (a - b) * (G_1 + G_2) * F[0] / (2 * D) + R * G_2 * (G_2 - G_1) * F[1] * t / (2 * D)
-prove((y_drift[0] + y_drift[1]) / 2, mean_drift_y, "the drift of the mean axis across the bar")
+prove(
+    (y_drift[0] + y_drift[1]) / 2,
+    mean_drift_y,
+    "the drift of the mean axis across the bar",
+    names=r"\langle\dot y_1 + \dot y_2\rangle/2",
+)
 
 # %% [markdown]
 # With $G_i = I_3\omega_i$ these are the drifts of the two axes as vectors, for any spins, any bar and any force.
@@ -127,7 +132,7 @@ Formula(sp.Matrix([drift_1[1], drift_2[1]]), r"\langle(\dot y_1, \dot y_2)\rangl
 
 # %%
 shares = (G_1 * y_drift[0] / (G_2 * y_drift[1])).subs({b: 0, F[1]: 0})
-prove(shares, G_1**2 / G_2**2, "the torque on rotor 1 over that on rotor 2")
+prove(shares, G_1**2 / G_2**2, "the torque on rotor 1 over that on rotor 2", names=r"\tau_1/\tau_2")
 
 # %% [markdown]
 # The paper's rate (2.12) for such a force is $F_xR/(I(\omega_1 + \omega_2))$. The mean axis drifts less:
@@ -141,7 +146,12 @@ def off(ratio: sp.Expr) -> sp.Expr:
 
 
 rho = sp.Symbol("rho", real=True)
-prove(off(rho), (1 + rho) ** 2 / (2 * (1 + rho**2)), "the drift of the mean axis over the paper's, ρ = ω₂/ω₁")
+prove(
+    off(rho),
+    (1 + rho) ** 2 / (2 * (1 + rho**2)),
+    "the drift of the mean axis over the paper's, ρ = ω₂/ω₁",
+    names=r"\text{mean} / \text{paper}",
+)
 
 # %%
 half, third = sp.Rational(1, 2), sp.Rational(1, 3)
@@ -166,7 +176,15 @@ Remark(
 P_x, P_y = sp.symbols("P_x P_y", real=True)
 y_after = inertia.adjugate() / inertia.det() * (G * X + sp.Matrix([R * P_y, 0]))
 centre = -R * P_y * (a * G_1 - b * G_2) / D
-prove(G.dot(y_after), D / (a**2 - b**2) * (X - centre), "the force that drives X back to its centre")
+prove(
+    G.dot(y_after),
+    D / (a**2 - b**2) * (X - centre),
+    "the force that drives X back to its centre",
+    written=(
+        r"G\cdot\dot y = \frac{D\,(X - X_c)}{a^2 - b^2},\quad D = a\,(G_1^2 + G_2^2) - 2b\,G_1G_2,"
+        r"\quad X_c = -\frac{R P_y\,(a\,G_1 - b\,G_2)}{D}"
+    ),
+)
 
 # %%
 Omega_squared = D / (2 * (a + b) * (a**2 - b**2))
@@ -182,6 +200,7 @@ prove(
     (X_t.diff(t, 2), X_t.subs(t, 0), 2 * (a + b) * X_t.diff(t).subs(t, 0)),
     (-(Omega**2) * (X_t - X_c), 0, R * P_x),
     "the oscillation about the centre, from rest with the impulse",
+    names=(r"\ddot X", "X(0)", r"2(a + b)\,\dot X(0)"),
 )
 
 # %% [markdown]
@@ -189,7 +208,12 @@ prove(
 
 # %%
 X_area = X_c * (t - sp.sin(Omega * t) / Omega) + R * P_x / (2 * (a + b) * Omega**2) * (1 - sp.cos(Omega * t))
-prove((X_area.diff(t), X_area.subs(t, 0)), (X_t, 0), "the area under X")
+prove(
+    (X_area.diff(t), X_area.subs(t, 0)),
+    (X_t, 0),
+    "the area under X",
+    names=(r"\frac{d}{dt}\int X\,dt", r"\int_0^0 X\,dt"),
+)
 
 # %%
 y_t = inertia.adjugate() / inertia.det() * (G * X_area + sp.Matrix([R * P_y * t, 0]))

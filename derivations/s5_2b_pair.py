@@ -119,7 +119,12 @@ verdict(
 # %%
 node, tilt = sp.symbols("varphi theta", real=True)
 third_axis = (sp.rot_axis3(node).T * sp.rot_axis1(tilt).T)[:, 2]
-prove(third_axis, axis(tilt, node - sp.pi / 2), "the axis of the body, in its azimuth")
+prove(
+    third_axis,
+    axis(tilt, node - sp.pi / 2),
+    "the axis of the body, in its azimuth",
+    names=r"R_z(\varphi)\,R_x(\theta)\,e_z",
+)
 
 # %%
 Remark(
@@ -149,7 +154,7 @@ prove(
 
 # %%
 bar_upright = (tip_2 - tip_1).subs({theta_1: 0, theta_2: 0})
-prove(bar_upright, sp.Matrix([ell, 0, 0]), "the bar, the axes upright")
+prove(bar_upright, sp.Matrix([ell, 0, 0]), "the bar, the axes upright", names=r"\vec r_2 - \vec r_1")
 
 # %% [markdown]
 # Its gradient has rank one where the pair is free to move, so that five of the six angles remain:
@@ -210,7 +215,12 @@ ansatz_case
 
 # %%
 quarter = {phi_1: sp.pi / 2, phi_2: -sp.pi / 2, k: 1}
-prove(system.constraints[0].subs(quarter), 1 - sp.cos(theta_1 + theta_2), "the bar's constraint a quarter period on")
+prove(
+    system.constraints[0].subs(quarter),
+    1 - sp.cos(theta_1 + theta_2),
+    "the bar's constraint a quarter period on",
+    names="g",
+)
 
 # %% [markdown]
 # On the exact orbit $\phi_1 + \phi_2$ swings in the first power of the amplitude. From the second order of its series

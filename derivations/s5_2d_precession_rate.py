@@ -76,7 +76,7 @@ p = momenta(pair_with_bar().L, PAIR)
 _, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v
 axial = {psi_1_v: omega_1 - phi_1_v * sp.cos(theta_1), psi_2_v: omega_2 - phi_2_v * sp.cos(theta_2)}
 value_A, value_B = ((p[i] - p[i + 3]).subs(axial) for i in (1, 2))
-prove(value_B, I3 * (omega_1 - omega_2), "B in the axial velocities")
+prove(value_B, I3 * (omega_1 - omega_2), "B in the axial velocities", names="B")
 
 # %%
 prove(
@@ -84,6 +84,7 @@ prove(
     J * (phi_1_v * sp.sin(theta_1) ** 2 - phi_2_v * sp.sin(theta_2) ** 2)
     + I3 * (omega_1 * sp.cos(theta_1) - omega_2 * sp.cos(theta_2)),
     "A in the axial velocities, the bar massless",
+    names="A",
 )
 
 # %% [markdown]
@@ -140,7 +141,7 @@ prove(fed_back, phi_v, "the formula with the values of the integrals put in")
 
 # %%
 natural = natural_frequency().expressions[0].subs({G_1: G, G_2: -G})
-prove(natural**2, G**2 / (a**2 - b**2), "the square of the natural frequency, opposite spins")
+prove(natural**2, G**2 / (a**2 - b**2), "the square of the natural frequency, opposite spins", names=r"\Omega_0^2")
 
 # %%
 Remark(

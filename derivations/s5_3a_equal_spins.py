@@ -35,7 +35,7 @@ prove(balance, sp.sin(theta) * phi_v * (I3 * omega - J * sp.cos(theta) * phi_v),
 
 # %%
 (single,) = (root for root in sp.solve(balance, phi_v) if root != 0)
-prove(single, I3 * omega / (J * sp.cos(theta)), "the rate of one free rotor")
+prove(single, I3 * omega / (J * sp.cos(theta)), "the rate of one free rotor", names=r"\dot\phi")
 
 # %% [markdown]
 # A shock from rest makes it just that: the axis passes through its old direction once a turn, and its $x$ is a sine of this
@@ -112,15 +112,16 @@ prove(
     natural**2,
     I3**2 * (a * (omega_1**2 + omega_2**2) - 2 * b * omega_1 * omega_2) / (2 * (a + b) * (a**2 - b**2)),
     "the square of the natural frequency, any spins",
+    names=r"\Omega_0^2",
 )
 
 # %%
 equal = I3 * omega / (a + b)
-prove(EQUAL_SPINS.on(natural**2), equal**2, "the square of the natural frequency, equal spins")
+prove(EQUAL_SPINS.on(natural**2), equal**2, "the square of the natural frequency, equal spins", names=r"\Omega_0^2")
 
 # %%
 constant = (equal / (I3 * omega / J)).subs(INERTIAS)
-prove(constant, J / (J + m * R**2 / 2), "the constant c of equal spins")
+prove(constant, J / (J + m * R**2 / 2), "the constant c of equal spins", names="c")
 
 # %% [markdown]
 # ## What the paper reads off its run
