@@ -176,7 +176,7 @@ assert abs(needs - 4) < 1e-9 and abs(largest - 4) < 1e-9 and len(signs) == 512
 Remark(
     "Which signs need the least spin",
     "; ".join(
-        f"of {found.tried} sign patterns of the {L} × {L} grid {found.standing} stand at some spin, the best from "
+        f"{found.standing} of the {found.tried} sign patterns of the {L} × {L} grid stand at some spin, the best from "
         f"{least[L]:.3f} √(aκ) on"
         for L, found in tried.items()
     )
@@ -290,7 +290,7 @@ Remark(
 kappa_over_a = (coefficients(with_friction).gravity * coefficients(with_friction).S / coefficients(with_friction).A)[0]
 Remark(
     "Friction undoes it slowly",
-    "A corner whose spins of 40 rad/s hold it falls with a friction of 0.5 N m s/rad by e every "
+    "A corner that spins of 40 rad/s hold upright falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
     f"{1 / falling.growth:.2f} s, "
     f"measured on the exact motion every {1 / measured_growth(with_friction, folds=0.2):.2f} s; without spin every "
     f"{kappa_over_a**-0.5:.2f} s.",

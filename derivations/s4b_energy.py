@@ -46,6 +46,7 @@ prove(
     (sp.eye(3) * dot(d, d) - d * d.T).applyfunc(lambda entry: over_mass(entry, M_1, C)),
     sp.eye(3) * C.trace() - C,
     "the inertia tensor by the second moments",
+    names=r"\int(|\vec d|^2\,\mathbb 1 - \vec d\,\vec d^T)\,dm",
 )
 
 # %% [markdown]
@@ -129,7 +130,7 @@ energy_verdict
 # %%
 omega = sp.Symbol("omega", real=True)
 resting = dict.fromkeys(components([velocities[0], turns[0]]), 0)
-one_rotor = K[0].subs(resting | {turns[0][2]: omega})
+one_rotor = sp.expand(K[0].subs(resting | {turns[0][2]: omega}))
 first_rotor = one_rotor.subs({inertias[0][2, 2]: 1, omega: 10})
 Formula(one_rotor, "K(1)")
 
@@ -152,7 +153,12 @@ verdict(
 LIGHT = sp.Rational(1, 100)  # kg, the bar of section 5.2.1
 heavy_bar = parameter_premise("the bar is as heavy as a rotor, M₃ = M₂", {M_3: M_2}, own={M_2: sp.S.One, M_3: LIGHT})
 excess = K[2].subs(M_3, M_2) - K[2]
-prove(excess, (M_2 - M_3) * dot(velocities[2], velocities[2]) / 2, "what the listing has too much")
+prove(
+    excess,
+    (M_2 - M_3) * dot(velocities[2], velocities[2]) / 2,
+    "what the listing has too much",
+    names=r"K_{\text{listing}} - K",
+)
 
 # %%
 verdict(

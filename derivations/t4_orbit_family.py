@@ -32,6 +32,9 @@ u1, al1, u2, al2 = MERCATOR.q
 u1_v, al1_v, u2_v, al2_v = MERCATOR.v
 L = mercator_lagrangian().subs({G_1: G, G_2: -G})
 bar = sp.cosh(u1 - u2) - k * sp.sinh(u1 - u2) - sp.cos(al2 - al1)
+Formula(L, "L")
+
+# %%
 Formula(bar, "g")
 
 # %% [markdown]
@@ -122,8 +125,9 @@ assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 Remark(
     "The family of orbits",
     f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; errors given at most {max(errors):.1e}. For k = 1 the frequency "
-    "falls, passes a least value and rises again; a long bar's only rises. The families are followed to "
-    "r_0 = 0.99 without a turn (`ends`, slow): they end where the axes come to lie along the joint line, r_0 = 1.",
+    "falls, passes a least value and rises again; with a massless bar longer than √(3/2) R it rises from the start (s5_3b). "
+    "The families are followed to "
+    "r_0 = 0.99 without a turn (ends(), slow): they end where the axes come to lie along the joint line, r_0 = 1.",
 )
 
 # %% [markdown]
