@@ -31,7 +31,7 @@ tables = [
     Table(
         "Mechanisms: targets and measurements",
         WANTED_HEAD,
-        tuple(wanted(found.measured, found.decided, found.operations)),
+        tuple(wanted(found.measured, found.decided, found.operations, found.ready)),
         f"Multiples of processor time, on {where}. Each rod more takes {each['rods']} operations, each gyroscope more "
         f"{each['gyroscopes']}; the first, on the ground, takes much less ({found.operations['gyroscopes'][0]} for a "
         "gyroscope). Twice as many therefore take more than twice the operations, most so where there are few.",

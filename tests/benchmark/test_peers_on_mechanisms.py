@@ -87,15 +87,25 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
     assert rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1e-06", "0e+00")
     assert rows([slow])[0] == ("6 rods", "LagrangesMethod", "—", "—", "—", "over 90 s", "—")
     assert [row[-1] for row in decided_rows(decided)] == ["300", "over 6000"]
-    table = wanted([own, kane, slow], decided, {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]})
+    counts, ready = (
+        {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]},
+        {"rods": [0.1, 0.2, 0.3, 0.9], "gyroscopes": [0.1]},
+    )
+    table = wanted([own, kane, slow], decided, counts, ready)
     assert [row[1:] for row in table[:3]] == [("15", "20.0"), ("4", "5.0"), ("3", "—")]
-    assert table[6][1:] == ("at most 2.3", "2.00, 2.05, 2.20") and table[-1][1:] == ("20", "300")
+    assert [row[-1] for row in table[6:8]] == ["2.00, 2.05, 2.20", "2.00, 1.50, 3.00"] and table[-1][1:] == (
+        "20",
+        "300",
+    )
     assert all(len(row) == len(WANTED_HEAD) for row in table) and all(len(row) == len(HEAD) for row in rows([own]))
 
 
 def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:
     found = record.recorded_mechanisms()
-    assert found.operations == record.counted()
+    assert found.operations == record.counted() and {k: len(x) for k, x in found.ready.items()} == {
+        "rods": 4,
+        "gyroscopes": 4,
+    }
     assert {x.tool for x in found.measured} == set(TOOLS)
     assert {(x.kind, x.n) for x in found.measured if x.tool == "lagrotor"} == {(k, n) for k in SIZES for n in SIZES[k]}
     assert all(x.reason or (x.difference is not None and x.difference < SAME) for x in found.measured)

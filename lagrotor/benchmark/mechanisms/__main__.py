@@ -18,6 +18,6 @@ if __name__ == "__main__":
     for head, body in (
         (HEAD, rows(found.measured)),
         (DECIDED_HEAD, decided_rows(found.decided)),
-        (WANTED_HEAD, wanted(found.measured, found.decided, found.operations)),
+        (WANTED_HEAD, wanted(found.measured, found.decided, found.operations, found.ready)),
     ):
         print("", " | ".join(head), *(" | ".join(row) for row in body), sep="\n")

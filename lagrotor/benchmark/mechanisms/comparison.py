@@ -5,7 +5,7 @@ setting whose error is at most ERROR, the largest of a coordinate (rad) at eleve
 scipy's DOP853 at 10⁻¹³ on the right-hand side that all agree on.
 """
 
-import time
+import gc
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from sympy.core.cache import clear_cache
 
 from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, start
 from lagrotor.benchmark.mechanisms.engine_tools import ENGINES
@@ -31,7 +32,6 @@ ERROR = 1e-8
 SAME = 1e-9  # relative difference of right-hand sides up to which they are equal
 _LONGEST = 40.0  # s of processor time, for one tool on one mechanism; beyond, larger ones are left out
 _SAMPLES, _SAMPLE = 15, 5e-3
-_CLOCK = time.process_time
 
 
 @dataclass(frozen=True)
@@ -104,15 +104,26 @@ def measure(tool: Tool, case: Measured) -> Measured:
 
 def _prepared(tool: Tool, kind: Kind, n: int) -> tuple[Ready, float]:
     """Ready, and the least time of that: of one where it takes seconds, of five with empty caches where it does not."""
-    from sympy.core.cache import clear_cache
-
     times: list[float] = []
     while len(times) < 5 and sum(times) < 2:
         clear_cache()
-        before = _CLOCK()
+        before = _clock()
         ready = tool.prepare(kind, n)
-        times.append(_CLOCK() - before)
+        times.append(_clock() - before)
     return ready, min(times)
+
+
+def ready_in_turns(kind: Kind, rounds: int = 15) -> list[float]:
+    """Median processor time, s, in which lagrotor is ready, on each of SIZES: in turns, so that load comes to all alike."""
+    times: dict[int, list[float]] = {n: [] for n in SIZES[kind]}
+    for _ in range(rounds):
+        for n, taken in times.items():
+            clear_cache()
+            gc.collect()
+            before = _clock()
+            OWN["lagrotor"].prepare(kind, n)
+            taken.append(_clock() - before)
+    return [median(taken) for taken in times.values()]
 
 
 def _states(kind: Kind, n: int) -> Any:
@@ -134,11 +145,19 @@ def _time_of(call: Callable[[], Any]) -> float:
     return median(_sample(call, number) for _ in range(_SAMPLES if seconds < 20 * _SAMPLE else 3)) / number
 
 
+def _clock() -> float:
+    """Processor time, s; time.process_time goes in steps of 4 ms while a limit of processor time is set."""
+    import resource  # not everywhere
+
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    return used.ru_utime + used.ru_stime
+
+
 def _sample(call: Callable[[], Any], number: int) -> float:
-    before = _CLOCK()
+    before = _clock()
     for _ in range(number):
         call()
-    return _CLOCK() - before
+    return _clock() - before
 
 
 def _run(ready: Ready, kind: Kind, n: int) -> dict[str, Any]:

@@ -30,10 +30,15 @@ def decided_rows(found: Sequence[Decided]) -> list[Row]:
     ]
 
 
-def wanted(found: Sequence[Measured], decided: Sequence[Decided], operations: dict[Kind, list[int]]) -> list[Row]:
+def wanted(
+    found: Sequence[Measured],
+    decided: Sequence[Decided],
+    operations: dict[Kind, list[int]],
+    ready_in: dict[Kind, list[float]],
+) -> list[Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 
-    operations: of one evaluation on each of SIZES.
+    On each of SIZES, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
     """
     made = {(x.kind, x.n, x.tool): x for x in found}
     table, nothing = list[Row](), Measured("rods", 0, "")
@@ -58,8 +63,7 @@ def wanted(found: Sequence[Measured], decided: Sequence[Decided], operations: di
             ),
         ]
     for kind, numbers in SIZES.items():
-        times = [x.ready for n in numbers if (x := made.get((kind, n, "lagrotor"))) and x.ready]
-        for what, values in (("operations", operations[kind]), ("time to be ready", times)):
+        for what, values in (("operations", operations[kind]), ("time to be ready", ready_in[kind])):
             doubled = [
                 f"{b / a:.2f}"
                 for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.benchmark.mechanisms.chains import Kind, chain
-from lagrotor.benchmark.mechanisms.comparison import SIZES, Measured, compare
+from lagrotor.benchmark.mechanisms.comparison import SIZES, Measured, compare, ready_in_turns
 from lagrotor.benchmark.mechanisms.deciding import Decided, decide_pairs
 from lagrotor.benchmark.recorded_speed import machine, versions
 from lagrotor.errors import LagrotorError
@@ -20,18 +20,21 @@ RECORDED = Path(__file__).with_name("recorded_mechanisms.json")
 
 @dataclass(frozen=True)
 class Comparison:
-    """machine and versions; tools on mechanisms; pairs of formulations; operations of one evaluation, on each of SIZES."""
+    """machine and versions; tools on mechanisms; pairs of formulations; on each of SIZES operations of one
+    evaluation, and the time in which lagrotor is ready, s."""
 
     machine: dict[str, Any]
     versions: dict[str, str]
     measured: list[Measured]
     decided: list[Decided]
     operations: dict[Kind, list[int]]
+    ready: dict[Kind, list[float]]
 
 
 def measure_all(step: Callable[[str], None] = lambda text: None) -> Comparison:
     """All of it, some minutes."""
-    return Comparison(machine(), versions(), compare(step=step), decide_pairs(), counted())
+    ready = {kind: ready_in_turns(kind) for kind in SIZES}
+    return Comparison(machine(), versions(), compare(step=step), decide_pairs(), counted(), ready)
 
 
 def counted() -> dict[Kind, list[int]]:
