@@ -61,7 +61,7 @@ def rate(expression: sp.Matrix) -> sp.Matrix:
 
 r_hat = axis(theta, phi)
 Q = rotation(phi + sp.pi / 2, theta, psi)
-prove(Q[:, 2], r_hat, "the last column of Q is the axis")
+prove(Q[:, 2], r_hat, "the last column of Q is the axis", names=r"Q\,e_z")
 
 # %% [markdown]
 # The angular velocity in that frame is the axial vector of $Q^T\dot Q$. With the inertias $J, J, I_3$ the angular momentum

@@ -140,6 +140,7 @@ prove(
     sp.eye(3) * d.dot(d) - d * d.T,
     (sp.eye(3) * C.trace() - C).subs(dict(zip(C, d * d.T, strict=True))),
     "the tensor of one particle by its second moments",
+    names=r"|\vec d|^2\,1 - \vec d\,\vec d^T",
 )
 
 # %% [markdown]
@@ -151,7 +152,7 @@ I_0 = symmetric("I_0")
 C_0 = sp.eye(3) * I_0.trace() / 2 - I_0
 C_turned = Q * C_0 * Q.T
 I_turned = sp.eye(3) * C_turned.trace() - C_turned
-prove(sp.eye(3) * C_0.trace() - C_0, I_0, "these moments have the tensor I_0")
+prove(sp.eye(3) * C_0.trace() - C_0, I_0, "these moments have the tensor I_0", names=r"\mathrm{tr}\,C\;1 - C")
 
 # %% [markdown]
 # The paper has the transpose on the wrong side. A body with the principal inertias $1, 2, 3$ shows it in a quarter turn about

@@ -36,7 +36,8 @@ in_units = {M: kilogram, n: 1, omega_s: 1 / second}
 prove(
     (S.subs(in_units), D.subs(in_units)),
     (2000 * newton / metre, 500 * unit_of_damping),
-    "the units of the chosen constants",
+    "the units of the chosen constants, at M = 1 kg, n = 1, ω_s = 1 rad/s",
+    written=(r"S = 2000\ \mathrm{N/m}", r"D = 500\ \mathrm{N\,s/m}"),
 )
 
 # %%
@@ -53,12 +54,12 @@ verdict(
 # %% [markdown]
 # ## Damping
 #
-# A mass $m_{\mathrm{eff}}$ on one link obeys $m_{\mathrm{eff}}\ddot s + D\dot s + S s = 0$; its damping ratio is
+# A mass $m_{\mathrm{eff}}$ on one link obeys $m_{\mathrm{eff}}\ddot s + D\dot s + S s = 0$; its damping ratio $\zeta$ is
 # $D/(2\sqrt{S m_{\mathrm{eff}}})$.
 
 # %%
 damping_ratio = sp.sqrt(D**2 / (4 * S * m_eff))
-prove(damping_ratio**2, sp.Rational(125, 4) * M / (n * m_eff), "the square of the damping ratio")
+prove(damping_ratio**2, sp.Rational(125, 4) * M / (n * m_eff), "the square of the damping ratio", names=r"\zeta^2")
 
 # %%
 one_body, two_bodies = (damping_ratio.subs({m_eff: mass, n: 1}) for mass in (M, M / 2))

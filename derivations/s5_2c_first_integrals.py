@@ -72,6 +72,7 @@ prove(
     B,
     I3 * (psi_1_v + phi_1_v * sp.cos(theta_1)) - I3 * (psi_2_v + phi_2_v * sp.cos(theta_2)),
     "B in the axial velocities",
+    names="B",
 )
 
 # %% [markdown]

@@ -38,6 +38,7 @@ prove(
     bar.dot(bar) - projected.dot(projected),
     R**2 * (sp.cos(theta_2) - sp.cos(theta_1)) ** 2,
     "what the projection leaves out of the squared length",
+    names=r"\|\vec r_2 - \vec r_1\|^2 - C^2",
 )
 
 # %%
@@ -88,7 +89,9 @@ assumed = [*units, opposite_azimuths(), one_inclination()]
 level = C_squared
 for premise in assumed:
     level = premise.on(level)
-prove(level, 1 + 4 * sp.sin(theta_0) ** 2 * sp.sin(phi) ** 2, "the square of the length at one inclination")
+prove(
+    level, 1 + 4 * sp.sin(theta_0) ** 2 * sp.sin(phi) ** 2, "the square of the length at one inclination", names="C^2"
+)
 
 # %%
 longest = float(sp.sqrt(1 + (2 * r0) ** 2).subs(r0, PAPER_R0))
