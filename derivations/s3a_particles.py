@@ -42,7 +42,7 @@ def gradient(quantity: sp.Expr, of: sp.Matrix) -> sp.Matrix:
 common = vector("U")
 moving = sum(m * common.dot(common) / 2 for m in masses)
 total_mass = sp.diff(moving, common[0], 2)
-prove(gradient(moving, common), total_mass * common, "the momentum of the common motion")
+prove(gradient(moving, common), total_mass * common, "the momentum of the common motion", names=r"\sum_i m_i\vec U")
 
 # %%
 mass = verdict(

@@ -37,7 +37,7 @@ verdict(
 tau, radius = sp.Symbol("tau", real=True), sp.Symbol("rho", positive=True)
 impulse = sp.integrate(h * sp.exp(-((tau / w) ** 2)), (tau, -sp.oo, sp.oo))
 plane = sp.integrate(2 * sp.pi * radius * h**2 * sp.exp(-(radius**2) / w**2), (radius, 0, sp.oo))
-prove(impulse**2, plane, "the square of the impulse")
+prove(impulse**2, plane, "the square of the impulse", names=r"\left(\int F\,dt\right)^2")
 
 # %%
 Remark(

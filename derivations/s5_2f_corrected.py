@@ -59,7 +59,7 @@ prove(
 # %%
 s = sp.sin(theta_0)
 D = sp.sqrt(1 + (sigma - 1) * sine**2)
-prove(D**2, cosine**2 + sigma * sine**2, "the leading order of the squared sines, over r₀²")
+prove(D**2, cosine**2 + sigma * sine**2, "the leading order of the squared sines, over r₀²", names="D^2")
 
 # %%
 change = sigma * R / (2 * ell) * sine**2 * cosine / D
@@ -84,7 +84,10 @@ prove(
 shorter, longer = r0 - r0**2 * cosine, r0 + r0**2 * cosine
 length_squared = (1 + cosine * (longer - shorter)) ** 2 + sine**2 * (longer + shorter) ** 2
 prove(
-    length_squared, 1 + 4 * r0**2 + 4 * r0**4 * cosine**4, "the squared length of the bar with the printed correction"
+    length_squared,
+    1 + 4 * r0**2 + 4 * r0**4 * cosine**4,
+    "the squared length of the bar with the printed correction",
+    names=r"|\vec r_2 - \vec r_1|^2",
 )
 
 # %%
@@ -123,13 +126,18 @@ theta_1, theta_2 = ANSATZ.q[:2]
 rate = pair_precession_rate().expressions[0]
 level = {theta_1: theta_0, theta_2: theta_0}
 by_sine_1, by_sine_2 = (rate.diff(angle).subs(level) / sp.cos(theta_0) for angle in (theta_1, theta_2))
-prove(by_sine_1, by_sine_2, "the derivatives of the rate by sin θ₁ and by sin θ₂")
+prove(
+    by_sine_1,
+    by_sine_2,
+    "the derivatives of the rate by sin θ₁ and by sin θ₂, at equal inclinations",
+    written=r"\frac{\partial\dot\phi}{\partial\sin\theta_1} = \frac{\partial\dot\phi}{\partial\sin\theta_2}",
+)
 
 # %%
 epsilon = s**2 * cosine
 varied = rate.subs(level) - by_sine_1 * epsilon + by_sine_2 * epsilon
 unvaried = (A - B * sp.cos(theta_0)) / (2 * J * s**2)
-prove(varied, unvaried, "the rate to first order in the correction, at constant A and B")
+prove(varied, unvaried, "the rate to first order in the correction, at constant A and B", names=r"\dot\phi")
 
 # %% [markdown]
 # The paper multiplies the two derivatives where their difference is needed; that its last line follows all the same is a
@@ -143,7 +151,14 @@ prove(varied, unvaried, "the rate to first order in the correction, at constant 
 frequency = paired_frequency(3).expressions[0].subs(bar_ratio)
 ratio = ell / R
 curvature = sigma * (ratio**2 * sigma - 3 * ratio**2 + 3) / (4 * ratio**2)
-prove(frequency, 1 - curvature * r0**2, "the frequency of the paired precession, over Ω₀", small=r0, order=3)
+prove(
+    frequency,
+    1 - curvature * r0**2,
+    "the frequency of the paired precession",
+    names=r"\Omega/\Omega_0",
+    small=r0,
+    order=3,
+)
 
 # %% [markdown]
 # For a massless bar with $\ell = R$, through the eighth order:
@@ -215,6 +230,7 @@ prove(
     tuple(sum(e.subs(Phi, turn * sp.pi / 2) for turn in range(4)) / 4 for e in (R * second[0], printed[0])),
     (r0**2 * sigma * R**2 / (2 * ell), -(r0**2) / 2),
     "the mean of x₁ from its joint, derived and printed",
+    names=(r"\langle x_1\rangle", r"\langle x_1\rangle_{\text{printed}}"),
 )
 
 # %%
