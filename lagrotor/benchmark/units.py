@@ -140,7 +140,7 @@ def main(whole: bool) -> None:
     print(f"{'units of import sympy':<44}{'wanted':>8} {'wall':>8} {'processor':>10} {'MB':>8}")
     with tempfile.TemporaryDirectory() as base:
         folder = Path(base) / "lagrotor"
-        kept = shutil.ignore_patterns(".*", "__pycache__", "report", "report.*")
+        kept = shutil.ignore_patterns(".git", ".venv*", ".*_cache", ".hypothesis", "__pycache__", "report", "report.*")
         shutil.copytree(ROOT, folder, ignore=lambda at, names: kept(at, names) if Path(at) == ROOT else set())
         for command in (*QUICK, *(LONG if whole else ())):
             print(line(measure(command, folder)), flush=True)

@@ -124,12 +124,15 @@ def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
     from lagrotor.report.content import counted, word
     from lagrotor.report.facts import note
-    from lagrotor.report.job.whole_audit import audit
 
     paper = _paper(given)
     identifiers = [known_id(identifier, paper.equations) for identifier in given.ids]
     with progress(len(identifiers) or len(paper.stating_scripts)) as step:
-        found = None if identifiers else audit(paper, step)
+        found = None
+        if not identifiers:
+            from lagrotor.report.job.whole_audit import audit
+
+            found = audit(paper, step)
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
     waiting = found.waiting if found is not None else ()
     if given.json:

@@ -2,17 +2,18 @@
 
 import multiprocessing
 import os
+import pickle
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
-# Loaded once, before the processes part: what every step takes, and what figures and runs take besides.
-STEPS = ("lagrotor.report.job.steps",)
-ALL = (*STEPS, "matplotlib.figure", "scipy.integrate")
+# Loaded once, before the processes part: what judging takes, and what all steps, figures and runs among them, take.
+JUDGING = ("lagrotor.report.job.whole_audit",)
+ALL = ("lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate")
 
 
 def cores() -> int:
@@ -51,6 +52,16 @@ def results(
             done, _ = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
                 yield running.pop(future), future.result()
+
+
+def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
+    """The values of the names that are wanted, as far as they can be handed to another process."""
+    found = {}
+    for name in names.keys() & set(wanted):
+        with suppress(pickle.PicklingError, TypeError, AttributeError):
+            pickle.dumps(names[name])
+            found[name] = names[name]
+    return found
 
 
 def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:

@@ -1,8 +1,6 @@
 """The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives."""
 
-import pickle
-from collections.abc import Callable, Collection, Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -13,6 +11,7 @@ from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
+from lagrotor.report.job.processes import values
 from lagrotor.report.job.reach import made_from, named, taken_from
 from lagrotor.report.page.derivation_pages import derivation_html, title
 
@@ -61,16 +60,6 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
     taken = values(script.names, taken_from(stem, paper))
     return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, taken)
-
-
-def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
-    """The values of the names that are wanted, as far as they can be handed to another process."""
-    found = {}
-    for name in names.keys() & set(wanted):
-        with suppress(pickle.PicklingError, TypeError, AttributeError):
-            pickle.dumps(names[name])
-            found[name] = names[name]
-    return found
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:

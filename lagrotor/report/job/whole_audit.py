@@ -6,9 +6,8 @@ from typing import Any
 from lagrotor.paper.audit import Audit
 from lagrotor.paper.papers import Paper, Progress
 from lagrotor.paper.verdicts import Verdict
-from lagrotor.report.job.processes import STEPS, cores, results
+from lagrotor.report.job.processes import JUDGING, cores, results, values
 from lagrotor.report.job.reach import named, taken_from
-from lagrotor.report.job.steps import values
 
 _FEW = 8  # scripts that are judged before other processes would have begun
 
@@ -29,7 +28,7 @@ def audit(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
     def given(stem: str) -> tuple[dict[str, dict[str, Any]]] | None:
         return ({needed: found[needed][1] for needed in needs[stem]},) if needs[stem] <= found.keys() else None
 
-    for stem, product in results(stems, partial(_judged, paper), jobs, progress, given, STEPS):
+    for stem, product in results(stems, partial(_judged, paper), jobs, progress, given, JUDGING):
         found[stem] = product
     return paper.audit_of(verdict for stem in stems for verdict in found[stem][0])
 
