@@ -6,8 +6,8 @@
 # **Assumptions.** No force from outside; any spins and any bar, but for the last two sections: opposite spins.
 #
 # **Notation.** $E$ the energy, $G_i$ the axial momenta, $P$ the momentum about the joint line, which runs through both ground
-# joints; $A$, $B$ the paper's integrals (s5_2c); $r_i$ the axes; $a$, $b$ the inertias with the bar's share, $k=\ell/R$; Euler
-# angles $\theta_i,\phi_i,\psi_i$; Mercator coordinates $u_i,\alpha_i$ about the joint line.
+# joints; $A$, $B$ the paper's integrals (5.12, 5.13); $r_i$ the axes; $a$, $b$ the inertias with the bar's share, $k=\ell/R$;
+# Euler angles $\theta_i,\phi_i,\psi_i$; Mercator coordinates $u_i,\alpha_i$ about the joint line.
 
 # %%
 import numpy as np

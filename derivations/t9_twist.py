@@ -102,7 +102,7 @@ prove(
 # ## Hill's equation
 #
 # On the cone, $x=\rho\cos\Phi$ and $|r'|^2=\rho^2$ in units of the precession's rate, which is
-# $G/((a+b)\cos\theta)$ (s5_3a). With $\beta=b/(a-b)$ the twist obeys
+# $G/((a+b)\cos\theta)$ (derived with 5.24). With $\beta=b/(a-b)$ the twist obeys
 # $$\big((1-\rho^2\cos^2\Phi)\,\Delta'\big)' + 2\beta\rho^2\sin^2\Phi\;\Delta = 0,$$
 # of period $\pi$.
 
