@@ -200,7 +200,8 @@ Remark(
 #
 # The frequency is that of the limit of small motion. At an amplitude $r$ (sine of the inclination) it is off in second order:
 # parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly (derived with 5.24), and
-# `natural_rate_error` bounds every pair by $\frac12(1+k^{-2})\,r^2\,\Omega_0$, where the factor ½ is empirical. Measured on exact runs of 20 swings:
+# `natural_rate_error` bounds every pair by $\frac12(1+k^{-2})\,r^2\,\Omega_0$, where the factor ½ is empirical. Measured on
+# exact runs of 20 swings:
 
 
 # %%
