@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.generated import generated
-from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene, Shock
+from lagrotor.shown import Shown
 from lagrotor.theory.natural_rate import natural_frequency_value
 
 Array = NDArray[np.float64]

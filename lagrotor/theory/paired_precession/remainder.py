@@ -17,7 +17,7 @@ from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
 MORE_ORDERS = 6
-_ROUNDED = 0.1  # of the largest output's error: what rounding sigma and k may change in any
+_ROUNDED = 1e-3  # of the largest error of an output: a change of 5e-5 in sigma − 1 and k, by powers of them up to the twentieth
 
 # (series, the form's arguments by symbol, one amplitude and bar) → the outputs (outputs, n); and (series, r_0) → the
 # bound of their error.
