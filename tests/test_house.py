@@ -17,6 +17,7 @@ FLOORS = (
         "errors",
         "files",
         "faces",
+        "shown",
         "algebra",
         "numerics",
         "drawing",

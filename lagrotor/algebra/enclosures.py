@@ -4,6 +4,8 @@ Outward rounding at every operation (mpmath.iv). Moore, Kearfott & Cloud, Introd
 """
 
 from collections.abc import Sequence
+from functools import reduce
+from operator import add, mul
 from typing import Any
 
 import sympy as sp
@@ -65,10 +67,7 @@ def _leaf(e: sp.Expr, point: Point) -> Any:
 
 def _of_parts(e: sp.Expr, parts: list[Any]) -> Any:
     if e.is_Add or e.is_Mul:
-        total, *others = parts
-        for other in others:
-            total = total + other if e.is_Add else total * other
-        return total
+        return reduce(add if e.is_Add else mul, parts)
     if e.is_Pow and e.exp.is_Rational and e.exp.q <= 2:
         return (parts[0] if e.exp.q == 1 else iv.sqrt(parts[0])) ** int(e.exp.p)
     if e.func not in _FUNCTIONS:

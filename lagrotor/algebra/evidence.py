@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator
+from functools import reduce
+from operator import add, mul
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -119,10 +121,7 @@ def _leaf(node: sp.Expr, point: Point) -> Any:
 def _combined(node: sp.Expr, arguments: list[Any]) -> Any:
     """The value of a node whose parts have these values."""
     if node.is_Add or node.is_Mul:
-        total, *others = arguments
-        for other in others:
-            total = total + other if node.is_Add else total * other
-        return total
+        return reduce(add if node.is_Add else mul, arguments)
     if (function := mp.power if node.is_Pow else _FUNCTIONS.get(node.func)) is None:
         raise NotExactError(f"{node.func} is not evaluated.")
     if abs(arguments[-1]) > _LARGEST:

@@ -10,8 +10,8 @@ from lagrotor.models.integrated import check_range
 from lagrotor.models.linear import linear_error
 from lagrotor.models.minimal import MODEL as MINIMAL
 from lagrotor.models.natural_units import typical_rate
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.scene import Scene
+from lagrotor.shown import scientific
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,9 @@ from lagrotor.models.chunk_files import chunk_folder
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.simulate import check_times
 from lagrotor.numerics.integrate import check_engine, check_tolerance
-from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
+from lagrotor.shown import Shown
 
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
 

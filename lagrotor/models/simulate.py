@@ -19,9 +19,9 @@ from lagrotor.models.model import Model, Observed, constant_momenta
 from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
+from lagrotor.shown import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}

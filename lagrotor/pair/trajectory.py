@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
-from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.shown import Shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

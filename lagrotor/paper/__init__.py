@@ -10,7 +10,6 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.glossary import Glossary as Glossary
-    from lagrotor.numerics.shown import scientific as scientific
     from lagrotor.paper.audit import Audit as Audit
     from lagrotor.paper.claim_tests import ClaimTest as ClaimTest
     from lagrotor.paper.claim_tests import Finding as Finding
@@ -33,5 +32,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.verdicts import Statement as Statement
     from lagrotor.paper.verdicts import Verdict as Verdict
     from lagrotor.paper.verdicts import chain as chain
+    from lagrotor.shown import scientific as scientific
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -4,7 +4,7 @@ import re
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from lagrotor.numerics.shown import raised
+from lagrotor.shown import raised
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _SIGNS = {

@@ -12,7 +12,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.linear_modes import LinearSystem
-from lagrotor.numerics.shown import Shown
+from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 

@@ -18,7 +18,7 @@ from math import inf
 
 import numpy as np
 
-from lagrotor.numerics.shown import Shown
+from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
@@ -66,7 +66,7 @@ def _why(linear: SmallMotion, factor: float) -> str:
             return "the bars leave no freedom"
         held = "its springs hold it" if K[0] > 1e-12 else "nothing pulls at it, and the spins stop a push"
         return "every small motion stays bounded: " + (f"the spins hold {falling} of {n} freedoms" if falling else held)
-    first = f"{falling} of {n} freedoms fall, the fastest by e every {1 / linear.growth:.3g} s; "
+    first = f"{falling} of {n} freedoms fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
     if falling % 2:
         return first + "an odd number of them, which no spins hold"
     if linear.damping.any():

@@ -9,7 +9,7 @@ from lagrotor.mechanics.running.integration import MOST, Array, projection
 from lagrotor.mechanics.running.motion import Motion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.shown import Shown
+from lagrotor.shown import Shown
 
 _PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
 _TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that

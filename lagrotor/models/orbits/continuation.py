@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, QuarterPeriod
-from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
+from lagrotor.shown import Shown
 
 Array = NDArray[np.float64]
 

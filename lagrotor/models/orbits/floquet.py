@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import flow
-from lagrotor.numerics.shown import Shown
 from lagrotor.pair.scene import Scene
+from lagrotor.shown import Shown
 
 Array = NDArray[np.float64]
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/models/test_orbit_errors.py.

@@ -15,8 +15,8 @@ from lagrotor.errors import DomainError, LagrotorError
 from lagrotor.models.estimate_constants import OPPOSITE
 from lagrotor.models.model import Answer, Array
 from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
-from lagrotor.numerics.shown import raised
 from lagrotor.pair.scene import Link, Rotor, Scene
+from lagrotor.shown import raised
 from lagrotor.theory.natural_rate import natural_rate
 
 if TYPE_CHECKING:

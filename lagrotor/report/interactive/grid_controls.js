@@ -17,7 +17,7 @@ function verdict(found, spin) {
   if (found.stands) {
     return ["It stands.", `All ${freedoms} freedoms stay bounded; it stands from ${number(found.factor)} times these spins on.`];
   }
-  const falls = `It falls: a small tilt grows by e every ${number(1 / found.growth)} s.`;
+  const falls = `It falls: a small tilt grows e-fold in ${number(1 / found.growth)} s.`;
   if (!spin) return [falls, "Nothing turns."];
   if (!found.free) return [falls, `It stands from ${number(found.factor)} times these spins on.`];
   const uneven = found.alone ? `the bars leave ${found.rows.length} motions along x and ${found.columns.length} along y; spin `

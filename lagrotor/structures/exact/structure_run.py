@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lagrotor.numerics.shown import Shown, scientific
+from lagrotor.shown import Shown, scientific
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import exact_motion

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.shown import Shown
+from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.waves.bloch import Bloch, bloch
 from lagrotor.structures.waves.cell import Cell

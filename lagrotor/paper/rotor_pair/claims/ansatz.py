@@ -7,7 +7,6 @@ import numpy as np
 
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.numerics.curves import measured_order
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
@@ -23,6 +22,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     once_round,
     precession,
 )
+from lagrotor.shown import scientific
 
 WITHIN = 0.05  # "agrees", "constant": to one part in twenty, the difference that two curves drawn over each other do not show
 VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order

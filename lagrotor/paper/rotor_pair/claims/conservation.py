@@ -9,12 +9,12 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import join_bar, paper_bodies, paper_system
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import after_shock, shock_of, shocked_scene
+from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
 Spins = tuple[float, float]

@@ -7,12 +7,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import harmonics_at
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.notation import G_1, G_2, a, b, k
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
+from lagrotor.shown import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.curves import mean_between
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import HEAVY
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
@@ -20,6 +19,7 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
     shocked_scene,
     turned_about_joint_line,
 )
+from lagrotor.shown import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
 Spins = tuple[float, float]

@@ -19,11 +19,11 @@ from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.rotations import cross_matrix
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
+from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
 SPINS = (10.0, 10.0)

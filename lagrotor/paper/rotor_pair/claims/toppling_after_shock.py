@@ -10,7 +10,6 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_solver
 from lagrotor.numerics.curves import measured_order
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STIFFNESS
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Scene
@@ -23,6 +22,7 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
     shocked_scene,
     turned_about_joint_line,
 )
+from lagrotor.shown import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]

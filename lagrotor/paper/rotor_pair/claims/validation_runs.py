@@ -10,10 +10,10 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.numerics.shown import scientific
 from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
 PRINTED_ENERGY = 100.0  # J

@@ -1,5 +1,6 @@
 """What people see of a result: numbers in powers of ten, and its `summary`, name → words, in lines or as a table."""
 
+from abc import ABC, abstractmethod
 from html import escape
 
 _HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -18,12 +19,12 @@ def scientific(value: float, digits: int = 0) -> str:
     return mantissa.replace("-", "−") + (f"×10{raised(int(power))}" if int(power) else "")
 
 
-class Shown:
+class Shown(ABC):
     """A result with a `summary`, printed line by line; Jupyter draws it as a table. A dataclass of it has repr=False."""
 
+    @abstractmethod
     def summary(self) -> dict[str, str]:
         """What the result is and what it found, name → words."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         rows = self.summary()
