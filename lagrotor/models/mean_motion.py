@@ -65,7 +65,8 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
 def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
     """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes.
 
-    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time. Raises as `cancelling_force`.
+    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time. Raises as `cancelling_force`,
+    and DomainError where no such force is found.
     """
     from scipy.optimize import newton
 
@@ -77,7 +78,13 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
         moved = replace(shock, force=(shock.force[0], force, 0.0))
         return turning_rate(run_after(replace(scene, shock=moved), turns))
 
-    return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
+    try:
+        return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
+    except RuntimeError:
+        raise DomainError(
+            f"exact_cancelling_force: no force near {guess:.4g} N, that of a weak shock, is found that stops the turning; "
+            "take a weaker shock or fewer turns"
+        ) from None
 
 
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
