@@ -1,6 +1,5 @@
-"""Linear algebra has one thread in each process, as the command `lagrotor` gives it: set before numpy is imported."""
+"""The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported."""
 
-import os
+from lagrotor.process import begin_process
 
-for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(name, "1")
+begin_process()

@@ -16,6 +16,7 @@ FLOORS = (
         "about",
         "errors",
         "files",
+        "process",
         "faces",
         "shown",
         "algebra",

@@ -17,11 +17,9 @@ from lagrotor.commands.scene_commands import add_scene_commands
 from lagrotor.commands.structure_commands import add_structure_commands
 from lagrotor.commands.terminal import say
 from lagrotor.errors import LagrotorError
+from lagrotor.process import begin_process
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
-# Of linear algebra, for each process: matrices are small here, so that more threads wait for each other up to four times as
-# long as they compute, and their sums would depend on how many there are.
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class _Terminated(BaseException):
@@ -36,8 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and give its exit status; every refusal is one line on stderr."""
     if sys.stdout is None:  # started with its output closed
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
-    for name in _THREADS:  # read when numpy is first imported
-        os.environ.setdefault(name, "1")
+    begin_process()
     with suppress(ValueError):  # not in the main thread: the caller keeps its signals
         signal.signal(signal.SIGTERM, _terminated)
     for stream in (sys.stdout, sys.stderr):

@@ -10,6 +10,8 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
+from lagrotor.process import begin_process
+
 Task = TypeVar("Task")
 # Loaded once, before the processes part: what judging takes, and what all steps, figures and runs among them, take.
 JUDGING = ("lagrotor.report.job.whole_audit",)
@@ -72,6 +74,11 @@ def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
     raise RuntimeError(f"each of {left} waits for another")
 
 
+def _begin() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    begin_process()
+
+
 @contextmanager
 def _pool(jobs: int, loaded: Sequence[str]) -> Iterator[ProcessPoolExecutor]:
     """Processes that leave interrupts to their parent, and that end with it."""
@@ -79,9 +86,7 @@ def _pool(jobs: int, loaded: Sequence[str]) -> Iterator[ProcessPoolExecutor]:
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):
         context.set_forkserver_preload(list(loaded))
-    pool = ProcessPoolExecutor(
-        jobs, mp_context=context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)
-    )
+    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_begin)
     try:
         yield pool
     except BaseException:
