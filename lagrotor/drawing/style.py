@@ -41,6 +41,7 @@ _STYLE: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 10,
     "axes.titlesize": 11,
+    "axes.titley": 1.0,  # where it would be found to be, at each drawing: no panel has ticks above
     "axes.labelsize": 10,
     "axes.edgecolor": _INK,
     "axes.linewidth": 0.8,
