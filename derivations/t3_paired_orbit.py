@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
+from sympy.polys.domains.domain import Domain
 
 from lagrotor import (
     Link,
@@ -25,7 +26,8 @@ from lagrotor import (
     paired_momentum,
     precession_orbit,
 )
-from lagrotor.mechanics import euler_lagrange
+from lagrotor.mechanics import FourierSeries, euler_lagrange
+from lagrotor.mechanics.fourier import constant
 from lagrotor.numerics import measured_order
 from lagrotor.pair import axes_pair, joint_line_momentum
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma
@@ -193,26 +195,25 @@ prove(
 
 
 # %% [markdown]
-# Put into all five equations, with $r_2$ half a period later, these leave nothing through second order:
+# Put into the library's five equations, which are those above, these leave nothing through second order:
 
 
 # %%
-def left(order: int, rate: sp.Expr) -> list[sp.Expr]:
-    """The five equations with the series through an order put in, in powers of r_0 and exp(i Phi) = q."""
-    one = [sum((e.coeff(r0, n) * r0**n for n in range(order + 1)), sp.Integer(0)) for e in (x, Y, z, unit, pull)]
-    other = [sign * e.subs(Phi, Phi + sp.pi) for sign, e in zip((-1, 1, 1), one, strict=False)]
-    put = {lambda_1: one[3], tau: one[4]}
-    for names, n in ((AXES.q, 0), (AXES.v, 1), (AXES.a, 2)):
-        put |= dict(zip(names, (rate**n * e.diff(Phi, n) for e in (*one[:3], *other)), strict=True))
-    equations_left = [scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2], 2 * unit_length, bar]
-    q = sp.Symbol("q")
-    waves = [sp.expand(e.subs(put, simultaneous=True)).rewrite([sp.cos, sp.sin], sp.exp) for e in equations_left]
-    return [sp.expand(e.replace(sp.exp, lambda power: q ** sp.cancel(power / (sp.I * Phi)))) for e in waves]
+def left(order: int, rate: FourierSeries, field: Domain) -> list[FourierSeries]:
+    """The five equations with the series through an order put in, through third order."""
+    known = (FourierSeries(part.through(order).terms, 3) for part in series.solution.unknowns)
+    one = [FourierSeries({n: field.convert_from(c, FIELD) for n, c in part.terms.items()}, 3) for part in known]
+    return equations(sigma, k, field)(one, rate)
+
+
+def of_order(n: int, found: list[FourierSeries]) -> list[sp.Expr]:
+    """The coefficient of r_0^n in each of the equations."""
+    return [series.expression(e).coeff(r0, n) for e in found]
 
 
 prove(
-    sp.Matrix([[e.coeff(r0, n) for n in range(3)] for e in left(2, sp.Integer(1))]),
-    sp.zeros(5, 3),
+    sp.Matrix([of_order(n, left(2, constant(FIELD.one, 3), FIELD)) for n in range(3)]),
+    sp.zeros(3, 5),
     "orders 0, 1 and 2 of the five equations",
     names=r"\left(E^{(0)}, E^{(1)}, E^{(2)}\right)",
 )
@@ -225,9 +226,11 @@ prove(
 # must vanish by itself:
 
 # %%
-w_2, q = sp.Symbol("w_2", real=True), sp.Symbol("q")
-third = [e.coeff(r0, 3) for e in left(2, 1 + w_2 * r0**2)]
-condition = 2 * third[0].coeff(q, 1) + sigma * 2 * sp.I * third[1].coeff(q, 1)
+w_2 = sp.Symbol("w_2", real=True)
+wider = sp.QQ.frac_field(*FIELD.symbols, w_2)
+rate = constant(wider.one, 3) + constant(wider.from_sympy(w_2), 3, 2)
+in_x, in_Y = (left(2, rate, wider)[i].harmonics(3) for i in range(2))
+condition = wider.to_sympy(in_x[1]) + sigma * wider.to_sympy(in_Y[-1])
 solution = sp.solve(condition, w_2)[0]
 prove(
     condition,
@@ -248,7 +251,7 @@ prove(frequency, 1 + solution * r0**2, "the frequency of the paired precession",
 
 # %%
 prove(
-    sp.Matrix([e.coeff(r0, 3) for e in left(3, series.expression(series.frequency))]),
+    sp.Matrix(of_order(3, left(3, series.frequency, FIELD))),
     sp.zeros(5, 1),
     "order 3 of the five equations",
     names="E^{(3)}",

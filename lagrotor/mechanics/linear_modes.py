@@ -155,18 +155,19 @@ def _held_by(force: sp.Matrix, G: sp.Matrix, at: Any) -> sp.Matrix:
 
 def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol, ...]) -> sp.Matrix:
     """A matrix at the point, parameters first; an entry that is 0/0 there is reduced before."""
-    parameters = {s: value for s, value in still.items() if s not in q}
-    rest = {s: value for s, value in still.items() if value == 0 and s not in q}
-    general = any(sp.sympify(value).free_symbols for value in still.values())
+    at = {s: sp.sympify(value) for s, value in still.items()}
+    parameters = {s: value for s, value in at.items() if s not in q}
+    rest = {s: value for s, value in parameters.items() if value == 0}
+    general = any(value.free_symbols for value in at.values())
 
     def value(entry: sp.Expr) -> sp.Expr:
         if general:  # reduced while its symbols are independent, before roots are put in
-            entry = _reduce(entry.subs(rest, simultaneous=True))
-        entry = entry.subs(parameters, simultaneous=True)
-        found = entry.subs(still, simultaneous=True)
+            entry = _reduce(entry.xreplace(rest))
+        entry = entry.xreplace(parameters)
+        found = entry.xreplace(at)
         if found.has(sp.nan, sp.zoo, sp.oo):
             try:
-                found = normal_form(entry).subs(still, simultaneous=True)
+                found = normal_form(entry).xreplace(at)
             except NotExactError:
                 found = sp.nan
         if found.has(sp.nan, sp.zoo, sp.oo):
