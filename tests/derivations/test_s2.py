@@ -1,6 +1,7 @@
 """Section 2: the parallel pair. Verdicts, their twins, and the linear response against exact runs."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -11,15 +12,23 @@ from lagrotor.pair.notation import G_1, G_2, Omega, R, a, b, t
 from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-NAMES = PAPER.scripts.run("derivations", "s2b_linear_pair")
 ROTORS, LINEAR, SHARED = "s2a_angular_momentum", "s2b_linear_pair", "s2c_shared_force"
-STATED = {s.id: s for stem in (ROTORS, SHARED) for s in PAPER.statements(stem)}
 PAPERS = "parallel", "slowly", "massless"
+
+
+@cache
+def stated():
+    return {s.id: s for stem in (ROTORS, SHARED) for s in PAPER.statements(stem)}
+
+
+def names():
+    """Those of the script of the linear pair."""
+    return PAPER.scripts.run("derivations", LINEAR)
 
 
 def with_print(identifier, change):
     """The verdict with each printed member changed in turn."""
-    statement = STATED[identifier]
+    statement = stated()[identifier]
     for i, relation in enumerate(statement.relations):
         twin = replace(relation, printed=change(relation.printed))
         yield decide(replace(statement, relations=(*statement.relations[:i], twin, *statement.relations[i + 1 :])))
@@ -30,7 +39,7 @@ def words(verdict):
 
 
 def test_every_equation_of_the_section_has_one_statement():
-    assert list(STATED) == [identifier for identifier in PAPER.equations if identifier.startswith("2.")]
+    assert list(stated()) == [identifier for identifier in PAPER.equations if identifier.startswith("2.")]
 
 
 @pytest.mark.parametrize("identifier", ["2.01", "2.02", "2.05", "2.06", "2.07", "2.12", "2.13"])
@@ -50,7 +59,7 @@ def test_a_changed_print_is_refuted(identifier):
     ],
 )
 def test_each_needs_these_premises_and_none_can_be_dropped(identifier, assumed):
-    statement = STATED[identifier]
+    statement = stated()[identifier]
     verdict = decide(statement)
     assert len(verdict.premises) == len(assumed)
     assert all(part in said for part, said in zip(assumed, words(verdict), strict=True))
@@ -63,7 +72,9 @@ def test_each_needs_these_premises_and_none_can_be_dropped(identifier, assumed):
 
 def test_the_premises_that_the_papers_scene_breaks_say_by_how_much():
     broken = {
-        premise.says: premise.broken for i in ("2.02", "2.04", "2.12", "2.13") for premise in decide(STATED[i]).premises
+        premise.says: premise.broken
+        for i in ("2.02", "2.04", "2.12", "2.13")
+        for premise in decide(stated()[i]).premises
     }
     assert [said for said, by in broken.items() if not by] == [
         *(said for said in broken if "axis turns slowly" in said),
@@ -75,7 +86,7 @@ def test_the_premises_that_the_papers_scene_breaks_say_by_how_much():
 
 
 def test_2_02_holds_to_the_leading_order_and_2_04_to_the_first():
-    assert [decide(STATED[identifier]).order for identifier in ("2.02", "2.03", "2.04", "2.05", "2.13")] == [
+    assert [decide(stated()[identifier]).order for identifier in ("2.02", "2.03", "2.04", "2.05", "2.13")] == [
         0,
         0,
         1,
@@ -131,9 +142,9 @@ def response(scene, direction, after):
     inertia, coupling = scene.inertias
     g1, g2 = scene.momenta
     values = {a: inertia, b: coupling, G_1: g1, G_2: g2, R: scene.rotor.length}
-    values |= {NAMES["P_x"]: PUSH * direction[0], NAMES["P_y"]: PUSH * direction[1]}
-    frequency = float(sp.sqrt(NAMES["Omega_squared"].subs(values)))
-    given = [e.subs(values | {Omega: frequency}) for e in NAMES["impulse_response"]]
+    values |= {names()["P_x"]: PUSH * direction[0], names()["P_y"]: PUSH * direction[1]}
+    frequency = float(sp.sqrt(names()["Omega_squared"].subs(values)))
+    given = [e.subs(values | {Omega: frequency}) for e in names()["impulse_response"]]
     return np.array([sp.lambdify(t, e, "numpy")(after) * np.ones_like(after) for e in given]), frequency
 
 
@@ -159,7 +170,7 @@ def test_the_paper_overstates_the_drift_unless_the_spins_are_equal(ratio, share)
     shift = run.axes[:, whole, 1].mean()
     printed = PUSH * scene.rotor.length / sum(scene.momenta)
     assert shift / printed == pytest.approx(share, rel=0.02)
-    assert float(NAMES["off"](sp.Rational(str(ratio)))) == pytest.approx(share, rel=1e-12)
+    assert float(names()["off"](sp.Rational(str(ratio)))) == pytest.approx(share, rel=1e-12)
 
 
 def test_the_axes_stay_parallel_for_equal_spins_and_a_push_along_the_bar_only():

@@ -1,6 +1,7 @@
 """Section 3: particles, rigid bodies, the time step. Verdicts, their twins, and numbers from other sources."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -20,8 +21,13 @@ PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (
     "s3d_rotation",
     "s3e_link",
 )
-STATED = {s.id: s for stem in (PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK) for s in PAPER.statements(stem)}
+SECTION = [identifier for identifier in PAPER.equations if identifier.startswith("3.")]
 RANDOM = np.random.default_rng(3)
+
+
+@cache
+def stated():
+    return {s.id: s for stem in (PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK) for s in PAPER.statements(stem)}
 
 
 def words(verdict):
@@ -39,12 +45,12 @@ def turned(side):
 
 
 def test_every_equation_of_the_section_has_one_statement():
-    assert sorted(STATED) == [identifier for identifier in PAPER.equations if identifier.startswith("3.")]
+    assert sorted(stated()) == SECTION
 
 
-@pytest.mark.parametrize("identifier", STATED)
+@pytest.mark.parametrize("identifier", SECTION)
 def test_a_changed_sign_in_one_entry_is_refuted(identifier):
-    statement = STATED[identifier]
+    statement = stated()[identifier]
     refuted = decide(statement).verdict == "refuted"
     held = statement.correction if refuted else statement.relations
     for i, relation in enumerate(held):
@@ -67,21 +73,21 @@ def test_a_changed_sign_in_one_entry_is_refuted(identifier):
     ],
 )
 def test_each_needs_these_premises_and_none_can_be_dropped(identifier, assumed):
-    verdict = decide(STATED[identifier])
+    verdict = decide(stated()[identifier])
     assert len(verdict.premises) == len(assumed)
     assert all(part in said for part, said in zip(assumed, words(verdict), strict=True))
     for premise in verdict.premises:
         left = tuple(other for other in verdict.premises if other != premise)
-        without = decide(replace(STATED[identifier], premises=left))
+        without = decide(replace(stated()[identifier], premises=left))
         assert without.verdict == "refuted"
         assert without.correction_verdict in (None, "refuted")
 
 
 def test_unequal_inertias_let_omega_lag_by_one_order():
-    verdict = decide(STATED["3.13"])
+    verdict = decide(stated()["3.13"])
     assert (verdict.verdict, verdict.order) == ("holds-to-order", 1)
     step = tuple(premise for premise in verdict.premises if premise.small is not None)
-    lagging = decide(replace(STATED["3.13"], premises=step))
+    lagging = decide(replace(stated()["3.13"], premises=step))
     assert (lagging.verdict, lagging.order) == ("refuted", 0)
 
 
@@ -89,14 +95,14 @@ def test_equal_inertias_hide_what_is_wrong_in_3_12_and_3_17():
     principal = sp.symbols("I_x I_y I_z", positive=True)
     for identifier in ("3.17", "3.18"):
         equal = Premise("equal principal inertias", dict.fromkeys(principal[1:], principal[0]))
-        assert decide(replace(STATED[identifier], premises=(equal,))).verdict == "holds-if"
+        assert decide(replace(stated()[identifier], premises=(equal,))).verdict == "holds-if"
     I_0 = symmetric("I_0")
     equal = Premise("equal principal inertias", dict(zip(I_0, principal[0] * sp.eye(3), strict=True)))
-    assert decide(replace(STATED["3.12"], premises=(equal,))).verdict == "holds-if"
+    assert decide(replace(stated()["3.12"], premises=(equal,))).verdict == "holds-if"
 
 
 def test_the_number_in_3_19_is_seen_to_stand_for_a_vector():
-    assert "the left side is a vector, the printed right side a number" in decide(STATED["3.19"]).evidence
+    assert "the left side is a vector, the printed right side a number" in decide(stated()["3.19"]).evidence
 
 
 def test_a_cross_product_turned_round_in_the_angular_momentum(changed_physics):

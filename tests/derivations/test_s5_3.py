@@ -1,6 +1,7 @@
 """Section 5.3: under which premises its rates are those measured, twins, and the closed forms against exact runs."""
 
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.models import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import J, K, R, ell, k, m, omega, sigma
-from lagrotor.paper import Premise, Stated, decide, proof, scripts, stating
+from lagrotor.paper import Premise, Stated, Statement, decide, proof, scripts, stating
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import (
     EQUAL_SPINS,
@@ -23,15 +24,24 @@ from lagrotor.paper.rotor_pair.shared_premises import (
 )
 
 STEMS = ("s5_3a_equal_spins", "s5_3b_opposite_spins")
-SCRIPTS = [PAPER.scripts.executed("derivations", stem) for stem in STEMS]
-NAMES: dict[str, Any] = SCRIPTS[0].names | SCRIPTS[1].names
-STATED = {s.id: PAPER.statement(s) for script in SCRIPTS for s in script.shown(Stated)}
+SECTION = ["5.23", "5.24", "5.25", "5.26", "5.27", "5.28"]
+
+
+@cache
+def names() -> dict[str, Any]:
+    first, second = (PAPER.scripts.run("derivations", stem) for stem in STEMS)
+    return first | second
+
+
+@cache
+def stated() -> dict[str, Statement]:
+    return {s.id: s for stem in STEMS for s in PAPER.statements(stem)}
 
 
 def alone(identifier: str, quantity: str, premises: tuple[Premise, ...] = ()) -> str:
     """The verdict of one line of an equation, under these premises only."""
-    lines = tuple(r for r in STATED[identifier].relations if quantity in r.quantity)
-    return decide(replace(STATED[identifier], relations=lines, correction=(), premises=premises)).verdict
+    lines = tuple(r for r in stated()[identifier].relations if quantity in r.quantity)
+    return decide(replace(stated()[identifier], relations=lines, correction=(), premises=premises)).verdict
 
 
 def twins(expression: sp.Expr) -> list[sp.Expr]:
@@ -44,12 +54,12 @@ def twins(expression: sp.Expr) -> list[sp.Expr]:
 
 
 def test_every_equation_of_the_section_has_one_statement() -> None:
-    assert list(STATED) == ["5.23", "5.24", "5.25", "5.26", "5.27", "5.28"]
+    assert list(stated()) == SECTION
 
 
-@pytest.mark.parametrize("identifier", STATED)
+@pytest.mark.parametrize("identifier", SECTION)
 def test_changed_lines_and_changed_corrections_are_refuted(identifier: str) -> None:
-    statement = STATED[identifier]
+    statement = stated()[identifier]
     refuted = decide(statement).verdict == "refuted"
     held = statement.correction if refuted else statement.relations
     for i, relation in enumerate(held):
@@ -60,13 +70,13 @@ def test_changed_lines_and_changed_corrections_are_refuted(identifier: str) -> N
 
 
 def test_the_constant_is_measured_with_equal_spins_and_a_bar_of_one_kilogram() -> None:
-    used = decide(STATED["5.25"]).premises
+    used = decide(stated()["5.25"]).premises
     assert used[:2] == (EQUAL_SPINS, ONE_KILOGRAM_BAR)
     for dropped in used:
         left = tuple(p for p in used if p != dropped)
-        assert decide(replace(STATED["5.25"], premises=left)).verdict == "refuted", dropped.says
+        assert decide(replace(stated()["5.25"], premises=left)).verdict == "refuted", dropped.says
     two = Premise("a bar of 2 kg", {m: 2})
-    assert decide(replace(STATED["5.25"], premises=(EQUAL_SPINS, two, used[2]))).verdict == "refuted"
+    assert decide(replace(stated()["5.25"], premises=(EQUAL_SPINS, two, used[2]))).verdict == "refuted"
 
 
 def test_5_28_agrees_with_5_25_on_equal_spins_and_is_refuted_by_opposite_ones() -> None:
@@ -81,17 +91,17 @@ def test_5_28_agrees_with_5_25_on_equal_spins_and_is_refuted_by_opposite_ones() 
 
 @pytest.mark.parametrize("number", ["5.7", "0.57"])
 def test_neither_number_of_5_26_is_the_rate_of_a_listed_bar(number: str) -> None:
-    (printed,) = (r for r in STATED["5.26"].relations if r.printed == sp.Rational(number))
-    lone = replace(STATED["5.26"], relations=(printed,), correction=())
+    (printed,) = (r for r in stated()["5.26"].relations if r.printed == sp.Rational(number))
+    lone = replace(stated()["5.26"], relations=(printed,), correction=())
     assert decide(lone).verdict == "refuted"
-    its_bar = Premise("the bar that has 5.7", {m: 1, K: NAMES["inertia_of_product"].subs(m, 1), NAMES["eta"]: 0})
+    its_bar = Premise("the bar that has 5.7", {m: 1, K: names()["inertia_of_product"].subs(m, 1), names()["eta"]: 0})
     assert decide(replace(lone, premises=(its_bar,))).verdict == ("measured" if number == "5.7" else "refuted")
 
 
 def test_the_exact_rate_of_one_rotor_is_not_the_small_one() -> None:
     """Without the premise that the inclination is small 4/5 omega is refuted; it differs at the second order."""
-    assert decide(replace(STATED["5.23"], premises=())).verdict == "refuted"
-    assert decide(STATED["5.23"]).order == 1
+    assert decide(replace(stated()["5.23"], premises=())).verdict == "refuted"
+    assert decide(stated()["5.23"]).order == 1
 
 
 def test_other_inertia_flips_the_rate_of_one_rotor(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -110,7 +120,7 @@ def test_other_inertia_flips_the_rate_of_one_rotor(monkeypatch: pytest.MonkeyPat
 def test_other_masses_of_the_bar_flip_the_constant(monkeypatch: pytest.MonkeyPatch) -> None:
     """The bar's mass whole on each axis, a = J + m R²/2 + K R²/ell²: the premises of 5.24 and 5.25 suffice no longer."""
     monkeypatch.setitem(lagrangians.INERTIAS, lagrangians.a, J + m * R**2 / 2 + K * R**2 / ell**2)
-    assert decide(replace(STATED["5.25"])).verdict == "measured", "what was derived before stays"
+    assert decide(replace(stated()["5.25"])).verdict == "measured", "what was derived before stays"
     monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
     monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
     script = scripts.run_file(PAPER.scripts.path("derivations", "s5_3a_equal_spins"))
@@ -120,25 +130,25 @@ def test_other_masses_of_the_bar_flip_the_constant(monkeypatch: pytest.MonkeyPat
 
 @pytest.mark.parametrize("mass", [0.2, 1.0, 2.0])
 def test_curve_of_bars_that_give_the_printed_product(mass: float) -> None:
-    inertia = float(NAMES["inertia_of_product"].subs(m, mass))
+    inertia = float(names()["inertia_of_product"].subs(m, mass))
     assert natural_rate(Scene(spins=(10, -10), link=Link(1, mass, inertia))) == pytest.approx(5.7, rel=1e-12)
     assert natural_rate(Scene(spins=(10, -10), link=Link(1, mass, inertia * 1.1))) != pytest.approx(5.7, rel=1e-4)
 
 
 def test_measured_rates() -> None:
-    assert NAMES["one_gentle"] == pytest.approx(16, rel=1e-5)
-    assert NAMES["pair_gentle"] == pytest.approx(80 / 7, rel=1e-5)
-    assert NAMES["pair_gentle"] != pytest.approx(11.4, rel=1e-3)
-    assert NAMES["one_rate"] == pytest.approx(16 / np.sqrt(1 - NAMES["one_amplitude"] ** 2), rel=1e-4)
-    assert NAMES["steady_rate"] == pytest.approx(NAMES["turning"], rel=1e-8)
-    assert NAMES["apart"] < 1e-9
+    assert names()["one_gentle"] == pytest.approx(16, rel=1e-5)
+    assert names()["pair_gentle"] == pytest.approx(80 / 7, rel=1e-5)
+    assert names()["pair_gentle"] != pytest.approx(11.4, rel=1e-3)
+    assert names()["one_rate"] == pytest.approx(16 / np.sqrt(1 - names()["one_amplitude"] ** 2), rel=1e-4)
+    assert names()["steady_rate"] == pytest.approx(names()["turning"], rel=1e-8)
+    assert names()["apart"] < 1e-9
 
 
 def test_sign_of_the_change_with_amplitude() -> None:
     """Below the curve sigma = 3 − 3/k² the rate rises, above it falls; at ell = R it always falls."""
-    curvature = NAMES["curvature"]
+    curvature = names()["curvature"]
     for ratio, shape in ((1, 0.5), (1, 2), (1.2, 1), (1.3, 1), (2, 2.2), (2, 2.3)):
-        rises = shape < NAMES["flip_sigma"].subs(k, ratio)
+        rises = shape < names()["flip_sigma"].subs(k, ratio)
         assert (curvature.subs({k: ratio, sigma: shape}) > 0) == rises
 
 
@@ -146,12 +156,12 @@ def test_sign_of_the_change_with_amplitude() -> None:
 def test_exact_orbits_on_both_sides_of_the_turn(length: float) -> None:
     scene = Scene(spins=(10, -10), link=Link(length=length))
     change = exact_orbit(scene, 0.02).frequency / natural_rate(scene) - 1
-    assert (change > 0) == (length > float(NAMES["flip_k"]))
-    assert change / 0.02**2 == pytest.approx(float(NAMES["curvature"].subs({sigma: 1, k: length})), abs=2e-3)
+    assert (change > 0) == (length > float(names()["flip_k"]))
+    assert change / 0.02**2 == pytest.approx(float(names()["curvature"].subs({sigma: 1, k: length})), abs=2e-3)
     assert change / 0.02**2 != pytest.approx(0.5, abs=0.3)  # what 1/cos theta would give
 
 
 def test_rates_depend_on_the_inertia_of_the_bar_for_opposite_spins_only() -> None:
-    assert not in_parameters(NAMES["equal"]).cancel().has(K)
-    assert NAMES["opposite_rate"].has(K)
-    assert NAMES["single"].has(omega)
+    assert not in_parameters(names()["equal"]).cancel().has(K)
+    assert names()["opposite_rate"].has(K)
+    assert names()["single"].has(omega)

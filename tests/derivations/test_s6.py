@@ -1,6 +1,8 @@
 """Section 6: the conclusion. What it assumes, its twins, and the modes against numbers."""
 
 from dataclasses import replace
+from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,44 +12,51 @@ from lagrotor import Link, Scene, natural_rate, simulate
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import G_1, G_2, G, a, b
-from lagrotor.paper import Relation, Stated, decide
+from lagrotor.paper import Relation, Statement, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
 
-SCRIPT = PAPER.scripts.executed("derivations", "s6_conclusion")
-NAMES = SCRIPT.names
-STATED = {s.id: PAPER.statement(s) for s in SCRIPT.shown(Stated)}
+STEM = "s6_conclusion"
 BAR = Link(mass=1, inertia=1)
 
 
+def names() -> dict[str, Any]:
+    return PAPER.scripts.run("derivations", STEM)
+
+
+@cache
+def stated() -> dict[str, Statement]:
+    return {s.id: s for s in PAPER.statements(STEM)}
+
+
 def test_both_equations_are_stated() -> None:
-    assert list(STATED) == ["6.01", "6.02"]
+    assert list(stated()) == ["6.01", "6.02"]
 
 
 def test_the_modes_are_two_under_one_premise_and_the_freedoms_under_none() -> None:
-    lines = {r.quantity: r for r in STATED["6.01"].relations}
-    assert decide(STATED["6.01"]).premises == (TWO_MODES,)
+    lines = {r.quantity: r for r in stated()["6.01"].relations}
+    assert decide(stated()["6.01"]).premises == (TWO_MODES,)
     for quantity, relation in lines.items():
-        bare = decide(replace(STATED["6.01"], relations=(relation,), premises=())).verdict
+        bare = decide(replace(stated()["6.01"], relations=(relation,), premises=())).verdict
         assert bare == ("refuted" if quantity == r"\text{modes}" else "holds"), quantity
 
 
 def test_a_changed_print_of_the_modes_is_refuted() -> None:
-    held = STATED["6.01"].relations
+    held = stated()["6.01"].relations
     for i, relation in enumerate(held):
         other = -relation.printed if isinstance(relation.printed, sp.MatrixBase) else relation.printed + 1
         lines = (*held[:i], replace(relation, printed=other), *held[i + 1 :])
-        assert decide(replace(STATED["6.01"], relations=lines)).verdict == "refuted", relation.quantity
+        assert decide(replace(stated()["6.01"], relations=lines)).verdict == "refuted", relation.quantity
 
 
 def test_equal_spins_have_other_modes() -> None:
     """The physics changed: the steady motion is then the twist y_1 = −y_2, and the oscillation the circle y_1 = y_2."""
-    for relation in STATED["6.01"].relations[-2:]:
+    for relation in stated()["6.01"].relations[-2:]:
         assert relation.scene == {G_2: -G_1}
         equal = replace(relation, scene={G_2: G_1})
-        assert decide(replace(STATED["6.01"], relations=(equal,))).verdict == "refuted"
+        assert decide(replace(stated()["6.01"], relations=(equal,))).verdict == "refuted"
         turned = replace(equal, printed=sp.Matrix([relation.printed[0], -relation.printed[1]]))
-        assert decide(replace(STATED["6.01"], relations=(turned,))).verdict == "holds"
+        assert decide(replace(stated()["6.01"], relations=(turned,))).verdict == "holds"
 
 
 def test_6_02_is_5_27_said_again() -> None:
@@ -56,7 +65,7 @@ def test_6_02_is_5_27_said_again() -> None:
 
 
 def test_changed_corrections_of_the_rate_are_refuted() -> None:
-    statement = STATED["6.02"]
+    statement = stated()["6.02"]
     assert decide(statement).correction_verdict == "holds"
     for i, relation in enumerate(statement.correction):
         twins = [-relation.printed, 2 * relation.printed]
@@ -68,11 +77,11 @@ def test_changed_corrections_of_the_rate_are_refuted() -> None:
 
 
 def test_without_the_bar_there_are_more_degrees_of_freedom() -> None:
-    free = degrees_of_freedom(axes_pair(bar=False), NAMES["upright"])
-    assert free == NAMES["without_spins"] + 1
-    line = next(r for r in STATED["6.01"].relations if "without" in r.quantity)
+    free = degrees_of_freedom(axes_pair(bar=False), names()["upright"])
+    assert free == names()["without_spins"] + 1
+    line = next(r for r in stated()["6.01"].relations if "without" in r.quantity)
     changed = Relation(line.printed, sp.Integer(free), quantity=line.quantity)
-    assert decide(replace(STATED["6.01"], relations=(changed,))).verdict == "refuted"
+    assert decide(replace(stated()["6.01"], relations=(changed,))).verdict == "refuted"
 
 
 def test_roots_in_numbers() -> None:
@@ -80,14 +89,14 @@ def test_roots_in_numbers() -> None:
     big, coupled = Scene(spins=(10, -10), link=BAR).inertias
     values = {a: big, b: coupled, G_1: 10.0, G_2: -10.0}
     mass, turning = (
-        np.array(part.subs(values), dtype=float) for part in (NAMES["pair"].mass, NAMES["pair"].gyroscopic)
+        np.array(part.subs(values), dtype=float) for part in (names()["pair"].mass, names()["pair"].gyroscopic)
     )
     matrix = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -np.linalg.solve(mass, turning)]])
     rates = np.sort(np.abs(np.linalg.eigvals(matrix)))
     np.testing.assert_allclose(rates[4:], natural_rate(Scene(spins=(10, -10), link=BAR)), rtol=1e-9)
     assert rates[:4].max() < 1e-4
     assert [np.linalg.matrix_rank(np.linalg.matrix_power(matrix, n)) for n in (1, 2, 3)] == [3, 2, 2]
-    counted = NAMES["oscillations"], NAMES["turnings"], NAMES["resting"]
+    counted = names()["oscillations"], names()["turnings"], names()["resting"]
     assert counted == (1, 1, 1)
 
 
@@ -95,11 +104,11 @@ def test_the_direction_of_the_precession_from_the_roots() -> None:
     big, coupled = Scene(spins=(10, -4), link=BAR).inertias
     values = {a: big, b: coupled, G_1: 10.0, G_2: -4.0}
     mass, turning = (
-        np.array(part.subs(values), dtype=float) for part in (NAMES["pair"].mass, NAMES["pair"].gyroscopic)
+        np.array(part.subs(values), dtype=float) for part in (names()["pair"].mass, names()["pair"].gyroscopic)
     )
     roots, vectors = np.linalg.eig(-np.linalg.solve(mass, turning))
     y_1, _, y_2 = vectors[:, np.argmax(abs(roots))]
-    assert complex(y_2 / y_1) == pytest.approx(float(NAMES["precession"][1].subs(values)), rel=1e-9)
+    assert complex(y_2 / y_1) == pytest.approx(float(names()["precession"][1].subs(values)), rel=1e-9)
 
 
 def test_what_the_linear_pair_keeps_is_kept_on_a_small_run() -> None:
@@ -112,7 +121,7 @@ def test_what_the_linear_pair_keeps_is_kept_on_a_small_run() -> None:
     centre = x[0] - (big - coupled) * (y_v[0] - y_v[1]) / 20, y[0] - y[1] + 2 * (big + coupled) * x_v[0] / 10
     assert max(np.ptp(part) for part in centre) < 30 * size**2
     assert np.ptp(y[0] - y[1]) > 0.1 * size
-    kept = NAMES["kept"].subs({a: big, b: coupled, G: 10})
+    kept = names()["kept"].subs({a: big, b: coupled, G: 10})
     named = {str(s): s for s in kept.free_symbols}
     start = {"y_1_dot": size, "y_2_dot": -size, "x_dot": size, "y_1": 0, "y_2": 0, "x": 0}
     expected = kept.subs({symbol: start[name] for name, symbol in named.items()})
