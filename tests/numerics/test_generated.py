@@ -1,12 +1,14 @@
 """Functions kept as source: read where they are kept, derived elsewhere, and never another than what is derived."""
 
 import sys
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sympy as sp
 
-from lagrotor.numerics import Program, program_source
+from lagrotor.numerics import Program, generated, program_source
 from lagrotor.numerics.generated import GeneratedFunction, function_of
 from lagrotor.report.renew_record import generated_code
 
@@ -46,6 +48,28 @@ def test_the_source_defines_the_function_that_is_compiled(module: str) -> None:
     assert function_of(source)(0.3, 0.4) == pytest.approx([0.9272952180016122, 0.3 * 3.141592653589793])
 
 
+MODELS = ("models.simulate", "models.orbits.precession")
+
+
+def as_derived(one: GeneratedFunction, given: tuple[Any, ...]) -> bool:
+    kept = one.file.read_text(encoding="utf-8").splitlines()[0]
+    if kept != f"# sympy {sp.__version__}":
+        pytest.skip(f"another sympy than {kept} may print the same function in another way")
+    return one.derive(*given).rstrip() == one.source(*given)
+
+
+def test_of_each_kind_one_that_is_kept_is_what_is_derived() -> None:
+    """All of them in the slow suite; those of the interactive model against Python in tests/report/interactive."""
+    for name in MODELS:
+        import_module(f"lagrotor.{name}")
+    kinds = [one for one in generated._ALL if "interactive" not in one.name()]
+    assert len(kinds) > 10
+    for one in kinds:
+        given = one.kept[len(one.kept) // 2]
+        assert as_derived(one, given), f"{one.name(*given)}: python -m lagrotor.report.renew_record code"
+
+
+@pytest.mark.slow
 def test_everything_kept_is_what_is_derived() -> None:
     for file, text in generated_code().items():
         kept = file.read_text(encoding="utf-8")

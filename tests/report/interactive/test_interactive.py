@@ -170,27 +170,31 @@ def test_the_papers_formula_is_the_derivations_expression() -> None:
     assert sp.diff(rate, omega).subs(dict.fromkeys(rate.free_symbols, 1)) == pytest.approx(0.57)
 
 
+def with_a_changed_sign(name: str) -> str:
+    """The function of that name in the script, one of its signs turned."""
+    body = script()
+    begin = body.index(f"function {name}(")
+    own = body[begin : body.index("\n}", begin) + 2]
+    signs = list(re.finditer(r" [+-] ", own))
+    at = signs[len(signs) // 2]
+    return own[: at.start()] + (" - " if at[0] == " + " else " + ") + own[at.end() :]
+
+
 @node
 def test_every_generated_function_says_the_same_as_python_and_a_changed_sign_is_caught() -> None:
-    random = np.random.default_rng(7)
+    random, python, calls = np.random.default_rng(7), {}, []
     for name, program in programs().items():
         rows = random.uniform(0.05, 0.45, (5, len(program.arguments))).tolist()
         for row in rows:  # inertias have a > |b|, and k is on its side of 1
             for i, symbol in enumerate(map(str, program.arguments)):
                 row[i] += {"a": 1.0, "k": 2.0 if name.endswith("long") else 0.3, "ell": 1.0}.get(symbol, 0.0)
-        python = [pytest.approx(list(compile_program(program)(*row)), rel=1e-9, abs=1e-11) for row in rows]
-        assert called(name, rows) == python, name
-        body = script()
-        begin = body.index(f"function {name}(")
-        end = body.index("\n}", begin)
-        changed = [
-            body[:begin] + body[begin : begin + at.start()] + new + body[begin + at.end() : end] + body[end:]
-            for at in re.finditer(r" [+-] ", body[begin:end])
-            for new in (" - " if at[0] == " + " else " + ",)
-        ]
-        assert changed, name
-        mutant = changed[len(changed) // 2]
-        assert called(name, rows, mutant) != python, name
+        function = compile_program(program)
+        python[name] = [pytest.approx(list(function(*row)), rel=1e-9, abs=1e-11) for row in rows]
+        answers = f"{json.dumps(rows)}.map(row => {name}(...row))"
+        calls.append(f"[{answers}, (() => {{ {with_a_changed_sign(name)}\nreturn {answers}; }})()]")
+    for (name, expected), (found, changed) in zip(python.items(), run_node(f"[{', '.join(calls)}]"), strict=True):
+        assert found == expected, name
+        assert changed != expected, name
 
 
 # ---- the stepper
