@@ -1,5 +1,35 @@
-"""The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported."""
+"""The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported; which of them runs what."""
+
+from typing import Any
+
+import pytest
 
 from lagrotor.process import begin_process
 
 begin_process()
+
+# Files whose tests run the same scripts: one process takes them all and runs each script once.
+ONE_PROCESS = (
+    ("tests/figures/", "tests/theory/test_derivations", "tests/structures/test_chapter", "tests/derivations/test_b"),
+    (
+        "tests/derivations/test_s",
+        "tests/paper/test_form",
+        "tests/paper/test_mutants",
+        "tests/paper/test_scripts_do_not",
+        "tests/report/formulas/",
+        "tests/report/page/",
+        "tests/report/test_",
+    ),
+)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """`--dist=loadfile`, files that run the same scripts as if they were one."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class ByScripts(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return next((files[0] for files in ONE_PROCESS if nodeid.startswith(files)), super()._split_scope(nodeid))
+
+    return ByScripts(config, log) if config.getoption("dist") == "loadfile" else None
