@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from importlib.metadata import entry_points
 from pathlib import Path
 
@@ -93,27 +94,43 @@ def plugin(*argv: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
 
 
-def test_each_verdict_on_record_is_a_test_with_the_reason_when_it_changes(work: Path) -> None:
+@pytest.fixture
+def plugged_in(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str]]:
+    """`pytest --lagrotor …` in this process: its exit status and what it prints."""
+    named = [] if entry_points(group="pytest11", name="lagrotor") else ["-p", "lagrotor.commands.pytest_plugin"]
+    less = ["-p", "no:cacheprovider", "-p", "no:faulthandler", "-p", "no:xdist", "--capture=no"]
+
+    def run(*argv: str) -> tuple[int, str]:
+        capsys.readouterr()
+        status = pytest.main([*named, *less, *argv])
+        return int(status), capsys.readouterr().out
+
+    return run
+
+
+def test_each_verdict_on_record_is_a_test_with_the_reason_when_it_changes(
+    work: Path, plugged_in: Callable[..., tuple[int, str]]
+) -> None:
     assert main(["init", "my-paper"]) == 0
     done = plugin("--lagrotor", "my-paper", "-v")
     assert done.returncode == 0 and "2 passed" in done.stdout, done.stdout + done.stderr
     assert "my-paper::1.1 PASSED" in done.stdout and "my-paper::C01 PASSED" in done.stdout
     equations = work / "my-paper" / "equations.toml"
     equations.write_text(equations.read_text().replace('"-g/l*theta"', '"g/l*theta"'))
-    done = plugin("--lagrotor", "my-paper")
-    assert done.returncode == 1 and "1 failed, 1 passed" in done.stdout
-    assert "1.1: recorded holds-to-order, found refuted" in done.stdout
-    assert "first differs at order 1 in theta" in done.stdout and "Traceback" not in done.stdout
-    assert plugin("--lagrotor", "nowhere").returncode == 4
+    status, out = plugged_in("--lagrotor", "my-paper")
+    assert status == 1 and "1 failed, 1 passed" in out
+    assert "1.1: recorded holds-to-order, found refuted" in out
+    assert "first differs at order 1 in theta" in out and "Traceback" not in out
+    assert plugged_in("--lagrotor", "nowhere")[0] == 4
 
 
-def test_what_is_on_record_and_no_longer_there_fails(work: Path) -> None:
+def test_what_is_on_record_and_no_longer_there_fails(work: Path, plugged_in: Callable[..., tuple[int, str]]) -> None:
     assert main(["init", "my-paper"]) == 0
     (work / "my-paper" / "recorded.json").write_text('{"1.1": "holds-to-order", "1.2": "holds"}')
-    done = plugin("--lagrotor", "my-paper")
-    assert "2 failed, 1 passed" in done.stdout
-    assert "1.2: recorded holds, found nothing" in done.stdout
-    assert "C01: recorded nothing, found confirmed" in done.stdout
+    _, out = plugged_in("--lagrotor", "my-paper")
+    assert "2 failed, 1 passed" in out
+    assert "1.2: recorded holds, found nothing" in out
+    assert "C01: recorded nothing, found confirmed" in out
 
 
 CHAIN = r"""
@@ -174,10 +191,8 @@ def test_a_latex_file_becomes_a_paper_that_is_judged(work: Path, capsys: pytest.
     assert audit.counts == {"holds": 4, "refuted": 1, "not-yet-judged": 1}
     assert (audit["2"].verdict, audit["2"].correction_verdict) == ("refuted", "holds")
 
-    code = "import sys; from lagrotor.commands.command_line import main; sys.exit(main(sys.argv[1:]))"
-    done = shell(code, "reproduce", "--paper", "chain", "--jobs", "1")
-    assert done.returncode == 0, done.stderr
-    assert "6 equations: 4 holds, 1 refuted, 1 not yet judged" in done.stdout
+    assert main(["reproduce", "--paper", "chain", "--jobs", "1"]) == 0
+    assert "6 equations: 4 holds, 1 refuted, 1 not yet judged" in capsys.readouterr().out
     report = (work / "report" / "report.md").read_text(encoding="utf-8")
     assert '"Two coupled oscillators"' in report.splitlines()[0] and "## Not yet judged" in report
     assert "1 more is not yet judged" in report

@@ -10,6 +10,15 @@ from lagrotor.paper import Step, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 GALLERY = PAPER.scripts.names("derivations", "g")
+# Seconds each; their means are tested on less in tests/mechanics (chains, loops, rolling) and tests/pair.
+LONG = (
+    "g02_double_and_triple_pendulum",
+    "g11_four_bar_linkage",
+    "g13_rolling_disc",
+    "g14_chains",
+    "g15_paired_gyroscopes",
+)
+STEMS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem for stem in GALLERY]
 SYSTEMS = (
     "pendulum",
     "double",
@@ -31,14 +40,14 @@ def test_every_system_of_the_list_is_there() -> None:
     assert [any(word in stem for stem in GALLERY) for word in listed.split()] == [True] * len(listed.split())
 
 
-@pytest.mark.parametrize("stem", GALLERY)
+@pytest.mark.parametrize("stem", STEMS)
 def test_it_agrees_with_an_independent_formulation_and_not_with_a_neighbour(stem: str) -> None:
     names = PAPER.scripts.executed("derivations", stem).names
     assert 0 < names["off"] < 1e-9
     assert names["difference"]({**names["values"], **names["twin"]}) > 1e-6
 
 
-@pytest.mark.parametrize("stem", GALLERY)
+@pytest.mark.parametrize("stem", STEMS)
 def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
     script = PAPER.scripts.executed("derivations", stem)
     steps = script.shown(Step)
@@ -52,7 +61,7 @@ def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
             prove(left + sp.ones(*left.shape) if isinstance(left, sp.MatrixBase) else left + 1, right)
 
 
-@pytest.mark.parametrize("stem", GALLERY)
+@pytest.mark.parametrize("stem", STEMS)
 def test_it_is_set_up_in_fewer_than_twenty_lines(stem: str) -> None:
     """From the first symbols to the system: the lines of code of the first cell, imports and blank lines left out."""
     source = (PAPER.scripts.path("derivations", stem)).read_text(encoding="utf-8")

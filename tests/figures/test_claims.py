@@ -340,6 +340,22 @@ PLOTS = {  # key → panels, entries of the legend
     **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12), "b2": (4, 8)},
     **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3)},
 }
+# Drawn from hundreds of exact orbits; from the waves of wide strips.
+LONG = ("t5", "n5")
+
+
+def marked(rows):
+    """The rows, or keys, of which those of a figure that takes long are slow."""
+
+    def key(row):
+        return row if isinstance(row, str) else row[0]
+
+    return [
+        pytest.param(*([row] if isinstance(row, str) else row), marks=pytest.mark.slow) if key(row) in LONG else row
+        for row in rows
+    ]
+
+
 UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²", "pJ", "SI"}
 
 
@@ -349,7 +365,7 @@ def test_every_figure_makes_a_claim():
 
 
 @pytest.mark.parametrize(
-    ("key", "sentence", "claim", "twin"), CLAIMS, ids=lambda value: value if isinstance(value, str) else ""
+    ("key", "sentence", "claim", "twin"), marked(CLAIMS), ids=lambda value: value if isinstance(value, str) else ""
 )
 def test_the_claim_is_true_and_false_of_changed_data(drawn, key, sentence, claim, twin):
     assert claim(drawn(key).facts())
@@ -357,7 +373,7 @@ def test_the_claim_is_true_and_false_of_changed_data(drawn, key, sentence, claim
         assert not claim(drawn(key).changed_facts(*twin))
 
 
-@pytest.mark.parametrize("key", [*DIAGRAMS, *PLOTS, "m1"])
+@pytest.mark.parametrize("key", marked([*DIAGRAMS, *PLOTS, "m1"]))
 def test_text(drawn, key):
     found = drawn(key).names
     assert found["TITLE"]
@@ -377,7 +393,7 @@ def unit(label):
     return label.rpartition("[")[2].removesuffix("]") if label.endswith("]") else None
 
 
-@pytest.mark.parametrize("key", PLOTS)
+@pytest.mark.parametrize("key", marked(PLOTS))
 def test_structure_of_a_plot(drawn, key):
     """A title over each of several panels, units in square brackets, equal scales from above, one legend below the panels."""
     (panels, entries), picture = PLOTS[key], drawn(key).picture

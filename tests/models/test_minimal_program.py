@@ -135,7 +135,7 @@ def test_slim_is_what_it_is_called(massive: bool, ratio: Any, body: int) -> None
 
 
 @pytest.mark.parametrize("ratio", LENGTH)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(share=st.floats(-0.9, 0.9))
 def test_the_derivatives_are_those_of_the_bars_curve(ratio: Any, share: float) -> None:
     chi = MINIMAL.q[1]

@@ -104,7 +104,7 @@ def checked(count: int, seed: int) -> dict[str, list[float]]:
 
 def test_no_answer_is_farther_off_than_it_says() -> None:
     """And no bound is idle."""
-    assert all(max(ratios) > 0.03 for ratios in checked(8, seed=1).values())
+    assert all(max(ratios) > 0.03 for ratios in checked(4, seed=1).values())
 
 
 @pytest.mark.slow
@@ -173,7 +173,7 @@ def collocated(scene: Scene, r0: float, guess: PrecessionOrbit) -> tuple[float, 
     [
         (MASSLESS, 0.5),
         (Scene((-7, 7), LONG_ROTOR, Link(1.1, 0.6, 0.2)), 0.2),
-        (Scene((12, -12), link=Link(0.7, 0.5, 0.1)), 0.4),
+        pytest.param(Scene((12, -12), link=Link(0.7, 0.5, 0.1)), 0.4, marks=pytest.mark.slow),
         pytest.param(MASSLESS, 0.8, marks=pytest.mark.slow),
         pytest.param(Scene((5, -5), link=Link(1.6, 0.2, 0.05)), 0.7, marks=pytest.mark.slow),
     ],

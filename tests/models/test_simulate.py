@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from functools import lru_cache
+from itertools import product
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -134,8 +135,14 @@ def limit(body: int) -> np.ndarray:
     return simulate(after, [END - AT], "spheres", 1e-13).axes[:, 0]
 
 
-@pytest.mark.parametrize("body", [1, 2])
-@pytest.mark.parametrize("model", ["minimal", "spheres", "euler"])
+@pytest.mark.parametrize(
+    ("model", "body"),
+    [
+        *product(("minimal", "spheres"), (1, 2)),
+        pytest.param("euler", 1, marks=pytest.mark.slow),
+        pytest.param("euler", 2, marks=pytest.mark.slow),
+    ],
+)
 def test_shocks_of_one_impulse_converge_to_the_jump_with_first_order(model: str, body: int) -> None:
     """The pulse is even about its centre, but the kinetic energy is quadratic in the rates: the first order stays."""
     widths = [1e-2, 1e-4, 1e-5, 1e-7]

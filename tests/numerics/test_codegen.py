@@ -57,7 +57,7 @@ def test_the_missing_symbol_is_named() -> None:
 values = st.floats(-2, 2)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(values, values)
 def test_reducing_and_compiling_change_nothing(at_x: float, at_y: float) -> None:
     program, at = staged(), {x: at_x, y: at_y}
@@ -146,7 +146,7 @@ def test_javascript_refuses_a_function_it_does_not_have() -> None:
 entries = st.floats(-2, 2)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.integers(1, 4).flatmap(lambda n: st.lists(entries, min_size=n * (n + 2), max_size=n * (n + 2))))
 def test_symmetric_systems_are_solved(numbers: list[float]) -> None:
     n = {3: 1, 8: 2, 15: 3, 24: 4}[len(numbers)]

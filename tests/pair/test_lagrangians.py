@@ -218,7 +218,7 @@ def axes_and_accelerations(state: dict[sp.Symbol, float], signs: tuple[int, int]
     return by_angles, axes_accelerated(at)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_routh_reduction_leaves_a_gyroscopic_force_on_each_axis(seed: int) -> None:
     by_angles, by_axes = axes_and_accelerations(state_of_angles(seed), (1, 1))
     assert by_axes == pytest.approx(by_angles, abs=1e-10)
@@ -237,7 +237,7 @@ def rate_of(expression: sp.Expr, state: dict[sp.Symbol, float]) -> float:
     return value(total_derivative(expression, AXES), state | moved)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", SEEDS[:2])
 def test_the_momentum_about_the_joint_line_is_conserved_and_the_ansatz_integral_is_not(seed: int) -> None:
     state = state_of_axes(seed)
     assert rate_of(joint_line_momentum(), state) == pytest.approx(0, abs=1e-12)
@@ -278,7 +278,7 @@ def test_in_mercator_coordinates_the_bar_knows_only_twist_and_latitude() -> None
     assert difference(-1) != 0
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
 def test_the_mercator_lagrangian_moves_the_axes_alike(seed: int) -> None:
     """Its constrained accelerations, seen on the axes, are those of the unit vectors with gyroscopic forces."""
     state = state_of_axes(seed)
@@ -301,7 +301,7 @@ RATIOS = {"short": 0.7, "equal": 1.0, "long": 1.6}
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(chi=st.floats(-1.5, 1.5), U=st.floats(-1, 1), alpha=st.floats(-3, 3))
 def test_the_bars_curve_satisfies_the_bar(ratio: Any, chi: float, U: float, alpha: float) -> None:
     curve = bar_curve(ratio)

@@ -20,7 +20,7 @@ SPRINGS = {"spring": 50.0, "hinge": 200.0}
 BARS = {"move": (0.3, 0.3), "hinge": 200.0}
 
 
-@pytest.mark.parametrize("grid", [18, 24])
+@pytest.mark.parametrize("grid", [12, pytest.param(24, marks=pytest.mark.slow)])
 def test_gyroscopes_on_a_honeycomb_of_springs_have_bands_of_chern_number_one(grid: int) -> None:
     """The two bands of precession have ±1, as waves that run one way (Nash et al. 2015) need; so have the two of nutation."""
     found = chern_numbers(honeycomb(**SPRINGS, spins=30.0), grid)
@@ -28,13 +28,13 @@ def test_gyroscopes_on_a_honeycomb_of_springs_have_bands_of_chern_number_one(gri
 
 
 def test_reversed_spins_reverse_them() -> None:
-    assert chern_numbers(honeycomb(**SPRINGS, spins=-30.0), 18).numbers == (1, -1, 1, -1)
+    assert chern_numbers(honeycomb(**SPRINGS, spins=-30.0), 12).numbers == (1, -1, 1, -1)
 
 
 def test_opposite_spins_leave_the_bands_touching_and_in_the_trivial_phase_have_zero() -> None:
-    touching = chern_numbers(honeycomb(**SPRINGS, spins=(30.0, -30.0)), 18)
+    touching = chern_numbers(honeycomb(**SPRINGS, spins=(30.0, -30.0)), 12)
     assert touching.groups == ((0, 1), (2, 3)) and touching.numbers == (0, 0)
-    trivial = chern_numbers(honeycomb(spring=50.0, spins=(30.0, -30.0), hinge=(100.0, 300.0)), 18)
+    trivial = chern_numbers(honeycomb(spring=50.0, spins=(30.0, -30.0), hinge=(100.0, 300.0)), 12)
     assert len(trivial.groups) == 4 and trivial.numbers == (0, 0, 0, 0)
 
 
@@ -74,22 +74,22 @@ def energy_chern(pattern, grid: int) -> tuple[int, ...]:
     ],
 )
 def test_the_product_of_energy_gives_the_same_numbers(pattern) -> None:
-    assert energy_chern(pattern, 24) == chern_numbers(pattern, 24).numbers
+    assert energy_chern(pattern, 12) == chern_numbers(pattern, 12).numbers
 
 
 def test_unequal_hinges_end_the_phase_of_equal_spins() -> None:
-    assert chern_numbers(honeycomb(spring=50.0, spins=30.0, hinge=(100.0, 300.0)), 18).numbers == (0, 0, 0, 0)
+    assert chern_numbers(honeycomb(spring=50.0, spins=30.0, hinge=(100.0, 300.0)), 12).numbers == (0, 0, 0, 0)
 
 
 def test_the_numbers_of_all_bands_add_up_to_zero() -> None:
     for spins in (3.0, 12.0):
-        assert sum(chern_numbers(honeycomb(**SPRINGS, spins=spins), 18).numbers) == 0
+        assert sum(chern_numbers(honeycomb(**SPRINGS, spins=spins), 12).numbers) == 0
 
 
 def test_rigid_bars_can_have_a_gap_and_chern_numbers() -> None:
     for sign in (1, -1):
         pattern = square_octagon(**BARS, spins=[sign * w for w in (30.0, 10.0, 30.0, 10.0)])
-        found = chern_numbers(pattern, 18)
+        found = chern_numbers(pattern, 12)
         assert found.groups == ((0, 0), (1, 1)) and found.numbers == (-sign, sign)
     q = 2 * np.pi * np.stack(np.meshgrid(np.arange(18), np.arange(18)), -1).reshape(-1, 2) / 18
     assert len(pattern.dispersion(q).gaps) == 2
@@ -105,7 +105,7 @@ def test_rigid_bars_can_have_a_gap_and_chern_numbers() -> None:
 )
 def test_a_border_carries_as_many_one_way_waves_as_the_numbers_below_the_gap(pattern, rate: float) -> None:
     found = edge_waves(pattern, rate, width=7, points=61)
-    below = chern_numbers(pattern, 18).numbers[0]
+    below = chern_numbers(pattern, 12).numbers[0]
     assert (found.first, found.last) == (below, -below) and below == -1
 
 

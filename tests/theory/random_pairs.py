@@ -1,6 +1,6 @@
 """Random pairs for the tests of the error estimates: rotor, bar, spins, amplitude, shock.
 
-The fast tests take a tenth of the pairs; `pytest -m slow` takes 200 for each closed form.
+The fast tests take a few pairs; `pytest -m slow` takes 200 for each closed form.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, natural_rate
 from lagrotor.models.linear import modes
 
-COUNTS = [20, pytest.param(200, marks=pytest.mark.slow)]
+COUNTS = [8, pytest.param(200, marks=pytest.mark.slow)]
 
 
 def random_pair(rng, kind="any"):
