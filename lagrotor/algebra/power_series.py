@@ -31,6 +31,7 @@ _ANALYTIC = (
 _CUT = (sp.atan, sp.asinh)
 # How many orders may be lost to division by a power of the small quantity.
 _MARGIN = 8
+_ARGUMENT = sp.Dummy("z")  # of the functions that are expanded: one, so that sympy remembers their derivatives
 # Well above the error of a value computed to more than thirty digits.
 _CLEARLY_NONZERO = 1e-15
 
@@ -127,7 +128,7 @@ def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
         for other in others:
             total = _plus(total, other) if node.is_Add else _times(total, other)
         return total
-    z = sp.Dummy("z")
+    z = _ARGUMENT
     if node.is_Pow and not node.exp.has(small):
         base = _expanded(node.base, small, length)
         if node.exp.is_Integer and node.exp > 0:

@@ -11,17 +11,24 @@ order in eps; no root is taken. The exponents per radian of phase are ± sqrt(A 
 Nayfeh & Mook, Nonlinear Oscillations, 5.3 (variational equations along a Lindstedt–Poincaré orbit).
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from sympy.polys.domains.domain import Domain
 
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
 from lagrotor.mechanics.order_by_order import GrowingSeries, Unknowns
-from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, solve_harmonic
+from lagrotor.mechanics.perturbation import (
+    Column,
+    PeriodicSeries,
+    Residual,
+    Solver,
+    by_harmonic,
+    harmonic_solver,
+    waves,
+)
 
 Parts = dict[str, list[FourierSeries]]  # of "p" and "q", one series an unknown
-Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
 _OTHER = {"p": "q", "q": "p"}
 
 
@@ -98,11 +105,13 @@ def characteristic_exponents(
     order: int,
     field: Domain,
     exchange: int = 1,
+    numeric: Residual | None = None,
 ) -> ExponentSeries:
     """A and B through eps**order, for an orbit through at least that order.
 
     sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones. neutral: the numbers
-    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
+    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged. numeric: the same
+    equations with floating-point coefficients, for an orbit that has those.
     Raises SingularError where an order cannot be solved: another exponent comes close to zero.
     """
     variation = _Variation(residual, field, order, exchange)
@@ -111,27 +120,27 @@ def characteristic_exponents(
     fixed = dict(zip("pq", neutral, strict=True))
     for part, i in fixed.items():
         parts[part][i] = constant(field.one, order)
-    drift = {part: variation.of_drift(part, parts, orbit) for part in "pq"}
+    rest = orbit.at_rest(field)
+    drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
+    value = field.convert if numeric is None else float
     growing = Unknowns()
-    unknowns = {part: [growing.series(series) for series in parts[part]] for part in "pq"}
+    unknowns = {part: [growing.series(series.valued(value)) for series in parts[part]] for part in "pq"}
     slow = {
         part: growing.series(FourierSeries({}, order)) for part in "pq"
     }  # B from the equations' p part, A from their q part
-    equations = variation.put_in(growing, unknowns, slow, orbit)
-    operators: dict[tuple[str, int], list[Column]] = {}
+    equations = variation.put_in(numeric or residual, growing, unknowns, slow, orbit)
+    operators = variation.operators(parity, rest)
+    solvers: dict[tuple[str, int], Solver] = {}
     for n in range(1, order + 1):
         now = {part: [getattr(equation, part).at(n) for equation in equations] for part in "pq"}
         for part in "pq":
             for h in range(n, -1, -2):
-                if (part, h) not in operators:
-                    operators[part, h] = variation.operator(part, h, parity[part], orbit)
-                wanted = {
-                    (i, key): -v for i, waves in enumerate(now[part]) for key, v in waves.items() if abs(key) == h
-                }
-                extra, mean = (drift[part], (fixed[part], field.zero)) if h == 0 else (None, None)
-                values, shift = solve_harmonic(operators[part, h], wanted, extra, mean, field)
-                for j, value in enumerate(values):
-                    growing.found(unknowns[part][j], n, -h if parity[part][j] else h, value)
+                if (part, h) not in solvers:
+                    extra, mean = (drift[part], fixed[part]) if h == 0 else (None, None)
+                    solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
+                values, shift = solvers[part, h](now[part], h, value(field.zero))
+                for j, found in enumerate(values):
+                    growing.found(unknowns[part][j], n, -h if parity[part][j] else h, found)
                 growing.found(slow[part], n, 0, shift)
         growing.forget(n)
     p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
@@ -149,6 +158,7 @@ class _Variation:
 
     def put_in(
         self,
+        residual: Residual,
         growing: Unknowns,
         parts: dict[str, list[GrowingSeries]],
         slow: dict[str, GrowingSeries],
@@ -161,7 +171,7 @@ class _Variation:
 
         nothing = growing.series(FourierSeries({}, self.order))
         unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
-        return self.residual(unknowns, at(orbit.frequency, nothing, nothing))
+        return residual(unknowns, at(orbit.frequency, nothing, nothing))
 
     def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
         """The equations with the perturbation put in, through eps**n."""
@@ -186,14 +196,20 @@ class _Variation:
         slow = {part: constant(self.field.one, self.order), _OTHER[part]: nothing}
         return self.column(self.of(0, other, slow, orbit), part, 0)
 
-    def operator(self, part: str, h: int, sines: Sequence[bool], orbit: PeriodicSeries) -> list[Column]:
-        """For each unknown the response at rest of the equations' `part` to a unit of its harmonic h."""
-        nothing = FourierSeries({}, self.order)
-        columns = []
-        for j, sine in enumerate(sines):
-            moved = [nothing] * len(sines)
-            if not (sine and h == 0):
-                moved[j] = FourierSeries({(0, -h if sine else h): self.field.one}, self.order)
-            found = self.of(0, {part: moved, _OTHER[part]: [nothing] * len(sines)}, dict.fromkeys("pq", nothing), orbit)
-            columns.append(self.column(found, part, 0))
-        return columns
+    def operators(
+        self, parity: Mapping[str, Sequence[bool]], rest: PeriodicSeries
+    ) -> dict[tuple[str, int], list[Column]]:
+        """(part, harmonic h) → for each unknown the response at rest of the equations' part to a unit of its harmonic h.
+
+        At rest no harmonic acts on another, so that all are put in together.
+        """
+        nothing, found = FourierSeries({}, self.order), dict[tuple[str, int], list[Column]]()
+        for j in range(len(rest.unknowns)):
+            moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
+            for part in "pq":
+                moved[part][j] = waves(parity[part][j], self.order, 0, self.field.one)
+            answer = self.of(0, moved, dict.fromkeys("pq", nothing), rest)
+            for part in "pq":
+                for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
+                    found.setdefault((part, h), []).append(column)
+        return found

@@ -6,7 +6,7 @@ with coefficients in any exact field (rationals, or rational functions of parame
 """
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,6 +60,10 @@ class FourierSeries:
     def scaled(self, factor: Coefficient) -> "FourierSeries":
         """factor × f."""
         return FourierSeries({k: v * factor for k, v in self.terms.items()}, self.order)
+
+    def valued(self, value: Callable[[Any], Coefficient]) -> "FourierSeries":
+        """The same series with its coefficients converted, as by `float`."""
+        return FourierSeries({k: value(v) for k, v in self.terms.items()}, self.order)
 
     def derivative(self) -> "FourierSeries":
         """df/dPhi."""

@@ -2,15 +2,19 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
-from lagrotor.mechanics.order_by_order import Unknowns
+from lagrotor.mechanics.order_by_order import Unknowns, Waves
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
+Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
+Solver = Callable[[Sequence[Waves], int, Coefficient], tuple[list[Coefficient], Coefficient]]
+_ROUNDING = 1e-6  # of a floating-point order's largest coefficient: what need not vanish of what should
 
 
 @dataclass(frozen=True)
@@ -20,6 +24,14 @@ class PeriodicSeries:
     unknowns: tuple[FourierSeries, ...]
     frequency: FourierSeries
 
+    def at_rest(self, field: Domain) -> "PeriodicSeries":
+        """Its terms of order 0, exact also where the series is one of floating-point numbers."""
+        still = [
+            FourierSeries({(0, h): field.convert(v) for h, v in series.harmonics(0).items()}, series.order)
+            for series in (*self.unknowns, self.frequency)
+        ]
+        return PeriodicSeries(tuple(still[:-1]), still[-1])
+
 
 def lindstedt_poincare(
     residual: Residual,
@@ -28,6 +40,7 @@ def lindstedt_poincare(
     order: int,
     field: Domain,
     amplitude: int = 0,
+    numeric: Residual | None = None,
 ) -> PeriodicSeries:
     """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + …
 
@@ -35,6 +48,7 @@ def lindstedt_poincare(
     phase, time derivatives carried by the frequency. rest: unknowns at equilibrium; mode: {harmonic: coefficient} of
     each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's parity by its sign; an unknown
     without a first-order part is a cosine series. eps is the value of unknown number `amplitude` at Phi = 0, less rest.
+    numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
 
     At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
     that is singular (the mode's own harmonic) the frequency's correction omega_{n−1} makes the system solvable.
@@ -46,26 +60,23 @@ def lindstedt_poincare(
         constant(r, order) + FourierSeries({(1, h): v for h, v in m.items()}, order)
         for r, m in zip(rest, mode, strict=True)
     ]
+    value = field.convert if numeric is None else float
     growing = Unknowns()
-    unknowns, frequency = [growing.series(begin) for begin in begins], growing.series(constant(one, order))
-    equations = residual(unknowns, frequency)
-    operators: dict[int, list[dict[tuple[int, int], Coefficient]]] = {}
-    drift = _frequency_column(residual, begins, one)
-
+    *unknowns, frequency = (growing.series(begin.valued(value)) for begin in (*begins, constant(one, order)))
+    equations = (numeric or residual)(unknowns, frequency)
+    operators = _columns(residual, rest, sines, order, one)
+    drift, solvers = _frequency_column(residual, begins, one), dict[int, Solver]()
     for n in range(2, order + 1):
-        now = [equation.at(n) for equation in equations]
         # The highest harmonics first: the mode's own takes what the amplitude's definition leaves.
-        at_zero = field.zero
+        now, at_zero = [equation.at(n) for equation in equations], value(field.zero)
         for h in range(n, -1, -2):
-            if h not in operators:
-                operators[h] = _columns(residual, rest, sines, h, one)
-            wanted = {(i, key): -v for i, waves in enumerate(now) for key, v in waves.items() if abs(key) == h}
-            extra = drift if h == 1 else None
-            fixed = (amplitude, -at_zero) if h == 1 else None
-            values, shift = solve_harmonic(operators[h], wanted, extra, fixed, field)
-            for j, value in enumerate(values):
-                growing.found(unknowns[j], n, -h if sines[j] else h, value)
-            at_zero += field.zero if sines[amplitude] else values[amplitude]
+            if h not in solvers:
+                extra, fixed = (drift, amplitude) if h == 1 else (None, None)
+                solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
+            values, shift = solvers[h](now, h, -at_zero)
+            for j, found in enumerate(values):
+                growing.found(unknowns[j], n, -h if sines[j] else h, found)
+            at_zero += 0 if sines[amplitude] else values[amplitude]
             if shift:
                 growing.found(frequency, n - 1, 0, shift)
                 growing.forget(n - 1)
@@ -74,18 +85,33 @@ def lindstedt_poincare(
 
 
 def _columns(
-    residual: Residual, rest: Sequence[Coefficient], sines: Sequence[bool], h: int, one: Coefficient
-) -> list[dict[tuple[int, int], Coefficient]]:
-    """The linear operator at harmonic h: for each unknown the equations' response to a unit of it."""
-    still = [constant(r, 1) for r in rest]
-    responses = []
+    residual: Residual, rest: Sequence[Coefficient], sines: Sequence[bool], order: int, one: Coefficient
+) -> dict[int, list[Column]]:
+    """Harmonic h → the linear operator there: for each unknown the equations' response to a unit of it.
+
+    At rest no harmonic acts on another, so that all are put in together.
+    """
+    still, found = [constant(r, 1) for r in rest], dict[int, list[Column]]()
     for j, sine in enumerate(sines):
         moved = list(still)
-        if not (sine and h == 0):
-            moved[j] = moved[j] + FourierSeries({(1, -h if sine else h): one}, 1)
-        found = residual(moved, constant(one, 1))
-        responses.append({(i, key): v for i, r in enumerate(found) for key, v in r.harmonics(1).items()})
-    return responses
+        moved[j] = moved[j] + waves(sine, order, 1, one)
+        for h, column in by_harmonic(residual(moved, constant(one, 1)), order, 1).items():
+            found.setdefault(h, []).append(column)
+    return found
+
+
+def waves(sine: bool, most: int, power: int, one: Coefficient) -> FourierSeries:
+    """eps**power times the sum of the cosines, or the sines, of all harmonics up to `most`."""
+    return FourierSeries({(power, -h if sine else h): one for h in range(int(sine), most + 1)}, power)
+
+
+def by_harmonic(equations: Sequence[FourierSeries], most: int, power: int) -> dict[int, Column]:
+    """Harmonic h up to `most` → the coefficients of eps**power there."""
+    found: dict[int, Column] = {h: {} for h in range(most + 1)}
+    for i, equation in enumerate(equations):
+        for key, v in equation.harmonics(power).items():
+            found[abs(key)][i, key] = v
+    return found
 
 
 def _frequency_column(
@@ -101,26 +127,51 @@ def _frequency_column(
     return column
 
 
-def solve_harmonic(
-    columns: list[dict[tuple[int, int], Coefficient]],
-    wanted: dict[tuple[int, int], Coefficient],
-    extra: dict[tuple[int, int], Coefficient] | None,
-    fixed: tuple[int, Coefficient] | None,
+def harmonic_solver(
+    columns: list[Column],
+    extra: Column | None,
+    fixed: int | None,
     field: Domain,
-) -> tuple[list[Coefficient], Coefficient]:
-    """The unknowns of one harmonic, and the shift of frequency where there is one; what nothing determines is zero."""
+    value: Callable[[Any], Coefficient],
+) -> Solver:
+    """What solves one harmonic of the equations for the unknowns, and for the shift of a frequency where `extra` is its column.
+
+    Called with the coefficients of an order, the harmonic, and the value of unknown number `fixed`. The system is reduced
+    exactly, once for all orders, and then `value`d; what nothing determines is zero. Raises SingularError where an order
+    cannot be solved.
+    """
     system = [*columns, *([extra] if extra is not None else [])]
-    rows = sorted({key for column in (*system, wanted) for key in column})
-    table = [[column.get(row, field.zero) for column in (*system, wanted)] for row in rows]
-    if fixed:
-        table.append([field.one if j == fixed[0] else field.zero for j in range(len(system))] + [fixed[1]])
-    if not table:
-        return [field.zero] * len(columns), field.zero
-    reduced, pivots = DomainMatrix(table, (len(table), len(system) + 1), field).rref()
-    if len(system) in pivots:
-        raise SingularError("lindstedt_poincare: an order cannot be solved: the mode is in resonance with another")
-    dense = reduced.to_dense().rep.to_list() if hasattr(reduced.rep, "to_list") else reduced.to_list()
-    values = [field.zero] * len(system)
-    for i, j in enumerate(pivots):
-        values[j] = dense[i][-1]
-    return values[: len(columns)], values[-1] if extra is not None else field.zero
+    rows = sorted({key for column in system for key in column})
+    table = [[column.get(row, field.zero) for column in system] for row in rows]
+    if fixed is not None:
+        table.append([field.one if j == fixed else field.zero for j in range(len(system))])
+    pivots, turned = _reduced(table, field, value)
+
+    def solve(now: Sequence[Waves], h: int, at: Coefficient) -> tuple[list[Coefficient], Coefficient]:
+        left = {(i, key): -v for i, waves in enumerate(now) for key, v in waves.items() if abs(key) == h}
+        right = [left.pop(row, 0) for row in rows] + ([] if fixed is None else [at])
+        solved = [sum((e * r for e, r in zip(row, right, strict=True) if e and r), value(field.zero)) for row in turned]
+        largest = max((abs(v) for waves in now for v in waves.values()), default=0) if value is float else 0
+        if any(
+            abs(v) > _ROUNDING * (1 + largest) if value is float else v
+            for v in (*solved[len(pivots) :], *left.values())
+        ):
+            raise SingularError("lindstedt_poincare: an order cannot be solved: the mode is in resonance with another")
+        values = [value(field.zero)] * len(system)
+        for j, found in zip(pivots, solved, strict=False):
+            values[j] = found
+        return values[: len(columns)], values[-1] if extra is not None else value(field.zero)
+
+    return solve
+
+
+def _reduced(
+    table: list[list[Coefficient]], field: Domain, value: Callable[[Any], Coefficient]
+) -> tuple[list[int], list[list[Coefficient]]]:
+    """The unknowns that a system determines, and the matrix that takes its right side to them, then to what must vanish."""
+    n, m = len(table), len(table[0]) if table else 0
+    wide = [row + [field.one if i == j else field.zero for j in range(n)] for i, row in enumerate(table)]
+    if not wide:
+        return [], []
+    reduced, pivots = DomainMatrix(wide, (n, m + n), field).rref()
+    return [j for j in pivots if j < m], [list(map(value, row[m:])) for row in reduced.to_list()]

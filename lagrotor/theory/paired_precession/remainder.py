@@ -1,8 +1,7 @@
 """Bounds of the errors of closed forms of the paired precession: their distance from a series of higher order.
 
 The error of a form through r_0**n is its distance from what the series through r_0**(n + 6) gives for the same
-quantity, and the estimated remainder of that series. Both are evaluated for a bar whose sigma − 1 and k are rounded to
-five digits, so that the exact series has short coefficients: beside a bar for which the error passes zero three are too few.
+quantity, and the estimated remainder of that series.
 """
 
 from collections.abc import Callable
@@ -17,7 +16,7 @@ from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
 MORE_ORDERS = 6
-_ROUNDED = 1e-3  # of the largest error of an output: a change of 5e-5 in sigma − 1 and k, by powers of them up to the twentieth
+_ROUNDED = 1e-3  # of the largest error of an output: the rounding of both, and of a run that they are held to
 
 # (series, the form's arguments by symbol, one amplitude and bar) → the outputs (outputs, n); and (series, r_0) → the
 # bound of their error.
@@ -38,14 +37,12 @@ def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> 
     def bound(*values: Array) -> Array:
         given = dict(zip(form.arguments, values, strict=True))
         ones = np.ones_like(values[0])
-        places = np.stack([values[0], 1 + _rounded(given.get(sigma, ones) - 1), _rounded(given.get(k, ones))])
+        places = np.stack([values[0], given.get(sigma, ones), given.get(k, ones)])
         found = np.empty((len(form.outputs), values[0].size))
         for place in np.unique(places, axis=1).T:
             here = (places == place[:, None]).all(0)
-            shape, ratio = (sp.Rational(f"{v:.12g}") for v in place[1:])
-            series = paired_series(order, shape, ratio)
+            series = paired_series(order, *map(sp.Rational, place[1:]), exact=False)
             part = {symbol: array[here] for symbol, array in given.items()}
-            part |= {s: np.full(here.sum(), v) for s, v in zip((sigma, k), place[1:], strict=True) if s in part}
             exact, left = reference(series, part), _rest(form.name, series, rest, float(place[0]))
             mine = np.reshape(form(*(part[s] for s in form.arguments)), exact.shape)
             apart = np.abs(mine - exact)
@@ -53,11 +50,6 @@ def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> 
         return found
 
     return replace(form, bound=bound)
-
-
-def _rounded(values: Array) -> Array:
-    """To five digits."""
-    return np.array([float(f"{v:.5g}") for v in values])
 
 
 def _rest(name: str, series: PairedSeries, rest: Rest, amplitude: float) -> float:

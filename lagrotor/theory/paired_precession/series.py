@@ -171,13 +171,13 @@ def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     return sp.QQ.frac_field(*free) if free else sp.QQ
 
 
-def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain) -> Residual:
+def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Residual:
     """The equations of motion of r_1 with the multipliers of |r_1| = 1 and of the bar, and these two constraints.
 
     In units a + b = 1, of Omega_0 and of y / sqrt(sigma); r_2 is r_1 exchanged, half a period later. Derived from the
-    Lagrangian in derivations/t3_paired_orbit.py.
+    Lagrangian in derivations/t3_paired_orbit.py. Without a field the coefficients are floating-point numbers.
     """
-    s, length, one = field.from_sympy(shape), field.from_sympy(ratio), field.one
+    s, length, one = (float(v) if field is None else field.from_sympy(v) for v in (shape, ratio, sp.S.One))
     own, shared = (one + one / s) / 2, (one - one / s) / 2  # a, b
 
     def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
@@ -216,9 +216,10 @@ def check_order(order: int) -> int:
 
 
 @lru_cache(maxsize=32)
-def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> PairedSeries:
+def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> PairedSeries:
     """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
 
+    exact: with coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
     Raises InputError unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
     """
     check_order(order)
@@ -231,5 +232,6 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> Pai
         )
     field = field_of(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
-    found = lindstedt_poincare(equations(shape, ratio, field), unknowns_at_rest(field), mode, order, field)
+    exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
+    found = lindstedt_poincare(exactly, unknowns_at_rest(field), mode, order, field, numeric=numeric)
     return PairedSeries(found, order, shape, ratio, field)

@@ -27,12 +27,15 @@ _X, _TWIST = 0, 1  # the unknowns whose displacement changes nothing at rest
 
 
 @lru_cache(maxsize=16)
-def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k) -> ExponentSeries:
-    """A and B through r_0**order for sigma = `shape`, k = `ratio`, rational numbers or symbols."""
-    orbit = paired_series(order, shape, ratio)
+def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
+    """A and B through r_0**order for sigma = `shape`, k = `ratio`, rational numbers or symbols; `exact` as `paired_series`."""
+    orbit = paired_series(order, shape, ratio, exact)
     residual = equations(orbit.shape, orbit.ratio, orbit.field)
+    numeric = None if exact else equations(orbit.shape, orbit.ratio)
     # The exchange of the rotors, half a period later, gives a shift in x and a twist the opposite sign.
-    return characteristic_exponents(residual, orbit.solution, _SINES, (_X, _TWIST), order, orbit.field, exchange=-1)
+    return characteristic_exponents(
+        residual, orbit.solution, _SINES, (_X, _TWIST), order, orbit.field, exchange=-1, numeric=numeric
+    )
 
 
 @cache
@@ -68,7 +71,7 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
 
 def _numbers(series: PairedSeries, order: int) -> Array:
     """A and B of a bar with numbers, in powers of r_0: (2, order + 1)."""
-    found = exponent_series(order, series.shape, series.ratio)
+    found = exponent_series(order, series.shape, series.ratio, exact=False)
     values = np.zeros((2, order + 1))
     for row, part in zip(values, (found.A, found.B), strict=True):
         for (n, _), value in part.terms.items():
@@ -114,7 +117,7 @@ def elliptic_edge() -> ClosedForm:
 
 def _edge_error(shape: float, ratio: float) -> float:
     """Distance of the law from the root of A through r_0^12, and what that root moved by in its last two orders."""
-    series = paired_series(1, 1 + sp.Rational(f"{shape - 1:.4g}"), sp.Rational(f"{ratio:.4g}"))
+    series = paired_series(1, *map(sp.Rational, (shape, ratio)))
     A = _numbers(series, 12)[0]
     roots = [_least_root(A[2 : order + 1 : 2]) for order in (8, 10, 12)]
     moved = max(abs(roots[2] - roots[1]), abs(roots[1] - roots[0]))
