@@ -23,6 +23,12 @@ def heyoka_module() -> Any:
     return heyoka
 
 
+def summed(terms: Sequence[Any]) -> Any:
+    """The sum of expressions and numbers."""
+    heyoka = heyoka_module()
+    return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
+
+
 def translated(program: Program, known: dict[sp.Symbol, Any], heyoka: Any) -> list[Any]:
     """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
     stages, outputs = reduce_common(program)

@@ -11,7 +11,7 @@ import pytest
 from lagrotor import Brace, Link, Structure
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact import compiled_motion, segments
 from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.written_out import accelerations
 
@@ -77,10 +77,11 @@ def test_a_run_of_any_structure_is_that_of_the_core(heyoka, s, tol) -> None:
 
 
 @pytest.mark.slow
-def test_a_chain_of_4096_rotors_runs(heyoka) -> None:
+@pytest.mark.parametrize("link", [Link(), Link(1, 0.3, 0.1)], ids=["massless", "heavy"])
+def test_a_chain_of_4096_rotors_runs(heyoka, link) -> None:
     from tests.structures.test_cost import chain
 
-    s = chain(4096, Link())
+    s = chain(4096, link)
     rates = np.zeros((4096, 2))
     rates[:2] = 1e-3
     fast, core = (s.simulate([0.0, 0.05], rates=rates, tol=1e-6, engine=engine) for engine in ("fast", "core"))
@@ -95,6 +96,39 @@ def test_the_compiled_right_hand_side_is_that_of_the_exact_motion(heyoka) -> Non
     found = compiled_motion.compiled_right_hand_side(s, motion)(0.7, y)
     assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
     assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4
+
+
+LINES = {  # a chain numbered at random, braced; a ring; two chains and a rotor alone, driven
+    "chain": Structure(
+        [(0, 0), (3, 0), (1, 0), (4, 1), (2, 0)], [(0, 2), (4, 2), (1, 4), (1, 3)], braces=[Brace(0, 3, 9, 1)]
+    ),
+    "ring": Structure([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)], link=Link(1, 0.3, 0.1)),
+    "two": Structure(
+        [(k, 0.1 * k * k) for k in range(6)], [(0, 1), (2, 3), (3, 4)], hinge=1, link=Link(1, 0.3), spin_friction=0.4
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_so_is_that_in_segments(heyoka, name: str, monkeypatch) -> None:
+    monkeypatch.setattr(segments, "LENGTH", 2)
+    N, driven = len(LINES[name].joints), name == "two"
+    s = replace(LINES[name], spins=[3.0 * k - 4 for k in range(N)], gravity=2, friction=0.3)
+    motion = exact_motion(s, *[lambda t: np.full((N, 3), np.cos(t)), lambda t: np.array([t, 0.1, 0])] * driven)
+    r, v = np.random.default_rng(4).standard_normal((2, N, 3))
+    y = np.concatenate([(r / np.linalg.norm(r, axis=1, keepdims=True)).ravel(), v.ravel()])
+    found = segments.right_hand_side_in_segments(motion)(0.7, y)
+    assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
+    assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4 or not driven
+
+
+def test_a_singular_position_gives_nan_in_segments(heyoka) -> None:
+    motion = exact_motion(Structure([(0, 0), (1, 0)], [(0, 1)]))
+    rhs, y = segments.right_hand_side_in_segments(motion), np.zeros(12)
+    y[[2, 5]] = 1
+    assert np.isfinite(rhs(0.0, y)).all()
+    y[:6] = [1, 0, 0, 1, 0, 0]
+    assert not np.isfinite(rhs(0.0, y)).all()
 
 
 def test_a_driven_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
@@ -113,7 +147,7 @@ def test_a_wide_grid_is_refused() -> None:
     L = 16
     bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
     s = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
-    with pytest.raises(InputError, match="up to 100, not of 256"):
+    with pytest.raises(InputError, match=r"up to 100 rotors .*, not of 256"):
         s.simulate([0.0, 1.0], engine="fast")
 
 

@@ -1,7 +1,7 @@
 """The fast extra: the equations written out, and compiled by heyoka, once a process for a structure whatever its spins.
 
 Few rotors are integrated by heyoka's Taylor series. The series of many outgrow a processor's caches, and a drive has none:
-there the right-hand side alone is compiled, for the integrators of the core.
+there the right-hand side alone is compiled, for the integrators of the core; that of long chains and rings in segments.
 """
 
 from dataclasses import fields, replace
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.heyoka_programs import heyoka_module
+from lagrotor.numerics.heyoka_programs import heyoka_module, summed
 from lagrotor.numerics.integrate import Solution
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.numerics.taylor_steps import compiled_solver, dummy_size, march, taylor_order
@@ -20,11 +20,16 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion
 from lagrotor.structures.exact.lines_passed import LineWatch
+from lagrotor.structures.exact.segments import has_segments, right_hand_side_in_segments
 from lagrotor.structures.exact.written_out import accelerations
 
 _RING = 11  # half bandwidth of a ring
 _SERIES, _SERIES_SLIM = 32, 128  # rotors up to which series are faster; slim: in chains and rings of massless bars
-_WIDE, _HEAVY = 100, 512  # rotors of a net, of a chain or ring with heavy bars, that compile in about half a minute
+_WHOLE, _WHOLE_HEAVY = (
+    512,
+    128,
+)  # rotors of a chain or ring up to which it is faster compiled whole; heavy: with heavy bars
+_WIDE, _HEAVY = 100, 512  # rotors of a net, of a tree with heavy bars, that compile in about half a minute
 _BETWEEN = 10.0  # radians at the structure's rate between two projections onto the constraints
 
 
@@ -65,10 +70,13 @@ def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
     """(s, y) → y', as `motion.rhs` gives it. Raises InputError without heyoka, and for what takes minutes to compile."""
     N, force, ground = len(motion.c.R), motion.force, motion.ground
     wide, heavy = motion.saddle.band > _RING, motion.c.coupling.any()
-    if (N > _WIDE and wide) or (N > _HEAVY and heavy):
+    if has_segments(motion):
+        if (_WHOLE_HEAVY if heavy else _WHOLE) < N:
+            return right_hand_side_in_segments(motion)
+    elif (N > _WIDE and wide) or (N > _HEAVY and heavy):
         raise InputError(
-            f"simulate: engine='fast' compiles chains and rings of massless bars, of heavy ones up to {_HEAVY} rotors, and other "
-            f"structures up to {_WIDE}, not of {N}: use engine='core'"
+            f"simulate: engine='fast' compiles chains and rings of any length, and other structures of up to {_WIDE} rotors "
+            f"(trees of up to {_HEAVY}), not of {N}: use engine='core'"
         )
     compiled = _compiled(_without_spins(s), force is not None, ground is not None)
     rate, parameters = motion.c.rate, _parameters(motion)
@@ -120,8 +128,5 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
         for i in range(N)
     ]
 
-    def add(terms: list[Any]) -> Any:
-        return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
-
-    found = accelerations(plain, r, v, G, heyoka, add, more if forced or shaken else ())
+    found = accelerations(plain, r, v, G, heyoka, summed, more if forced or shaken else ())
     return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in found for x in axis)], strict=True))

@@ -65,6 +65,12 @@ class ExactMotion:
         if c.hinge.any():
             theta = np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2])
             F[:, 2] += c.hinge / np.sinc(theta / np.pi)
+        return F + self.pushes(t, r, v)
+
+    def pushes(self, t: float, r: Array, v: Array) -> Array:
+        """What braces, the ground's acceleration and the forces on the tips exert on the axes, (N, 3), N m."""
+        c = self.c
+        F = np.zeros_like(r)
         if len(c.stiffness):
             self._brace(F, r, v)
         if self.ground is not None:

@@ -8,21 +8,44 @@ A constraint waits for what it holds: before, its pivot is zero; after, it is no
 constraints independent.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 Terms = list[Any]
 
 
-def solve_in_levels(
+@dataclass(frozen=True)
+class Eliminated:
+    """What is left of a symmetric system after an elimination, and how its unknowns follow from those that were kept.
+
+    done: (unknown, 1/pivot, right side, {neighbour: share}) in the order of elimination; rows: i → {j: terms}.
+    """
+
+    done: list[tuple[int, Any, Any, dict[int, Any]]]
+    pivots: list[Terms]
+    rows: list[dict[int, Terms]]
+    right: list[Terms]
+
+    def solved(self, known: Mapping[int, Any], add: Callable[[Terms], Any] = sum) -> list[Any]:
+        """All unknowns from those that were kept."""
+        x: list[Any] = [known.get(i) for i in range(len(self.rows))]
+        for i, inverse, own, shares in reversed(self.done):
+            x[i] = add([own * inverse, *(-(share * x[j]) for j, share in shares.items())])
+        return x
+
+
+def eliminate_in_levels(
     diagonal: Sequence[Any],
     off: Mapping[tuple[int, int], Any],
     right: Sequence[Any],
     masses: int,
     add: Callable[[Terms], Any] = sum,
-) -> list[Any]:
-    """The unknowns x of a symmetric system. off: {(i, j): entry}, each pair once; masses: how many unknowns come first
-    that have a diagonal of their own; those after them are constraints, whose diagonal is zero. add: sums some terms.
+    kept: Iterable[int] = (),
+) -> Eliminated:
+    """Eliminate all unknowns of a symmetric system but those kept. off: {(i, j): entry}, each pair once; masses: how many
+    unknowns come first that have a diagonal of their own; those after them are constraints, whose diagonal is zero.
+    add: sums some terms.
     """
     n = len(diagonal)
     pivots, b = [[entry] for entry in diagonal], [[entry] for entry in right]
@@ -30,7 +53,7 @@ def solve_in_levels(
     for (i, j), entry in off.items():
         rows[i][j] = rows[j][i] = [entry]
     holds = [{j for j in row if j < masses} if i >= masses else set[int]() for i, row in enumerate(rows)]
-    left, done = set(range(n)), list[tuple[int, Any, Any, dict[int, Any]]]()
+    left, done = set(range(n)).difference(kept), list[tuple[int, Any, Any, dict[int, Any]]]()
     while left:
         for i in _level(left, rows, holds):
             inverse, own = 1.0 / add(pivots[i]), add(b[i])
@@ -43,10 +66,7 @@ def solve_in_levels(
             _couple(rows, list(row), shares, row)
             done.append((i, inverse, own, shares))
             left.discard(i)
-    x: list[Any] = [None] * n
-    for i, inverse, own, shares in reversed(done):
-        x[i] = add([own * inverse, *(-(share * x[j]) for j, share in shares.items())])
-    return x
+    return Eliminated(done, pivots, rows, b)
 
 
 def _level(left: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:

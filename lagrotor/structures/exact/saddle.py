@@ -46,15 +46,12 @@ class Saddle:
         return x[self.order]
 
     def _banded(self, entries: Array, b: Array) -> Array:
-        from scipy.linalg.lapack import dgbsv
-
         ab = self.base.copy()
         half = len(entries)
         flat = ab.reshape(-1)
         flat[self.places[:half]] = entries
         flat[self.places[half:]] = entries
-        _, _, x, info = dgbsv(self.band, self.band, ab.T, b, overwrite_ab=1, overwrite_b=1)
-        return np.full_like(b, np.nan) if info else x
+        return in_band(self.band, ab, b)
 
     def _sparse(self, entries: Array, b: Array) -> Array:
         from scipy.sparse import csc_matrix
@@ -98,13 +95,30 @@ def saddle(s: Assembly) -> Saddle:
 
 def _order(N: int, i: Index, j: Index) -> Index:
     """Row of each unknown: rotors as reverse Cuthill–McKee orders them, a bar between its two rotors."""
+    place = narrow_order(N, i, j)
+    key = np.concatenate([np.repeat(place, 3).astype(float), place, (place[i] + place[j]) / 2])
+    order = np.empty(len(key), dtype=np.intp)
+    order[np.argsort(key, kind="stable")] = np.arange(len(key))
+    return order
+
+
+def narrow_order(N: int, i: Index, j: Index) -> Index:
+    """Place of each of N that are joined by the pairs i, j, in the order of reverse Cuthill and McKee."""
     from scipy.sparse import csr_matrix
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
     graph: Any = csr_matrix((np.ones(2 * len(i)), (np.concatenate([i, j]), np.concatenate([j, i]))), shape=(N, N))
     place = np.empty(N, dtype=np.intp)
     place[reverse_cuthill_mckee(graph, symmetric_mode=True)] = np.arange(N)
-    key = np.concatenate([np.repeat(place, 3).astype(float), place, (place[i] + place[j]) / 2])
-    order = np.empty(len(key), dtype=np.intp)
-    order[np.argsort(key, kind="stable")] = np.arange(len(key))
-    return order
+    return place
+
+
+def in_band(band: int, ab: Array, b: Array) -> Array:
+    """The solution for the right side b of a band, entry (i, j) of it at ab[j, 2 band + i − j]; NaN where it is singular.
+
+    Overwrites ab and b.
+    """
+    from scipy.linalg.lapack import dgbsv
+
+    _, _, x, info = dgbsv(band, band, ab.T, b, overwrite_ab=1, overwrite_b=1)
+    return np.full_like(b, np.nan) if info else x

@@ -5,7 +5,7 @@ from math import comb
 from typing import Any
 
 from lagrotor.structures.coefficients import Coefficients
-from lagrotor.structures.exact.levels import solve_in_levels
+from lagrotor.structures.exact.levels import eliminate_in_levels
 
 Vector = list[Any]
 _TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
@@ -25,6 +25,16 @@ def accelerations(
     by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
     What a structure has not (hinges, friction, heavy bars) costs nothing.
     """
+    x = eliminate_in_levels(*system(c, r, v, G, by, more), add).solved({}, add)
+    return [x[3 * i : 3 * i + 3] for i in range(len(c.R))]
+
+
+def system(
+    c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequence[Any], by: Any, more: Sequence[Vector] = ()
+) -> tuple[list[Any], dict[tuple[int, int], Any], list[Any], int]:
+    """The linear system for [r'' (3 N), multipliers of the axes (N) and of the bars (B)]: diagonal, {(i, j): entry off it},
+    right side, and 3 N, the number of unknowns with a mass. Arguments as of `accelerations`.
+    """
     N, B = len(c.R), len(c.i)
     forces = _forces(c, r, v, G, by)
     if more:
@@ -39,8 +49,7 @@ def accelerations(
             if c.coupling[b]:
                 off[3 * i + k, 3 * j + k] = c.coupling[b]
         right.append(-_dot(swing, swing))
-    x = solve_in_levels(diagonal, off, right, 3 * N, add)
-    return [x[3 * i : 3 * i + 3] for i in range(N)]
+    return diagonal, off, right, 3 * N
 
 
 def _forces(c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequence[Any], by: Any) -> list[Vector]:
