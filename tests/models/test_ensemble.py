@@ -215,6 +215,7 @@ def test_what_nothing_can_finish_is_named():
     assert np.isnan(found.axes[1]).all() and np.isfinite(found.axes[0]).all()
 
 
+@pytest.mark.slow  # thousands of steps up to the place; that runs fall back at all is tested above
 def test_beside_a_singular_position_the_fallback_gives_all_it_has():
     scene = consistent_scene((10, -10), UP, ((-1.836, -1.934, 0), (-1.836, 1.934, 0)), link=Link(1, 0.01, 0.1))
     found, exact = sweep([scene], [0.0, 5.0, 10.0], 1e-6), simulate(scene, [0.0, 5.0, 10.0], "spheres", 1e-12)

@@ -183,6 +183,7 @@ physics._rotor_energy = lambda inertia, q, q_v, phi_v, psi_v: energy(inertia, q,
 }
 
 
+@cache
 def verdicts_under(change: str, *stems: str) -> dict[str, str]:
     program = CHANGED.format(change=change)
     ran = subprocess.run([sys.executable, "-c", program, *stems], capture_output=True, text=True, check=False)
