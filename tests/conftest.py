@@ -23,6 +23,14 @@ ONE_PROCESS = (
 )
 
 
+@pytest.fixture(scope="session")
+def audit() -> Any:
+    """Every verdict on the paper, decided once a process."""
+    from lagrotor.paper.rotor_pair.own_paper import PAPER
+
+    return PAPER.audit()
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """`--dist=loadfile`, files that run the same scripts as if they were one."""

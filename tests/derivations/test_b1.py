@@ -8,6 +8,9 @@ from lagrotor.benchmark.scenes_and_methods import METHODS
 from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
+# Every method at every tolerance; what measures them is tested on few in tests/benchmark.
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def made():

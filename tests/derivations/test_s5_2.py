@@ -14,7 +14,7 @@ from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
-from lagrotor.paper import Stated, Statement, Verdict, decide, proof, scripts, stating
+from lagrotor.paper import Audit, Stated, Statement, Verdict, decide, proof, scripts, stating
 from lagrotor.paper.rotor_pair import shared_premises
 from lagrotor.paper.rotor_pair.ansatz_premises import (
     breach,
@@ -53,8 +53,8 @@ def stated() -> dict[str, Statement]:
 
 
 @pytest.fixture(scope="module")
-def verdicts(stated: dict[str, Statement]) -> dict[str, Verdict]:
-    return {i: decide(statement) for i, statement in stated.items()}
+def verdicts(audit: Audit) -> dict[str, Verdict]:
+    return {verdict.id: verdict for verdict in audit}
 
 
 @pytest.mark.parametrize("identifier", ASSUMED)

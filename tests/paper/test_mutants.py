@@ -12,7 +12,7 @@ from itertools import islice
 import pytest
 import sympy as sp
 
-from lagrotor.paper import Relation, Statement, Verdict, decide
+from lagrotor.paper import Audit, Relation, Statement, Verdict, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 MOST = 6  # twins of one relation that are judged
@@ -85,9 +85,10 @@ def statements() -> dict[str, Statement]:
     return {s.id: s for stem in PAPER.stating_scripts for s in PAPER.statements(stem) if not s.names}
 
 
-@cache
-def verdict_on(identifier: str) -> Verdict:
-    return decide(statements()[identifier])
+@pytest.fixture
+def verdict(audit: Audit, identifier: str) -> Verdict:
+    """On the equation that the test is for."""
+    return audit[identifier]
 
 
 def twin_statements(verdict: Verdict) -> Iterator[Statement]:
@@ -108,29 +109,29 @@ def test_everything_that_can_be_changed_is() -> None:
 
 
 @pytest.mark.parametrize("identifier", JUDGED)
-def test_a_changed_print_is_refuted(identifier: str) -> None:
-    made = list(twin_statements(verdict_on(identifier)))
+def test_a_changed_print_is_refuted(verdict: Verdict, identifier: str) -> None:
+    made = list(twin_statements(verdict))
     assert made, f"{identifier}: nothing in it can be changed: it says nothing"
     for twin in made:
-        verdict = decide(twin)
-        assert verdict.verdict == "refuted", (identifier, [r.printed for r in twin.relations], verdict.verdict)
+        found = decide(twin).verdict
+        assert found == "refuted", (identifier, [r.printed for r in twin.relations], found)
 
 
 @pytest.mark.parametrize("identifier", JUDGED)
-def test_a_verdict_falls_with_each_of_its_premises(identifier: str) -> None:
+def test_a_verdict_falls_with_each_of_its_premises(verdict: Verdict, identifier: str) -> None:
     statement = statements()[identifier]
-    for premise in verdict_on(identifier).premises:
+    for premise in verdict.premises:
         if premise not in statement.premises:  # the order that the print itself claims
             assert premise.small is not None
             continue
-        left = tuple(other for other in verdict_on(identifier).premises if other != premise)
+        left = tuple(other for other in verdict.premises if other != premise)
         without = decide(replace(statement, premises=left))
         assert without.verdict in ("refuted", "undecided"), (identifier, premise.says, without.verdict)
 
 
 @pytest.mark.parametrize("identifier", JUDGED)
-def test_a_refuted_equation_has_a_correction_that_holds(identifier: str) -> None:
-    statement, verdict = statements()[identifier], verdict_on(identifier)
+def test_a_refuted_equation_has_a_correction_that_holds(verdict: Verdict, identifier: str) -> None:
+    statement = statements()[identifier]
     assert verdict.verdict != "undecided", verdict.evidence
     if verdict.verdict == "refuted":
         assert verdict.correction_verdict in ("holds", "holds-if", "holds-to-order"), identifier
@@ -141,8 +142,7 @@ def test_a_refuted_equation_has_a_correction_that_holds(identifier: str) -> None
 
 
 @pytest.mark.parametrize("identifier", JUDGED)
-def test_what_holds_assumes_nothing(identifier: str) -> None:
-    verdict = verdict_on(identifier)
+def test_what_holds_assumes_nothing(verdict: Verdict) -> None:
     assert (verdict.verdict == "holds") <= (verdict.premises == ())
     assert (verdict.verdict == "holds-if") <= (verdict.premises != ())
 

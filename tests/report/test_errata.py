@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.paper import Verdict
+from lagrotor.paper import Audit, Verdict
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.markdown import errata_blocks
 
 
 @pytest.fixture(scope="module")
-def verdicts() -> list[Verdict]:
-    return list(PAPER.audit())
+def verdicts(audit: Audit) -> list[Verdict]:
+    return list(audit)
 
 
 def test_every_refuted_equation_has_its_row_and_no_other(verdicts: list[Verdict]) -> None:

@@ -160,7 +160,7 @@ def printed(identifier: str) -> Any:
 
 
 def test_the_papers_formula_is_the_derivations_expression() -> None:
-    first, _, _, second, _, _ = programs()["paper"].outputs
+    first, _, _, second, _, _ = model._paper().outputs
     half = sp.Rational(1, 2)
     for expression, relation in zip((first - half, second + half), printed("5.22").relations, strict=False):
         assert decide_zero(expression - relation.printed).answer == "zero"

@@ -16,6 +16,7 @@ import sympy as sp
 
 from lagrotor.pair.notation import M, r0
 from lagrotor.paper import (
+    Audit,
     FigureLink,
     Finding,
     Part,
@@ -397,13 +398,12 @@ def test_search() -> None:
     assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES
 
 
-def test_no_formula_of_the_page_is_typed_in_ascii(typed_formulas: Callable[[str], list[str]]) -> None:
+def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: Callable[[str], list[str]]) -> None:
     """Equations with all that is said of them, claims, premises, letters, titles; what comes from runs is in `test_reproduce`."""
     stems = PAPER.stating_scripts
-    verdicts = tuple(decide(statement) for stem in stems for statement in PAPER.statements(stem))
     found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
     remarks = ShownPart("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
-    assert typed_formulas(page(Report(PAPER, verdicts, (), (), (), (remarks,)))) == []
+    assert typed_formulas(page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
 
 
 @pytest.mark.parametrize(
