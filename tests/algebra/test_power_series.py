@@ -184,7 +184,7 @@ def polynomial(coefficients: list[int]) -> sp.Expr:
     return sp.Add(*(c * e**k for k, c in enumerate(coefficients)))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(COEFFICIENTS, st.sampled_from([sin, cos, exp, atan, lambda u: 1 / (2 + e * u), lambda u: sqrt(1 + e * u)]))
 def test_against_sympy_for_random_polynomials(coefficients: list[int], function: type[sp.Function]) -> None:
     expression = polynomial(coefficients) * function(polynomial([0, *coefficients]))

@@ -50,7 +50,7 @@ def test_two_rotors_without_load_are_the_pair(link, model) -> None:
     assert np.abs(run.axes - other.axes).max() > 1e-7
 
 
-@pytest.mark.parametrize("name", LOADED)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n == "a pair" else n for n in LOADED])
 def test_under_load_it_is_what_lagranges_equations_say(name) -> None:
     s = LOADED[name]
     run = s.simulate(np.linspace(0, 1, 11), **started(s), tol=1e-10)

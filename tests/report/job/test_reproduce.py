@@ -1,13 +1,15 @@
 """The main job: the same bytes from the same inputs, and a second run that takes what has not changed."""
 
+import itertools
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from subprocess import PIPE
 
 import pytest
 
@@ -16,10 +18,11 @@ from lagrotor.report.job.folder import CONTENTS, MADE, PRODUCTS, TIMES
 
 ROOT = Path(lagrotor.__file__).parent.parent
 LARGEST = 5_000_000  # bytes of the page
-# One section, the claims of another, a figure; `lines` may change anything before the run.
-SUBSET = """
-import sys
+# Where a run begins, and what makes the job a part of itself: one section, the claims of another, two figures.
+IMPORTS = """
+import json, os, sys, traceback
 from pathlib import Path
+import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, scipy.integrate
 from lagrotor.commands import terminal
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import Scripts
@@ -28,28 +31,68 @@ from lagrotor.report import content, results
 from lagrotor.report.job import reach, reproduce
 from lagrotor.report.page import whole_page as page
 from lagrotor.report.interactive import interactive
+"""
+SUBSET = """
 kept = {"s2a_angular_momentum", "s3e_link", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
 names = Scripts.names
 Scripts.names = lambda scripts, kind, prefix="": [name for name in names(scripts, kind, prefix) if name in kept]
 interactive.interactive = lambda: '<section id="model"><h2>The model</h2></section>'
-LINES
-made = reproduce.reproduce(PAPER, Path(sys.argv[1]), terminal.progress, 1)
-print(len(made.taken), *made.taken)
 """
+# A line is a run: report, file for what it prints, lines that may change anything before it. Each is in a process of its
+# own, a copy of this one, which has imported everything.
+RUNS = """
+for line in sys.stdin:
+    target, said, lines = json.loads(line)
+    run = os.fork()
+    if run:
+        print(os.waitstatus_to_exitcode(os.waitpid(run, 0)[1]), flush=True)
+        continue
+    status = 1
+    try:
+        for number, name in ((1, "out"), (2, "err")):
+            os.dup2(os.open(f"{said}.{name}", os.O_CREAT | os.O_WRONLY), number)
+        exec(lines)
+        made = reproduce.reproduce(PAPER, Path(target), terminal.progress, 1)
+        print(len(made.taken), *made.taken, flush=True)
+        status = 0
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(status)
+"""
+Run = Callable[..., str]
 
 
-def run(target: Path, seed: int, lines: str = "", source: str = SUBSET) -> str:
-    """Run the job in a process of its own; what it prints."""
-    done = subprocess.run(
-        [sys.executable, "-c", source.replace("LINES", lines), str(target)],
-        env=os.environ | {"PYTHONHASHSEED": str(seed), "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr[-2000:]
-    assert all(re.fullmatch(r"\[\d+/\d+\] +\d+ s  .*", line) for line in done.stderr.splitlines()), "a line a step"
-    return done.stdout
+def runs_with(seed: int, folder: Path) -> Iterator[Run]:
+    """`run(target, lines)` with that seed of the hashes: the job in a process of its own; what it prints."""
+    command = [sys.executable, "-c", IMPORTS + RUNS]
+    environment = os.environ | {"PYTHONHASHSEED": str(seed), "PYTHONPATH": str(ROOT)}
+    count = itertools.count()
+    with subprocess.Popen(command, env=environment, stdin=PIPE, stdout=PIPE, text=True) as process:
+        requests, answers = process.stdin, process.stdout
+        assert requests and answers
+
+        def run(target: Path, lines: str = "", part: str = SUBSET) -> str:
+            said = folder / f"run{next(count)}"
+            print(json.dumps([str(target), str(said), part + lines]), file=requests, flush=True)
+            status = answers.readline()
+            error = said.with_suffix(".err").read_text(encoding="utf-8")
+            assert status == "0\n", error[-2000:]
+            assert all(re.fullmatch(r"\[\d+/\d+\] +\d+ s  .*", line) for line in error.splitlines()), "a line a step"
+            return said.with_suffix(".out").read_text(encoding="utf-8")
+
+        yield run
+
+
+@pytest.fixture(scope="module")
+def run_first(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
+    yield from runs_with(1, tmp_path_factory.mktemp("one"))
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
+    """With another seed than that of the first report."""
+    yield from runs_with(2, tmp_path_factory.mktemp("two"))
 
 
 def held(target: Path) -> dict[str, bytes]:
@@ -60,21 +103,21 @@ def held(target: Path) -> dict[str, bytes]:
 
 
 @pytest.fixture(scope="module")
-def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def first(run_first: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
     target = tmp_path_factory.mktemp("first") / "report"
-    assert run(target, 1).startswith("0")
+    assert run_first(target).startswith("0")
     return target
 
 
-def test_the_same_inputs_give_the_same_bytes(first: Path, tmp_path: Path) -> None:
-    run(tmp_path / "report", 2)
+def test_the_same_inputs_give_the_same_bytes(first: Path, run: Run, tmp_path: Path) -> None:
+    run(tmp_path / "report")
     assert held(tmp_path / "report") == held(first)
 
 
-def test_what_hangs_on_the_hash_seed_is_seen(first: Path, tmp_path: Path) -> None:
+def test_what_hangs_on_the_hash_seed_is_seen(first: Path, run: Run, tmp_path: Path) -> None:
     report = Path(shutil.copytree(first, tmp_path / "report"))
     (report / "index.html").write_text("edited")  # the page alone is made anew
-    run(report, 2, 'page.balance = lambda report: " ".join({"one", "two", "three", "four", "five"})')
+    run(report, 'page.balance = lambda report: " ".join({"one", "two", "three", "four", "five"})')
     other, same = held(report), held(first)
     assert {name for name in same if other[name] != same[name]} == {"index.html"}
 
@@ -86,37 +129,36 @@ def test_durations_are_in_one_file(first: Path) -> None:
         assert all("seconds" not in entry for entry in json.loads((first / name).read_text()))
 
 
-def test_a_second_run_takes_everything_and_touches_nothing(first: Path) -> None:
+def test_a_second_run_takes_everything_and_touches_nothing(first: Path, run: Run) -> None:
     before = {path: path.stat().st_mtime_ns for path in first.rglob("*")}
-    assert run(first, 3) == "1 report\n"
+    assert run(first) == "1 report\n"
     assert {path: path.stat().st_mtime_ns for path in first.rglob("*")} == before
 
 
-def test_what_is_damaged_is_made_anew(first: Path) -> None:
+def test_what_is_damaged_is_made_anew(first: Path, run: Run) -> None:
     good = held(first)
     (first / "figures" / "fig14_euler_angles.svg").write_text("<svg/>")
-    assert "figure 14" not in run(first, 4)
+    assert "figure 14" not in run(first)
     assert held(first) == good
     (first / "index.html").write_text("edited")
-    assert run(first, 5).startswith("8 derivation")
+    assert run(first).startswith("8 derivation")
     assert held(first) == good
 
 
-def test_other_versions_make_everything_anew(first: Path) -> None:
+def test_other_versions_make_everything_anew(first: Path, run: Run) -> None:
     good = held(first)
     lines = 'reach.versions = lambda: {"Python": "another"}'
-    assert run(first, 6, lines).startswith("0")
+    assert run(first, lines).startswith("0")
     assert held(first) != good
     assert b"another" in held(first)["index.html"]
 
 
 @pytest.mark.slow
 def test_the_whole_report_is_the_same_twice_and_small(
-    tmp_path: Path, typed_formulas: Callable[[str], list[str]]
+    run_first: Run, run: Run, tmp_path: Path, typed_formulas: Callable[[str], list[str]]
 ) -> None:
-    whole = SUBSET[: SUBSET.index("kept =")] + SUBSET[SUBSET.index("made =") :]
-    for seed in (1, 2):
-        run(tmp_path / f"report{seed}", seed, source=whole)
+    run_first(tmp_path / "report1", part="")
+    run(tmp_path / "report2", part="")
     assert held(tmp_path / "report1") == held(tmp_path / "report2")
     assert len(held(tmp_path / "report1")["index.html"]) <= LARGEST
     assert typed_formulas((tmp_path / "report1" / "index.html").read_text(encoding="utf-8")) == []
