@@ -10,6 +10,7 @@ import pytest
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import throughput
 from lagrotor.benchmark.limits import coordinate_singularities as coordinates
+from lagrotor.benchmark.limits import error_map
 from lagrotor.benchmark.limits import range_of_validity as reach
 from lagrotor.benchmark.limits.coordinate_singularities import (
     euler_limits,
@@ -194,8 +195,11 @@ def test_throughput_counts_what_it_ran(monkeypatch):
 
 
 def test_the_command(tmp_path, capsys, monkeypatch):
-    for name in [n for n in LIMITS if n not in ("projection", "joint line")]:
+    for name in [n for n in LIMITS if n != "joint line"]:
         monkeypatch.delitem(LIMITS, name)
+    found = Limit("an axis near the joint line", "w", "f", 2.0, 3.0, "t")
+    monkeypatch.setitem(LIMITS, "joint line", lambda quick: [found])
+    monkeypatch.setattr(error_map, "usefulness", lambda *at: usefulness(*(grid[-2:] for grid in at), (1, 3)))
     rate = throughput.Throughput("trajectories", "trajectories/s", 1e3, 1.0, "itself")
     monkeypatch.setattr(throughput, "throughput", lambda n: [rate])
     assert main(["stability", "--quick", "--json", "--out", str(tmp_path)]) == 0

@@ -95,10 +95,10 @@ def test_a_start_off_the_orbit_is_in_the_error() -> None:
 def test_where_the_orbit_is_hyperbolic_what_is_foreseen_grows(r0: float, t_end: float) -> None:
     """Over hundreds of turns a start that is off by the series' last terms parts from the orbit."""
     scene, times = series_orbit(Scene((-5.1, 5.1), link=Link(1.3, 0.5, 0.2)), r0, 15).start, np.linspace(0, t_end, 60)
-    exact = integrated(minimal.MODEL, scene, times, 1e-12).seen.axes
+    exact = integrated(minimal.MODEL, scene, times, 1e-9).seen.axes  # told.error is above 1e-4
     for best in (False, True):
         told = closed_form(scene, t_end, 1e-4, best)
-        assert np.linalg.norm(told.motion(times)[0] - exact, axis=-1).max() < told.error
+        assert np.linalg.norm(told.motion(times)[0] - exact, axis=-1).max() < told.error > 1e-4
     if t_end > 300:  # a slip that large says only that two axes are at most opposite
         assert told.error == 2.0
         assert "estimated error 2.0, more than tol" in simulate(scene, times, "closed_form", 1e-4).why

@@ -238,7 +238,13 @@ CHECKS = {check.__name__.removeprefix("check_"): check for check in (
 
 @pytest.mark.parametrize("check", CHECKS)
 @pytest.mark.parametrize(
-    ("model", "name"), [(m, s) for m in MODELS for s in m.scenes], ids=lambda v: getattr(v, "name", v)
+    ("model", "name"),
+    [
+        pytest.param(m, s, marks=pytest.mark.slow if (m.name, s) == ("spring_link", "paired") else ())
+        for m in MODELS
+        for s in m.scenes
+    ],
+    ids=lambda v: getattr(v, "name", v),
 )
 def test_every_model(model: Model, name: str, check: str) -> None:
     if check == "conserved" and not model.conserving:

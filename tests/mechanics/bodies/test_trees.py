@@ -69,7 +69,11 @@ def gyroscopes(n: int) -> System:
     return System(c, L)
 
 
-@pytest.mark.parametrize("system", [pendulum(3), gyroscopes(1), gyroscopes(2)], ids=["pendulum", "gyroscope", "two"])
+@pytest.mark.parametrize(
+    "system",
+    [pendulum(3), gyroscopes(1), pytest.param(gyroscopes(2), marks=pytest.mark.slow)],
+    ids=["pendulum", "gyroscope", "two"],
+)
 def test_chains_move_by_the_recursion_as_by_their_mass_matrix(system: System) -> None:
     for seed in (1, 2):
         assert_same_motion(system, seed)
@@ -116,8 +120,12 @@ JOINTS = {
 }
 
 
+# Of those that take three coordinates and more; two coordinates in one matrix are in the fast suite.
+SEVERAL = ("a ball joint, Euler angles", "a floating base")
+
+
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow) if name == "a floating base" else name for name in JOINTS]
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name in SEVERAL else name for name in JOINTS]
 )
 def test_joints_of_several_coordinates_and_of_time_move_as_their_mass_matrix(name: str) -> None:
     """Each between the ground and an arm with a second arm on it."""
