@@ -6,6 +6,7 @@ from lagrotor.numerics.solver_constants import Calibrated
 
 _WIDE = "300 wide scenes of up to 100 turns against 80-bit integrations, core and fast"
 _BEYOND = "test_estimated.py::test_where_two_runs_have_parted_the_rest_is_cheap"
+_COST = "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung"
 _TRIAL = "test_wide_scenes.py::test_no_miss_is_silent"
 TABLE = {
     "APART": Calibrated(
@@ -20,6 +21,18 @@ TABLE = {
         "tolerance of the first companion over the wanted error",
         f"{_WIDE}: 19 of 20 need no other",
         _TRIAL,
+    ),
+    "SHORTEST": Calibrated(
+        400.0,
+        "ten turns over the run beyond which the tolerance of the first companion no longer grows with their ratio",
+        "554 wide scenes of up to 11 turns: local errors gather to less than in proportion in nine of ten",
+        _COST,
+    ),
+    "MORE": Calibrated(
+        3.0,
+        "evaluations of a run over those of a looser one beyond which rounding is all that it resolves",
+        "554 wide scenes of up to 11 turns",
+        _COST,
     ),
     "LOOSEST": Calibrated(
         0.1,
@@ -70,7 +83,7 @@ TABLE = {
     ),
 }
 OPPOSITE = 2.0  # the most by which two axes differ: an error of which nothing is known
-APART, CLEARLY, FIRST, LOOSEST, GIVEN_UP, LOST, ROUNDING, STAGE, BEYOND, KEPT, *_REST = (
+APART, CLEARLY, FIRST, SHORTEST, MORE, LOOSEST, GIVEN_UP, LOST, ROUNDING, STAGE, BEYOND, KEPT, *_REST = (
     entry.value for entry in TABLE.values()
 )
 LINEAR_MARGIN, GATHERED, SHORT = _REST

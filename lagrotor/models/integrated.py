@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,15 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
-PATIENCE = 20_000
+
+class Patience(NamedTuple):
+    """Evaluations that a run may take: `begin` in all, and `radian` more for each radian of the scene's typical rate."""
+
+    begin: float
+    radian: float
+
+
+BY_NAME = Patience(20_000, 250)
 BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
 
 
@@ -36,17 +44,17 @@ def problem_of(
     t_end: float,
     bounded: bool = False,
     start: Array | None = None,
-    patience: int = PATIENCE,
+    patience: Patience = BY_NAME,
 ) -> Problem:
     """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
 
-    start: the model's state at t = 0, where it is not that of the scene; patience: evaluations besides 250 a radian.
+    start: the model's state at t = 0, where it is not that of the scene.
     """
     shock, rate = scene.shock, typical_rate(scene)
     return Problem(
         free=model.rate(scene, False, bounded),
         start=model.start(scene) if start is None else start,
-        max_nfev=patience + 250 * rate * t_end,
+        max_nfev=patience.begin + patience.radian * rate * t_end,
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
         width=shock.width if shock else 0.0,
@@ -65,12 +73,12 @@ def integrated(
     bounded: bool = False,
     companion: bool = False,
     start: Array | None = None,
-    patience: int = PATIENCE,
+    patience: Patience = BY_NAME,
 ) -> Integrated:
     """The model's run at increasing `times` (n,) in s, with a local error `tol` as `integrate` has it.
 
     companion: from a start that is off by rounding, and by steps that a run without it does not take. start: the model's
-    state at t = 0, where it is not that of the scene. patience: evaluations that it may take besides 250 a radian.
+    state at t = 0, where it is not that of the scene.
 
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.

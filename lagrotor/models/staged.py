@@ -12,38 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.conserved import PulseNodes, pulse_nodes
-from lagrotor.models.estimate_constants import STAGE
-from lagrotor.models.integrated import PATIENCE, Integrated, integrated
+from lagrotor.models.estimate_constants import MORE, STAGE
+from lagrotor.models.integrated import BY_NAME, Integrated, Patience, integrated
 from lagrotor.models.model import Array, Model, Observed
 from lagrotor.models.natural_units import PACE
 from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 
 _SAMPLES = 65  # times of a stage at which a run is watched besides those it is read at
-_TIGHT = 1e-11  # a local error below which many evaluations are no sign that rounding is all that is left to resolve
-
-
-@dataclass(frozen=True, eq=False)
-class Watched:
-    """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user.
-
-    stages: the times of each of the parts in which it is integrated. patience: as `integrated` has it. spent: evaluations
-    of what was integrated so far.
-    """
-
-    model: Model
-    scene: Scene
-    stages: tuple[Array, ...]
-    read: NDArray[np.intp]
-    nodes: PulseNodes | None
-    engine: str
-    bounded: bool
-    patience: int
-    spent: list[int] = field(default_factory=list)
-
-    @property
-    def t_end(self) -> float:
-        return float(self.stages[-1][-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,8 +31,33 @@ class StagedRun:
     stages: list[Integrated] = field(default_factory=list)
 
 
+@dataclass(frozen=True, eq=False)
+class Watched:
+    """A model on a scene in natural units, and the times at which it is watched; `read` marks those of the user.
+
+    stages: the times of each of the parts in which it is integrated. patience: as `integrated` has it. So far: spent, the
+    evaluations; refused, the local errors at which a run stopped; runs, those that were begun.
+    """
+
+    model: Model
+    scene: Scene
+    stages: tuple[Array, ...]
+    read: NDArray[np.intp]
+    nodes: PulseNodes | None
+    engine: str
+    bounded: bool
+    patience: Patience
+    spent: list[int] = field(default_factory=list)
+    refused: list[float] = field(default_factory=list)
+    runs: dict[tuple[float, bool], StagedRun] = field(default_factory=dict)
+
+    @property
+    def t_end(self) -> float:
+        return float(self.stages[-1][-1])
+
+
 def watch(
-    model: Model, scene: Scene, times: Array, engine: str, bounded: bool = False, patience: int = PATIENCE
+    model: Model, scene: Scene, times: Array, engine: str, bounded: bool = False, patience: Patience = BY_NAME
 ) -> Watched:
     """The model on a scene in natural units, watched at the user's times (n,) and others, the pulse's nodes among them."""
     t_end = float(times[-1])
@@ -70,20 +71,30 @@ def watch(
     return Watched(model, scene, tuple(stages), np.searchsorted(t, times), nodes, engine, bounded, patience)
 
 
-def seen_in(watched: Watched, run: StagedRun, n: int) -> Observed:
-    """What is observed in stage n of a run, integrated if it is not yet. Raises what `integrated` does."""
+def run_of(watched: Watched, tol: float, companion: bool) -> StagedRun:
+    """The run at a local error `tol`, with the stages that are known of it."""
+    return watched.runs.setdefault((tol, companion), StagedRun(tol, companion))
+
+
+def seen_in(watched: Watched, run: StagedRun, n: int, beside: StagedRun | None = None) -> Observed:
+    """What is observed in stage n of a run, integrated if it is not yet. Raises what `integrated` does.
+
+    beside: a looser run of that stage; it may take MORE times as many evaluations.
+    """
     while len(run.stages) <= n:
         i, scene = len(run.stages), watched.scene
         begin, start = (float(watched.stages[i - 1][-1]), run.stages[-1].end) if i else (0.0, None)
         t, shock = watched.stages[i] - begin, scene.shock and replace(scene.shock, at=scene.shock.at - begin)
         scene = replace(scene, shock=shock)
         scene = replace(scene, shock=scene.shock_until(float(t[-1])))
-        patience = watched.patience if run.tol > _TIGHT else PATIENCE
+        begun = max(watched.patience.begin, MORE * beside.stages[i].nfev if beside else 0)
+        patience = Patience(begun, watched.patience.radian)
         how = (watched.engine, watched.bounded, run.companion, start, patience)
         try:
             found = integrated(_begun(watched.model, begin), scene, t, run.tol, *how)
         except StopError as stopped:
             watched.spent.append(stopped.nfev)
+            watched.refused.append(run.tol)
             raise StopError(begin + stopped.at, stopped.reason) from None
         watched.spent.append(found.nfev)
         run.stages.append(found)

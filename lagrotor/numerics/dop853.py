@@ -5,6 +5,7 @@ import numpy as np
 from lagrotor.numerics.segment import Run, Segment, StopError
 
 _TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
+_PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
 
 
@@ -30,7 +31,8 @@ def dop853(segment: Segment, error: float) -> Run:
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             raise StopError(solver.t, message or "a value is not finite", nfev=solver.nfev)
-        if solver.nfev > segment.max_nfev:
+        share = (solver.t - segment.left) / (segment.right - segment.left)
+        if solver.nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev):
             raise StopError(solver.t, f"{solver.nfev} evaluations spent", nfev=solver.nfev)
         reached = int(np.searchsorted(t_eval, solver.t, side="right"))
         if reached > done:

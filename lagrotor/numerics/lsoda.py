@@ -32,9 +32,9 @@ def lsoda(segment: Segment, error: float) -> Run:
             end, nfev = segment.project(run.end), nfev + run.nfev + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError as stopped:
-            if cut < longest_cut / 2 or nfev + _MAX_NFEV_PART > segment.max_nfev:
+            drifted, nfev = np.inf, nfev + stopped.nfev
+            if cut < longest_cut / 2 or nfev > segment.max_nfev:
                 raise StopError(left, stopped.reason, _read(segment, found, y, nfev)) from None
-            drifted, nfev = np.inf, nfev + _MAX_NFEV_PART
         if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
             longest_cut = cut / 8
             if longest_cut < 1e-6 * (segment.right - segment.left):
@@ -76,21 +76,24 @@ def _up_to_singular(part: Segment, max_nfev: float, error: float) -> tuple[Segme
 def _lsoda(segment: Segment, error: float) -> Run:
     from scipy.integrate import odeint
 
-    left, right, lost = segment.left, segment.right, False
+    left, right, spent, lost = segment.left, segment.right, 0, False
 
     def watched(s: float, y: Array) -> list[float]:
         # LSODA takes NaN for a number and may step over where it came from; DOP853 does not.
-        nonlocal lost
+        nonlocal spent, lost
         velocity = segment.rhs(s, y)
-        lost = lost or velocity[0] != velocity[0]
+        spent, lost = spent + 1, lost or velocity[0] != velocity[0]
+        if lost or spent > segment.max_nfev:
+            raise ValueError
         return velocity
 
+    bare = getattr(segment.rhs, "bare", None)
     first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             states, log = odeint(
-                getattr(segment.rhs, "bare", watched),
+                bare or watched,
                 segment.start,
                 np.concatenate([[left], segment.t_eval, [right]]),
                 tfirst=True,
@@ -102,9 +105,10 @@ def _lsoda(segment: Segment, error: float) -> Run:
                 mxstep=int(min(segment.max_nfev, 2**30)) + 1,
             )
     except LOST:
-        raise StopError(left, "the right-hand side is not finite") from None
-    if lost or log["message"] != "Integration successful." or not np.isfinite(states).all():
-        raise StopError(left, "the right-hand side is not finite" if lost else log["message"])
+        reason = "the right-hand side is not finite" if bare or lost else f"{spent} evaluations spent"
+        raise StopError(left, reason, nfev=spent) from None
+    if log["message"] != "Integration successful." or not np.isfinite(states).all():
+        raise StopError(left, log["message"], nfev=spent)
     nfev = int(log["nfe"][-1]) + 1  # of a run that failed the count is not set
     if nfev > segment.max_nfev:
         raise StopError(right, f"{nfev} evaluations spent", nfev=nfev)

@@ -180,6 +180,35 @@ def test_a_run_that_stops_says_what_it_cost() -> None:
         assert 0.1 * spent[0] < stopped.value.nfev <= spent[0]
 
 
+def jittery(calls: list[float]):  # type: ignore[no-untyped-def]
+    """A right-hand side known to three digits only: no step is short enough for a tight tolerance. Its times are kept."""
+    digits = np.random.default_rng(0)
+
+    def rhs(s: float, y: Array) -> list[float]:
+        calls.append(s)
+        return [y[1], -y[0] * (1 + 1e-3 * digits.random())]
+
+    return rhs
+
+
+@pytest.mark.parametrize("engine", [lsoda, dop853])
+def test_a_solver_that_stops_has_counted_all_that_it_spent(engine) -> None:
+    calls = list[float]()
+    with pytest.raises(StopError) as stopped:
+        engine(Segment(jittery(calls), np.array([1.0, 0.0]), 0.0, 20.0, TIMES, max_nfev=2_000), 1e-12)
+    assert 1_900 < stopped.value.nfev == pytest.approx(len(calls), abs=3)
+
+
+def test_a_solver_that_does_not_get_on_stops_before_all_is_spent() -> None:
+    """Twin: what gets on with its run may spend as much as the run is allowed."""
+    calls = list[float]()
+    with pytest.raises(StopError) as stopped:
+        dop853(Segment(jittery(calls), np.array([1.0, 0.0]), 0.0, 2e3, TIMES, max_nfev=200_000), 1e-12)
+    assert stopped.value.nfev < 6_000 and stopped.value.at < 1
+    run = dop853(Segment(oscillate, np.array([1.0, 0.0]), 0.0, 2e3, TIMES, max_nfev=200_000), 1e-8)
+    assert run.nfev > 20_000
+
+
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])
 def test_no_step_passes_a_singular_position(engine) -> None:
     """A straight motion through it feels nothing: only the time that is left until then shortens the steps."""
