@@ -20,10 +20,12 @@ from lagrotor.models.estimate_constants import (
     FIRST,
     GIVEN_UP,
     KEPT,
+    LEAST,
     LOOSEST,
     LOST,
     OPPOSITE,
     ROUNDING,
+    SAFETY,
     SHORTEST,
 )
 from lagrotor.models.integrated import Patience
@@ -35,7 +37,7 @@ from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.pair.scene import Scene
 
-_PATIENCE = Patience(1_000, 500)  # of a run that a looser one may replace: five times as many kept none of 554 scenes more
+_PATIENCE = Patience(1_000, 500)  # of a run that a looser one may replace: five times as many serve no scene better
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +165,10 @@ def _compared(watched: Watched, loose: StagedRun, tight: StagedRun) -> _Pair:
     parts, faster, lost = list[Array](), 0.0, inf
     for n, t in enumerate(watched.stages):
         one, other = seen_in(watched, loose, n), seen_in(watched, tight, n, loose)
-        parts.append(np.linalg.norm(one.axes - other.axes, axis=-1).max(axis=0) + ROUNDING * (1 + PACE * t / (2 * pi)))
+        apart = SAFETY * np.linalg.norm(one.axes - other.axes, axis=-1).max(axis=0)
+        if watched.refused:  # rounding is nearly all that both resolve
+            apart = SAFETY * apart
+        parts.append(np.maximum(apart, LEAST * tight.tol) + ROUNDING * (1 + PACE * t / (2 * pi)))
         faster = max(faster, float(np.abs(one.rates - other.rates).max()))
         lost = _first(t, parts[-1] > LOST)
         if lost < inf:
