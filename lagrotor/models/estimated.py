@@ -1,8 +1,8 @@
 """Runs with an estimated error: two integrations at different tolerances, held to what the motion conserves.
 
-The difference of the two bounds the error of the better one. It is also how far neighbouring motions part: where it exceeds
-what was promised, the run has reached its horizon. Where it exceeds LOST, nothing is known any more: there the comparison
-ends, and the better run goes on alone.
+Twice the difference of the two is taken for the error of the better one, four times where rounding keeps a tighter run from
+its end. It is also how far neighbouring motions part: where it exceeds what was promised, the run has reached its horizon.
+Where it exceeds LOST, nothing is known any more: there the comparison ends, and the better run goes on alone.
 """
 
 from dataclasses import dataclass, replace
