@@ -131,7 +131,7 @@ verdict(
 push = [R * F.dot(r_hat.diff(angle)) for angle in ROTOR.q]
 motion = dict(zip(ROTOR.a, accelerations(rotor_lagrangian(), ROTOR, push), strict=True))
 prove(
-    total_derivative(spin, ROTOR).subs(motion),
+    total_derivative(spin, ROTOR).xreplace(motion),
     0,
     "ω is conserved: a force on the axis has no moment about it",
     names=r"\dot\omega",
@@ -142,7 +142,7 @@ prove(
 
 # %%
 prove(
-    rate(angular_momentum(spin)).subs(motion),
+    rate(angular_momentum(spin)).xreplace(motion),
     R * r_hat.cross(F),
     "the torque is the rate of the angular momentum, exactly",
     written=r"\dot{\vec L} = R\,\hat r\times\vec F",

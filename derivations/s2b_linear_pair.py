@@ -42,7 +42,7 @@ scaled = upright | {s: eps * s for s in [*tilts, *pull, F[0], F[1]]}
 
 def linearised(expression):
     """The part of first order in the tilts and the forces."""
-    return expression.subs(scaled, simultaneous=True).diff(eps).subs(eps, 0)
+    return expression.subs(scaled, simultaneous=True).diff(eps).xreplace({eps: sp.S.Zero})
 
 
 linear = linearised(balance)

@@ -76,7 +76,7 @@ Formula(rate_1, r"\dot{\hat r}_1")
 together = dict(zip([*r_2, *a_2], [*r, *a_1], strict=True))
 bracket = (omega_1 + omega_2) * f - (omega_1 - omega_2) * (shared / 2 - J / R * a_1)
 prove(
-    I3 * omega_1 * omega_2 * (rate_1 - rate_2).subs(together),
+    I3 * omega_1 * omega_2 * (rate_1 - rate_2).xreplace(together),
     cross(r, bracket),
     "the difference of the rates of two parallel axes",
     written=(
@@ -94,7 +94,7 @@ prove(
 along_r = sp.Symbol("lambda_r", real=True)
 f_parallel = (omega_1 - omega_2) / (omega_1 + omega_2) * (shared / 2 - J / R * a_1) + along_r * r
 prove(
-    (rate_1 - rate_2).subs(dict(zip(f, f_parallel, strict=True))).subs(together),
+    (rate_1 - rate_2).xreplace(dict(zip(f, f_parallel, strict=True))).xreplace(together),
     sp.zeros(3, 1),
     "with this f both axes turn alike",
     written=r"\dot{\vec r}_1 - \dot{\vec r}_2 = 0",

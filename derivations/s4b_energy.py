@@ -80,8 +80,8 @@ lengths = coordinates("s_1 s_2 s_3 s_4")
 held = sum(S * s**2 / 2 for s in lengths.q)
 rates = components([*velocities, *turns])
 bodies = coordinates([f"q_{i}" for i in range(len(rates))])
-lagrangian = (sum(K) - held).subs(dict(zip(rates, bodies.v, strict=True)))
-total = energy(lagrangian, bodies).subs(dict(zip(bodies.v, rates, strict=True)))
+lagrangian = (sum(K) - held).xreplace(dict(zip(rates, bodies.v, strict=True)))
+total = energy(lagrangian, bodies).xreplace(dict(zip(bodies.v, rates, strict=True)))
 prove(
     total,
     sum(K) + held,

@@ -43,7 +43,7 @@ p = momenta(system.L, PAIR)
 A, B = p[1] - p[4], p[2] - p[5]
 ansatz = [opposite_azimuths(), opposite_spin_angles()]
 on_ansatz = {left: right for premise in ansatz for left, right in premise.put.items()}
-ansatz_lagrangian, of_ansatz_A, of_ansatz_B = (e.subs(on_ansatz, simultaneous=True) for e in (system.L, A, B))
+ansatz_lagrangian, of_ansatz_A, of_ansatz_B = (e.xreplace(on_ansatz) for e in (system.L, A, B))
 prove(
     (ansatz_lagrangian.diff(phi_v), ansatz_lagrangian.diff(psi_v)),
     (of_ansatz_A, of_ansatz_B),

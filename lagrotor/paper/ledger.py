@@ -131,7 +131,7 @@ def _weakest(found: list[_Finding]) -> _Finding:
 
 def _single(relation: Relation) -> _Finding:
     if relation.scene:
-        there = {side: getattr(relation, side).subs(relation.scene) for side in ("printed", "derived")}
+        there = {side: getattr(relation, side).xreplace(relation.scene) for side in ("printed", "derived")}
         return _single(replace(relation, scene={}, **there))
     if relation.within is not None:
         ratio = _constant(relation.printed / relation.derived)

@@ -57,7 +57,7 @@ def parameter_premise(
 def written_out(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
     """The expression with each letter replaced by what it stands for, one after the other: later ones may be in earlier."""
     for letter, meaning in meanings.items():
-        expression = expression.subs(letter, meaning)
+        expression = expression.xreplace({letter: sp.sympify(meaning)})
     return expression
 
 
