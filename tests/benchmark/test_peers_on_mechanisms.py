@@ -73,8 +73,12 @@ def test_two_formulations_are_decided(name: str) -> None:
     assert left.same_as(right).answer == ("nonzero" if "another" in name else "zero")
 
 
-def test_simplify_is_given_its_time_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.slow
+def test_simplify_in_time() -> None:
     assert deciding._by_simplify("heavy top, from a body and the textbook's")[1] == "zero"
+
+
+def test_simplify_is_given_its_time_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(deciding, "LONGEST", 0.01)
     assert deciding._by_simplify("triple pendulum, relative and absolute angles") == (0.01, "did not end")
 

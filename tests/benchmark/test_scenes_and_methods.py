@@ -87,6 +87,7 @@ def small() -> Case:
     return Case(displaced(), np.linspace(0, 1, 11), 1, "one second")
 
 
+@pytest.mark.slow  # what they are is in tests/models/test_spring_link
 def test_springs_end_at_their_finite_stiffness_and_refuse_a_bar_without_mass() -> None:
     heavy = replace(CASES["heavy"](True), t_eval=np.linspace(0, 1, 11), repeats=0)
     named = [name for name, method in METHODS.items() if method.family == "springs"]

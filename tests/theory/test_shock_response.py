@@ -42,7 +42,7 @@ def coordinates(run):
     return np.stack([run.axes[0, :, 0], run.axes[0, :, 1], run.axes[1, :, 1]], -1)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(scenes(0.3))
 def test_error_falls_as_square(scene):
     times = np.linspace(0.1, 1.8, 41)

@@ -16,7 +16,7 @@ from lagrotor.report.page.embed import embedded, lean_svg, size
 
 # With 39 figures of this size the page would still be under 5 MB; most are half of it.
 LARGEST = 100_000
-DRAWN = ("3", "14", "16", "25")
+DRAWN = ("3", "14", "16", "18")
 STEP = re.compile(r"([MLQCzmlqc])([^MLQCzmlqc]*)")
 
 
