@@ -296,7 +296,7 @@ def test_equal_rotors_started_alike_are_one_rotor(model: str, link: Link) -> Non
     assert np.abs(opposite.axes[0] - expected).max() > 1e-2
 
 
-@pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-9, 1e-11])
+@pytest.mark.parametrize("tol", [1e-4, 1e-11, *(pytest.param(tol, marks=pytest.mark.slow) for tol in (1e-6, 1e-9))])
 def test_a_run_into_the_dead_point_stops_at_every_tolerance(tol: float) -> None:
     """Exactly planar toppling along the bar meets r_1 = r_2 = e_x, where the constraints are dependent. A loose step used
     to jump over it onto a branch that a side force of any size denies; at none may it pass in silence."""
