@@ -75,11 +75,13 @@ def _write(s: Any, out: Path, duration: float) -> None:
 
 
 def _summary(s: Any) -> dict[str, Any]:
+    rotors, bars = len(s.joints), len(s.bars)
+    found: dict[str, Any] = {"rotors": rotors, "bars": bars, "freedoms": 2 * rotors - bars}
+    if not s.natural:
+        why = "upright, a bar is not as long as its tips are apart; a film shows how it moves (--out FILE.gif)"
+        return found | {"stands": None, "why": why}
     standing, modes = s.stands(), s.modes()
-    return {
-        "rotors": len(s.joints),
-        "bars": len(s.bars),
-        "freedoms": len(modes.rates),
+    return found | {
         "stands": standing.stands,
         "why": standing.why,
         "growth": standing.growth,
@@ -92,20 +94,14 @@ def _summary(s: Any) -> dict[str, Any]:
 def _table(found: dict[str, Any]) -> str:
     from lagrotor.commands.terminal import table
 
+    verdict = {True: "yes", False: "no", None: "not judged"}[found["stands"]]
+    rows = [("stands", f"{verdict}: {found['why']}")]
+    freedoms = f"{found['freedoms']}; rotors: {found['rotors']}, bars: {found['bars']}"
+    if found["stands"] is None:
+        return table(("structure", ""), [*rows, ("freedoms", freedoms)])
     factor = found["critical_spin"]
-    rows = [
-        ("stands", ("yes: " if found["stands"] else "no: ") + found["why"]),
-        (
-            "least spin",
-            "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed",
-        ),
-        (
-            "freedoms",
-            f"{found['freedoms']} of {found['rotors']} rotors under {found['bars']} bars; {found['topple']} modes grow",
-        ),
-        *(
-            (f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s")
-            for k, m in enumerate(found["modes"], 1)
-        ),
-    ]
+    least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
+    modes = enumerate(found["modes"], 1)
+    rows += [("least spin", least), ("freedoms", f"{freedoms}; modes that grow: {found['topple']}")]
+    rows += [(f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s") for k, m in modes]
     return table(("structure", ""), rows)

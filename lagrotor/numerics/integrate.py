@@ -48,7 +48,7 @@ class Solution:
 
 def check_tolerance(tol: float) -> float:
     """`tol` as a float, refused outside [1e-13, 0.1]."""
-    if not (isinstance(tol, int | float) and TIGHTEST <= tol <= 0.1):
+    if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
         raise InputError(f"simulate: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
     return float(tol)
 

@@ -40,22 +40,21 @@ def structure_picture(s: Assembly) -> Figure:
         plan, roots = figure.subplots(1, 2, width_ratios=(1.2, 1))
         draw_plan(plan, s)
         roots.set(xlabel="growth [1/s]", ylabel="rate [rad/s]", title="Roots of small motion")
-        if s.natural:
-            found, standing = small_motion(s).roots[0], stands(s)
-            for grows, ink in ((False, MODEL), (True, PAPER)):
-                part = found[(found.real > 0) == grows]
-                roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
-            roots.margins(0.15)
-            roots.axvline(0, color=INK, linewidth=0.8)
-            factor = standing.critical_spin
-            least = (
-                "no spins hold it"
-                if factor == inf
-                else f"stands from {factor:.4g} times its spins on"
-                if factor
-                else "stands"
-            )
-            figure.suptitle(("Stands" if standing.stands else "Does not stand") + f"; {least}")
+        if not s.natural:
+            roots.set_axis_off()
+            reason = "None about upright:\nthere a bar is not as long\nas its tips are apart"
+            roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
+            return figure
+        found, standing = small_motion(s).roots[0], stands(s)
+        for grows, ink in ((False, MODEL), (True, PAPER)):
+            part = found[(found.real > 0) == grows]
+            roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
+        roots.margins(0.15)
+        roots.axvline(0, color=INK, linewidth=0.8)
+        factor = standing.critical_spin
+        least = f"; it does from {factor:.4g} times its spins on" if factor else ""
+        least = "; no multiple of its spins holds it" if factor == inf else least
+        figure.suptitle(("Stands" if standing.stands else "Does not stand") + least)
     return figure
 
 

@@ -64,7 +64,11 @@ def _why(linear: SmallMotion, factor: float) -> str:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
         if not n:
             return "the bars leave no freedom"
-        held = "its springs hold it" if K[0] > 1e-12 else "nothing pulls at it, and the spins stop a push"
+        held = (
+            "springs or a hanging weight hold it"
+            if K[0] > 1e-12
+            else "nothing pulls at it, and spins or friction stop a push"
+        )
         return "every small motion stays bounded: " + (f"the spins hold {falling} of {n} freedoms" if falling else held)
     first = f"{falling} of {n} freedoms fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
     if falling % 2:
@@ -84,7 +88,8 @@ def _why(linear: SmallMotion, factor: float) -> str:
 def critical_spin(s: Assembly) -> float:
     """The factor on all spins from which on the structure stands, at every larger one too.
 
-    0 where it stands without spin, inf where no factor suffices, as with friction on a motion that falls without spins.
+    0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
+    that nothing holds and no spin acts on.
     Raises InputError where upright breaks a bar's length.
     """
     return threshold(small_motion(s))
@@ -93,14 +98,14 @@ def critical_spin(s: Assembly) -> float:
 def threshold(linear: SmallMotion) -> float:
     """`critical_spin` of a linear system."""
     K = np.linalg.eigvalsh(_unit(linear))
-    falling = int((K < -1e-12).sum())
-    if not falling:
-        return 0.0
-    if falling % 2 or np.linalg.eigvalsh(linear.damping)[0] > 0:
-        return inf
-    if falling == len(K) and not linear.damping.any():
-        return _by_branches(linear)
-    return _by_scan(linear)
+    falling, factor = int((K < -1e-12).sum()), 0.0
+    if falling:
+        if falling % 2 or np.linalg.eigvalsh(linear.damping)[0] > 0:
+            return inf
+        if falling == len(K) and not linear.damping.any():
+            return _by_branches(linear)
+        factor = _by_scan(linear)
+    return inf if factor < inf and linear.scaled(2 * factor or 1.0).drifts else factor
 
 
 def _unit(linear: SmallMotion) -> Array:

@@ -72,6 +72,17 @@ def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     assert "none holds it" in capsys.readouterr().out
 
 
+def test_where_a_bar_keeps_it_from_being_upright_the_command_says_what_can_be_done(capsys, tmp_path) -> None:
+    path, picture = tmp_path / "long.toml", tmp_path / "long.png"
+    path.write_text("joints = [[0, 0], [1, 0]]\nbars = [[0, 1, 1.5]]")
+    assert main(["structure", str(path), "--out", str(picture)]) == 0 and picture.exists()
+    assert "not judged: upright, a bar is not as long as its tips are apart" in capsys.readouterr().out
+    assert main(["structure", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["stands"] is None
+    panels = [[text.get_text() for text in s.plot().axes[1].texts] for s in (read_structure(path), example("corner"))]
+    assert "not as long" in panels[0][0] and not panels[1]
+
+
 def test_the_command_draws(tmp_path, capsys) -> None:
     for name in ("square.png", "square.gif"):
         assert main(["structure", "square", "--out", str(tmp_path / name), "--t-end", "0.2"]) == 0

@@ -1,5 +1,6 @@
 """Which structures stand: theorems, closed forms, and the exact motion 3 % under and over each threshold."""
 
+from dataclasses import replace
 from math import inf, sqrt
 
 import numpy as np
@@ -177,3 +178,13 @@ def test_linear_theory_is_about_upright() -> None:
     for ask in (s.modes, s.stands, s.critical_spin, s.characteristic):
         with pytest.raises(InputError, match="upright"):
             ask()
+
+
+@pytest.mark.parametrize("more", [{"spins": 0.0}, {"spins": [30.0, 0.0], "gravity": 9.81, "hinge": [0.0, 9.81 / 2]}])
+def test_what_nothing_holds_does_not_stand_at_any_multiple_of_its_spins(more) -> None:
+    """A rotor without spin whose hinge only carries its weight; a little spin, and it stands."""
+    s = Structure([(0, 0), (1, 0)], **more)
+    assert not s.stands() and "nothing holds" in s.stands().why and s.critical_spin() == inf
+    assert s.plot().get_suptitle() == "Does not stand; no multiple of its spins holds it"
+    held = replace(s, spins=[30.0, 1.0])
+    assert held.stands() and held.critical_spin() < 1 and held.plot().get_suptitle().startswith("Stands")

@@ -1,6 +1,7 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
 import warnings
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -49,7 +50,8 @@ def simulate(
     times, wanted = _times(t), check_tolerance(tol)
     check_engine(engine)
     shape = (len(s.joints), 3)
-    motion = exact_motion(s, _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times))
+    drives = _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times)
+    motion = exact_motion(s, *drives)
     start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
     run = partial(_integrated, s, motion, start, times, engine)
     (coarse, fine), N = run(local), len(s.joints)
@@ -86,6 +88,9 @@ def _integrated(
             return compiled_motion.integrate_series(s, motion, start, rate * times, tols)
         return [_by_right_hand_side(s, motion, start, rate * times, engine, tol) for tol in tols]
     except StopError as stopped:  # at a time without unit
+        for drive in (motion.force, motion.ground):
+            if isinstance(drive, _Checked) and drive.refused:
+                raise InputError(drive.refused) from None
         raise StopError(stopped.at / rate, stopped.reason) from None
 
 
@@ -137,17 +142,41 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
     return found
 
 
+@dataclass
+class _Checked:
+    """A drive that gives NaN, and says why, where what was given for it fails or gives no finite array of its shape."""
+
+    given: Drive
+    name: str
+    shape: tuple[int, ...]
+    refused: str = ""
+
+    def __call__(self, t: float) -> Array:
+        where = f"simulate: {self.name} at t = {t:g}"
+        try:
+            found = finite(where, self.given(t))
+            if found.shape == self.shape:
+                return found
+            self.refused = f"{where} must give an array of shape {self.shape}, not {found.shape}"
+        except InputError as error:
+            self.refused = str(error)
+        except Exception as error:
+            self.refused = f"{where} fails with {error!r}"
+        return np.full(self.shape, np.nan)
+
+
 def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> Drive | None:
     """The drive, tried at t = 0 and at the times of the run."""
     if drive is None:
         return None
     if not callable(drive):
         raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
+    checked = _Checked(drive, name, shape)
     for t in (0.0, *times.tolist()):
-        found = finite(f"simulate: {name} at t = {t:g}", drive(t))
-        if found.shape != shape:
-            raise InputError(f"simulate: {name} must give an array of shape {shape}, at t = {t:g} it is {found.shape}")
-    return drive
+        checked(t)
+        if checked.refused:
+            raise InputError(checked.refused)
+    return checked
 
 
 def _times(t: ArrayLike) -> Array:
