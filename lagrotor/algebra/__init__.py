@@ -1,10 +1,11 @@
-"""Exact algebra: the decision of identities and truncated power series."""
+"""Exact algebra: the decision of identities, derivatives and truncated power series."""
 
 from typing import TYPE_CHECKING
 
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
+    from lagrotor.algebra.differentiation import derivative as derivative
     from lagrotor.algebra.identity import Decision as Decision
     from lagrotor.algebra.identity import decide_equal as decide_equal
     from lagrotor.algebra.identity import decide_zero as decide_zero

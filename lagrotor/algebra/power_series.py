@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
+from lagrotor.algebra.differentiation import derivative
 from lagrotor.algebra.evidence import points, size_at
 from lagrotor.algebra.identity import decide_zero
 from lagrotor.algebra.scalar import scalar
@@ -163,7 +164,7 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
             raise NotExactError(f"{function} is singular at {z} = {u0}")
         total = _plus(total, _Series(0, tuple(value * term for term in power.terms)))
         power = _times(power, v)
-        function = function.diff(z)
+        function = derivative(function, z)
     return total
 
 

@@ -18,12 +18,20 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import decide_zero
+from lagrotor.algebra import decide_zero, derivative
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.expressions import expression, shortest
-from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, singular_mass, t, total_derivative
+from lagrotor.mechanics.lagrangian import (
+    Coordinates,
+    gradient,
+    jacobian,
+    linear_solve,
+    singular_mass,
+    t,
+    total_derivative,
+)
 
 
 @dataclass(frozen=True)
@@ -77,7 +85,7 @@ class Equations:
                     if not e.free_symbols & velocities:
                         raise InputError(f"System: rolling[{i}] = {e} has no velocity: give it to constraints")
                     slope = gradient(e, self.c.v)
-                    if any(decide_zero(entry).answer != "zero" for entry in slope.jacobian(list(self.c.v))):
+                    if any(decide_zero(entry).answer != "zero" for entry in jacobian(slope, self.c.v)):
                         raise InputError(
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
                             "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"
@@ -125,14 +133,13 @@ class Equations:
     @cached_property
     def rows(self) -> sp.Matrix:
         """G, shape (k, n)."""
-        k, n = len(self.residual), len(self.c.q)
-        return sp.Matrix(k, n, lambda i, j: sp.diff(self.residual[i], self.c.v[j]))
+        return jacobian(self.residual, self.c.v)
 
     @cached_property
     def gamma(self) -> sp.Matrix:
         """γ, shape (k, 1), so that the time derivative of `residual` is G a + γ."""
-        still = dict.fromkeys(self.c.a, 0)
-        return self.residual.applyfunc(lambda e: total_derivative(e, self.c).subs(still))
+        still = dict.fromkeys(self.c.a, sp.S.Zero)
+        return self.residual.applyfunc(lambda e: total_derivative(e, self.c).xreplace(still))
 
     @property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
@@ -155,7 +162,7 @@ class Equations:
         """dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers; b as in `Equations`."""
         moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))
         work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
-        by_time = sp.diff(self.L, t)
+        by_time = derivative(self.L, t)
         return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from lagrotor.algebra import decide_zero
+from lagrotor.algebra import decide_zero, derivative
 from lagrotor.errors import InputError, SingularError
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
@@ -59,12 +59,17 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
 
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """The column ∂f/∂s, one row for each symbol."""
-    return sp.Matrix([sp.diff(f, s) for s in symbols])
+    return sp.Matrix([derivative(f, s) for s in symbols])
+
+
+def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    """∂f_i/∂s_j, one row for each f and one column for each symbol."""
+    return sp.Matrix(len(rows), len(symbols), lambda i, j: derivative(rows[i], symbols[j]))
 
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:
     """df/dt = Σ v ∂f/∂q + a ∂f/∂v + ∂f/∂t, along any motion, of an expression f(q, v, t)."""
-    drift = gradient(expression, c.q).dot(c.v) + sp.diff(expression, t)
+    drift = gradient(expression, c.q).dot(c.v) + derivative(expression, t)
     return drift + gradient(expression, c.v).dot(c.a)
 
 
@@ -75,13 +80,13 @@ def momenta(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
     """M = ∂²L/∂v∂v, shape (n, n), symmetric."""
-    return momenta(L, c).jacobian(c.v)
+    return jacobian(momenta(L, c), c.v)
 
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
     """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1): centrifugal, gyroscopic and driving terms, −(potential forces)."""
     p = momenta(L, c)
-    return p.jacobian(c.q) * sp.Matrix(c.v) + p.diff(t) - gradient(L, c.q)
+    return jacobian(p, c.q) * sp.Matrix(c.v) + jacobian(p, [t]) - gradient(L, c.q)
 
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:

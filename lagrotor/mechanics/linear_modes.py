@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import decide_zero, normal_form
+from lagrotor.algebra import decide_zero, derivative, normal_form
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.expressions import by_symbol
-from lagrotor.mechanics.lagrangian import euler_lagrange, t
+from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
 
 _S = sp.Symbol("s")
 
@@ -123,7 +123,7 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
         raise InputError(f"linearise: {', '.join(moving)} moves there and enters the equations: give it no velocity")
     if system.rolling and any(still[v] != 0 for v in c.v):
         raise InputError("linearise: a steady motion under rolling constraints is not linearised: simulate near it")
-    if any(decide_zero(sp.diff(e, t)).answer != "zero" for e in (*motion, *system.residual)):
+    if any(decide_zero(derivative(e, t)).answer != "zero" for e in (*motion, *system.residual)):
         raise InputError("linearise: the motion depends on time explicitly: there is no equilibrium; simulate it")
     force = _value(motion, still, c.q)
     G = _value(system.rows, still, c.q)
@@ -132,8 +132,7 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     tangent = G.nullspace(iszerofunc=_is_zero)
     basis = sp.Matrix.hstack(*tangent) if G.rows else sp.eye(len(c.q))
     mass, gyroscopic, stiffness = (
-        (basis.T * _value(held.jacobian(list(names)), still, c.q) * basis).applyfunc(_reduce)
-        for names in (c.a, c.v, c.q)
+        (basis.T * _value(jacobian(held, names), still, c.q) * basis).applyfunc(_reduce) for names in (c.a, c.v, c.q)
     )
     if _is_zero(mass.det(method="berkowitz")):
         raise SingularError(

@@ -13,7 +13,7 @@ from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
 from lagrotor.mechanics.expressions import expression
-from lagrotor.mechanics.lagrangian import Coordinates, euler_lagrange, t, total_derivative
+from lagrotor.mechanics.lagrangian import Coordinates, euler_lagrange, jacobian, t, total_derivative
 
 _POINTS = 3  # at which accelerations are compared before anything is derived
 _MOST, _MOST_OPERATIONS = 3, 1000  # coordinates up to which, and operations of M up to which, accelerations are derived
@@ -124,9 +124,9 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     put |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
 
     def carried(e: sp.Expr) -> sp.Expr:
-        return sp.sympify(e).subs(put, simultaneous=True)
+        return sp.sympify(e).xreplace(put)
 
-    slope = sp.Matrix(places).jacobian(list(c.q))
+    slope = jacobian(places, c.q)
     forces = tuple(slope.T * sp.Matrix([carried(f) for f in system.forces])) if system.forces else ()
 
     def left(expressions: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:

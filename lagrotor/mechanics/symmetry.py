@@ -18,11 +18,19 @@ from typing import TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import Decision, decide_equal, decide_zero
+from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
 from lagrotor.errors import DomainError, InputError, NotASymmetryError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
 from lagrotor.mechanics.expressions import expression, shortest
-from lagrotor.mechanics.lagrangian import Coordinates, gradient, linear_solve, momenta, t, total_derivative
+from lagrotor.mechanics.lagrangian import (
+    Coordinates,
+    gradient,
+    jacobian,
+    linear_solve,
+    momenta,
+    t,
+    total_derivative,
+)
 
 Kind = TypeVar("Kind", bound=Equations)
 
@@ -40,7 +48,7 @@ def cyclic_coordinates(system: Equations) -> tuple[sp.Symbol, ...]:
     return tuple(
         q
         for j, q in enumerate(system.c.q)
-        if _vanish([sp.diff(system.L, q), system.push[j], *(system.rows[i, j] for i in range(system.rows.rows))])
+        if _vanish([derivative(system.L, q), system.push[j], *(system.rows[i, j] for i in range(system.rows.rows))])
     )
 
 
@@ -191,8 +199,8 @@ def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], tak
 def _velocities(where: str, L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr]) -> list[sp.Expr]:
     """u from p = b + A u, b = ∂L/∂u at u = 0, A = ∂²L/∂u∂u."""
     slope = gradient(L, u)
-    A = slope.jacobian(list(u))
-    if not _vanish([sp.diff(entry, w) for entry in A for w in u]):
+    A = jacobian(slope, u)
+    if not _vanish([derivative(entry, w) for entry in A for w in u]):
         raise DomainError(
             f"{where}: L is not quadratic in {', '.join(map(str, u))}: p = ∂L/∂v is not linear there; "
             "solve it for the velocities by hand"

@@ -7,6 +7,7 @@ from typing import Any
 import sympy as sp
 from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import InputError
 
 
@@ -49,8 +50,8 @@ def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> A
     """d/dt of an expression or a matrix: `moving` are symbols or vectors, `velocities` their rates in the same order."""
     flow = list(zip(components(moving), components(velocities), strict=True))
     if isinstance(expression, sp.MatrixBase):
-        return expression.applyfunc(lambda entry: sum(sp.diff(entry, x) * v for x, v in flow))
-    return sum(sp.diff(expression, x) * v for x, v in flow)
+        return expression.applyfunc(lambda entry: sum(derivative(entry, x) * v for x, v in flow))
+    return sum(derivative(expression, x) * v for x, v in flow)
 
 
 def components(row: Iterable[Any]) -> list[Any]:

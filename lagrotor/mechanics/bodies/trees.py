@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from lagrotor.algebra import derivative
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy
 from lagrotor.mechanics.bodies.small_matrices import Small, unit, zeros
@@ -225,7 +226,7 @@ def _velocities(
 def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
     """The derivative of a step by one coordinate, or the time, in the axes that it leads to."""
     if frame.axis is not None:
-        return unit(frame.axis, sp.diff(frame.amount, s))
+        return unit(frame.axis, derivative(frame.amount, s))
     moved = _derivative(Small.of(frame.amount), s)
     if frame.amount.cols == 1:
         return moved
@@ -234,7 +235,7 @@ def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
 
 
 def _derivative(matrix: Small, s: sp.Symbol) -> Small:
-    return matrix.each(lambda e: sp.diff(e, s))
+    return matrix.each(lambda e: derivative(e, s))
 
 
 def _sum(columns: list[Small], factors: list[sp.Expr]) -> Small:

@@ -13,6 +13,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints
@@ -202,7 +203,7 @@ def tangent_program(given: Generated) -> Generated:
     slopes: dict[sp.Symbol, sp.Expr] = dict(zip(program.arguments[:d], names, strict=True))
 
     def along(e: sp.Expr) -> sp.Expr:
-        return sp.Add(*(sp.diff(e, s) * slopes[s] for s in sorted(e.free_symbols, key=str) if s in slopes))
+        return sp.Add(*(derivative(e, s) * slopes[s] for s in sorted(e.free_symbols, key=str) if s in slopes))
 
     stages: list[Stage] = []
     for name, e in body:

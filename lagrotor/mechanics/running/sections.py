@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 import sympy as sp
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
@@ -40,11 +41,11 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         return _moved(run, np.zeros(0), np.zeros((0, 2 * n)))
     low, high = fine[i], fine[i + 1]
     times = low + (high - low) * values[i] / (values[i] - values[i + 1])
-    slopes = [sp.diff(section, s) for s in (*run.system.c.q, *run.system.c.v)]
+    slopes = [derivative(section, s) for s in (*run.system.c.q, *run.system.c.v)]
     for _ in range(_STEPS):
         there = run.at(times)
         rates = there.derivatives().T
-        speed = there.evaluate(sp.diff(section, t)) + sum(
+        speed = there.evaluate(derivative(section, t)) + sum(
             there.evaluate(slope) * rate for slope, rate in zip(slopes, rates, strict=True)
         )
         with np.errstate(all="ignore"):

@@ -1,0 +1,32 @@
+"""Derivatives are those of sympy, term for term."""
+
+import pytest
+import sympy as sp
+
+from lagrotor.algebra import derivative
+
+x, y = sp.symbols("x y", real=True)
+m = sp.Symbol("m", positive=True)
+EXPRESSIONS = [
+    m * (x * sp.cos(y) - sp.sin(x * y) / 2) ** 2 / (1 + x**2),
+    sp.sqrt(m**2 + x**2) * sp.exp(-(x**2)) * sp.log(m + x**2),
+    sp.tan(x) * sp.atan(x * y) + sp.cosh(x / m) ** -3,
+    (x + y) ** 2 * (x - y),
+    m**x + x**x,
+    sp.Abs(x) * sp.Function("f")(x, y),
+    sp.Piecewise((x**2, x > 0), (sp.sin(x), True)),
+    sp.atan2(x, y),
+    sp.pi * m,
+]
+
+
+@pytest.mark.parametrize("expression", EXPRESSIONS, ids=str)
+def test_it_is_what_sympy_gives(expression: sp.Expr) -> None:
+    for symbol in (x, y, m):
+        assert derivative(expression, symbol) == sp.diff(expression, symbol)
+    assert derivative(expression * x, x) != derivative(expression * x, m)  # twin
+
+
+def test_a_second_derivative_does_not_depend_on_the_order() -> None:
+    both = [derivative(derivative(EXPRESSIONS[0], one), other) for one, other in ((x, y), (y, x))]
+    assert sp.expand(both[0] - both[1]) == 0
