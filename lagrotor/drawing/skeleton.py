@@ -17,8 +17,10 @@ from lagrotor.numerics.rotations import Array
 _DPI = 100
 
 
-def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float) -> Path:
+def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float, inks: Sequence[str] = ROTORS) -> Path:
     """Write lines (m, p, 3) in m at the times t (m,) of the frames as a film, `.gif` or `.mp4`, at its own speed.
+
+    inks: their colours, again from the first where there are fewer than lines.
 
     Seen along y where nothing moves along it, from above where nothing rises, else obliquely.
 
@@ -26,7 +28,7 @@ def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float
     """
     target = Path(path)
     check_film(target, float(t[-1] - t[0]), fps)
-    return write_film(target, _frames(t, [_seen(line, _flat(lines)) for line in lines]), len(t), fps)
+    return write_film(target, _frames(t, [_seen(line, _flat(lines)) for line in lines], inks), len(t), fps)
 
 
 def _flat(lines: Sequence[Array]) -> int | None:
@@ -39,14 +41,14 @@ def _seen(line: Array, flat: int | None) -> Array:
     return Camera()(line) if flat is None else np.delete(line, flat, axis=-1)
 
 
-def _frames(t: Array, lines: Sequence[Array]) -> Iterator[Pixels]:
+def _frames(t: Array, lines: Sequence[Array], inks: Sequence[str]) -> Iterator[Pixels]:
     """The frames (height, width, 3): what does not move is drawn once."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)
         axes = figure.subplots()
         _limits(axes, np.concatenate([line.reshape(-1, 2) for line in lines]))
-        drawn = [_line(axes, ROTORS[i % 2], 2.4) for i in range(len(lines))]
+        drawn = [_line(axes, inks[i % len(inks)], 2.4) for i in range(len(lines))]
         traces = [_line(axes, BAR if len(lines) > 1 and i < len(lines) - 1 else GROUND, 1.0) for i in range(len(lines))]
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", animated=True, fontsize=11)
         canvas.draw()  # type: ignore[no-untyped-call]

@@ -14,15 +14,16 @@ def dop853(segment: Segment, error: float) -> Run:
     from scipy.integrate import DOP853
 
     t_eval, project = segment.t_eval, segment.project
-    solver = DOP853(
-        segment.rhs,
-        segment.left,
-        segment.start,
-        segment.right,
-        rtol=max(error, _LEAST_RELATIVE),
-        atol=error,
-        max_step=segment.longest,
-    )
+    with np.errstate(divide="ignore", invalid="ignore"):  # of its first step, where values are not finite
+        solver = DOP853(
+            segment.rhs,
+            segment.left,
+            segment.start,
+            segment.right,
+            rtol=max(error, _LEAST_RELATIVE),
+            atol=error,
+            max_step=segment.longest,
+        )
     found, done = np.empty((len(t_eval), len(segment.start))), 0
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail

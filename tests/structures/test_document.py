@@ -102,3 +102,23 @@ def test_a_run_is_plotted() -> None:
     s = example("corner")
     picture = s.simulate([0, 0.1, 0.2], tilt=[(0.1, 0)] * 3).plot()
     assert len(picture.axes) == 5 and len(s.plot().axes) == 2
+
+
+def test_a_film_shows_bars_braces_and_the_sense_of_the_spins(monkeypatch, tmp_path) -> None:
+    from lagrotor.drawing import skeleton
+
+    shown = {}
+    monkeypatch.setattr(
+        skeleton, "animate_lines", lambda path, t, lines, fps, inks: shown.update(lines=lines, inks=inks)
+    )
+    braces = [Brace(0, 2, 5.0), Brace(1, (0, -1, 0), 5.0)]
+    s = Structure([(0, 0), (1, 0), (1, 1)], [(0, 1)], [3, -3, 3], hinge=1, braces=braces)
+    s.simulate([0, 0.1], tilt=[(0, 0.1)] * 3, tol=1e-5).animate(tmp_path / "b.gif")
+    bar, spring, tie, *rotors = shown["lines"]
+    assert len(rotors) == 3 and len(set(shown["inks"][:3])) == 2
+    assert shown["inks"][3] == shown["inks"][5] != shown["inks"][4]
+    assert (
+        (spring[:, 0] == rotors[2][:, 1]).all()
+        and (spring[:, 1] == bar[:, 0]).all()
+        and (tie[:, 0] == (0, -1, 0)).all()
+    )

@@ -179,7 +179,6 @@ def test_a_start_that_makes_no_sense_is_refused(more, reason) -> None:
         s.simulate(**({"t": [0, 1]} | more))
 
 
-@pytest.mark.filterwarnings("ignore:divide by zero")
 @pytest.mark.parametrize(
     ("given", "reason"), [(np.full((1, 3), np.nan), "must be finite"), (np.zeros(2), r"not \(2,\)"), (None, "KeyError")]
 )

@@ -64,12 +64,14 @@ class StructureRun(Shown):
         return run_picture(self.structure, self.t, self.tips, self.energy)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics.
+        """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics; bars
+        grey, braces green, rotors coloured by the sense of their spins.
 
         Raises InputError for a name, a folder or a frame rate that will not do, before anything is drawn.
         """
         from lagrotor.drawing.film import check_film, frame_times
         from lagrotor.drawing.skeleton import animate_lines
+        from lagrotor.drawing.wheel import BAR, MARK, ROTORS
         from lagrotor.numerics.rotations import between_samples
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
@@ -78,5 +80,8 @@ class StructureRun(Shown):
         c = coefficients(self.structure)
         feet = np.broadcast_to(c.feet[:, None], axes.shape)
         tips = feet + c.R[:, None, None] * axes
-        lines = [np.stack([tips[i], tips[j]], 1) for i, j in zip(c.i, c.j, strict=True)]
-        return animate_lines(path, times, [*lines, *np.stack([feet, tips], 2)], fps)
+        bars = [np.stack([tips[i], tips[j]], 1) for i, j in zip(c.i, c.j, strict=True)]
+        far = np.where(c.brace_to[:, None, None] >= 0, tips[c.brace_to], c.brace_point[:, None])
+        lines = [*bars, *np.stack([far, tips[c.brace_tip]], 2), *np.stack([feet, tips], 2)]
+        rotors = [BAR if spin == 0 else ROTORS[spin < 0] for spin in self.structure.spins]
+        return animate_lines(path, times, lines, fps, [*[BAR] * len(bars), *[MARK] * len(far), *rotors])
