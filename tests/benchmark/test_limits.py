@@ -199,7 +199,7 @@ def test_the_command(tmp_path, capsys, monkeypatch):
         monkeypatch.delitem(LIMITS, name)
     found = Limit("an axis near the joint line", "w", "f", 2.0, 3.0, "t")
     monkeypatch.setitem(LIMITS, "joint line", lambda quick: [found])
-    monkeypatch.setattr(error_map, "usefulness", lambda *at: usefulness(*(grid[-2:] for grid in at), (1, 3)))
+    monkeypatch.setattr(error_map, "usefulness", lambda *at: usefulness(*(grid[:2] for grid in at), (1, 3)))
     rate = throughput.Throughput("trajectories", "trajectories/s", 1e3, 1.0, "itself")
     monkeypatch.setattr(throughput, "throughput", lambda n: [rate])
     assert main(["stability", "--quick", "--json", "--out", str(tmp_path)]) == 0
