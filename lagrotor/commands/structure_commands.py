@@ -48,7 +48,8 @@ def structure_command(given: argparse.Namespace) -> int:
     s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
     if given.out:
         ready = GALLERY.get(given.structure)
-        _write(s, given.out, given.t_end or (ready.duration if ready else 5.0))
+        usual = ready.duration if ready else 5.0
+        _write(s, given.out, usual if given.t_end is None else given.t_end)
     found = _summary(s)
     print(_json(found) if given.json else _table(found))
     if given.out and not given.json:

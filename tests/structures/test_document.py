@@ -91,7 +91,14 @@ def test_the_command_draws(tmp_path, capsys) -> None:
 
 
 @pytest.mark.parametrize(
-    "given", [["nothing"], ["missing.toml"], ["corner", "--out", "c.docx"], ["corner", "--out", "/no/c.png"]]
+    "given",
+    [
+        ["nothing"],
+        ["missing.toml"],
+        ["corner", "--out", "c.docx"],
+        ["corner", "--out", "/no/c.png"],
+        ["corner", "--out", "c.gif", "--t-end", "0"],
+    ],
 )
 def test_the_command_refuses_in_a_line(given, capsys) -> None:
     assert main(["structure", *given]) == 2
