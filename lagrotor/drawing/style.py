@@ -75,6 +75,20 @@ def paper_style() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def laid_out(figure: Figure) -> Iterator[Figure]:
+    """The figure with its panels placed, once for all files that are written of it inside the `with` block.
+
+    Where an engine for the layout is left, even an idle one, matplotlib draws each file twice.
+    """
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+    with mpl.rc_context({"figure.constrained_layout.use": False, "figure.autolayout": False}):
+        figure.set_layout_engine(None)
+        yield figure
+
+
 def with_residual(figure: Figure) -> tuple[Axes, Axes]:
     """A panel for the curves and under it a lower one for their residual, on one time axis."""
     main, residual = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (3, 1)})

@@ -9,14 +9,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from lagrotor.errors import InputError, near
 from lagrotor.files import write_beside
 from lagrotor.paper.scripts import Scripts
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -53,34 +49,25 @@ def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
     return wanted
 
 
-def _laid_out(figure: "Figure") -> "Figure":
-    """The figure with its panels placed, once for all files that are written of it."""
-    engine = figure.get_layout_engine()
-    if engine is not None:
-        engine.execute(figure)
-        figure.set_layout_engine("none")
-    return figure
-
-
 def draw(key: str, folder: Path, scripts: Scripts) -> Picture:
     """Draw one figure of `stems()` and write `<stem>.svg` and `<stem>.png` into `folder`: the same bytes every time.
 
     Raises InputError when the folder cannot be written to or a script lacks what every figure has, ScriptError where it fails.
     """
-    from lagrotor.drawing.style import paper_style
+    from lagrotor.drawing.style import laid_out, paper_style
 
     stem = stems(scripts)[key]
     with paper_style():
         script = scripts.run("figures", stem)
         if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
             raise InputError(f"{scripts.path('figures', stem)}: it defines no {lacking[0]}")
-        figure = _laid_out(scripts.called("figures", stem, "figure"))
-        svg = write_beside(
-            folder / f"{stem}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
-        )
-        png = write_beside(
-            folder / f"{stem}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
-        )
+        with laid_out(scripts.called("figures", stem, "figure")) as figure:
+            svg = write_beside(
+                folder / f"{stem}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
+            )
+            png = write_beside(
+                folder / f"{stem}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
+            )
     measured = scripts.called("figures", stem, "measure") if "measure" in script else {}
     return Picture(
         stem=stem,

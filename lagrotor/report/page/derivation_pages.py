@@ -10,6 +10,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.drawing.run_figure import RunFigure
+from lagrotor.drawing.style import laid_out
 from lagrotor.paper.proof import Formula, Remark, Step
 from lagrotor.paper.scripts import Script
 from lagrotor.paper.stating import Stated
@@ -82,7 +83,9 @@ def _png(figure: RunFigure) -> str:
     from PIL import Image
 
     with BytesIO() as file, BytesIO() as small:
-        figure.savefig(file, format="png", dpi=72)
+        figure.set_dpi(72)
+        with laid_out(figure):
+            figure.savefig(file, format="png", dpi=72)
         Image.open(file).convert("RGB").quantize(64).save(small, format="png", optimize=True)
         return "data:image/png;base64," + b64encode(small.getvalue()).decode()
 
