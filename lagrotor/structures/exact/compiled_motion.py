@@ -25,10 +25,7 @@ from lagrotor.structures.exact.written_out import accelerations
 
 _RING = 11  # half bandwidth of a ring
 _SERIES, _SERIES_SLIM = 32, 128  # rotors up to which series are faster; slim: in chains and rings of massless bars
-_WHOLE, _WHOLE_HEAVY = (
-    512,
-    128,
-)  # rotors of a chain or ring up to which it is faster compiled whole; heavy: with heavy bars
+_WHOLE, _WHOLE_HEAVY = 512, 128  # rotors of a chain or ring up to which it is faster compiled whole; of heavy bars
 _WIDE, _HEAVY = 100, 512  # rotors of a net, of a tree with heavy bars, that compile in about half a minute
 _BETWEEN = 10.0  # radians at the structure's rate between two projections onto the constraints
 
