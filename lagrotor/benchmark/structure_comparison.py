@@ -32,6 +32,7 @@ from lagrotor.structures.structure import Structure
 RECORDED = Path(__file__).with_name("recorded_structures.json")
 SIZES = (16, 64, 256)
 ERROR = 1e-6
+MASSLESS = Link(1, 0, 0)
 TIMES = np.linspace(0, 3, 31)
 _LONGEST = 60.0  # s of a run, after which no finer setting is tried
 _ONCE = 10.0  # s of a run that is not repeated
@@ -59,11 +60,9 @@ class Timed:
     reason: str = ""
 
 
-def staircase(n: int) -> Structure:
-    """n equal rotors, spins 10 rad/s, joined in a staircase by massless bars of 1 m."""
-    return Structure(
-        [((k + 1) // 2, k // 2) for k in range(n)], [(k, k + 1) for k in range(n - 1)], 10.0, link=Link(1, 0, 0)
-    )
+def staircase(n: int, link: Link = MASSLESS) -> Structure:
+    """n equal rotors, spins 10 rad/s, joined in a staircase by bars of 1 m, massless unless said."""
+    return Structure([((k + 1) // 2, k // 2) for k in range(n)], [(k, k + 1) for k in range(n - 1)], 10.0, link=link)
 
 
 def begun(s: Structure, tol: float, engine: Engine = "core", seed: int = 0) -> StructureRun:

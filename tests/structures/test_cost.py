@@ -8,7 +8,7 @@ import pytest
 
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact.compiled_motion import compiled_right_hand_side
+from lagrotor.structures.exact import segments
 from lagrotor.structures.exact.levels import eliminate_in_levels
 from lagrotor.structures.exact.saddle import saddle
 from lagrotor.structures.exact.written_out import accelerations
@@ -84,38 +84,21 @@ def test_a_long_chain_moves() -> None:
     assert np.ptp(run.bar_length) < 1e-12
 
 
-def growth(many: Structure, few: Structure, compiled: bool = False) -> float:
-    """CPU time of an evaluation of one over that of the other: the least of fifteen rounds each, in turns."""
-    from time import process_time
-
-    evaluated, times = [], np.empty((15, 2))
-    for s in (many, few):
-        motion = exact_motion(s)
-        y = np.concatenate([motion.c.upright.ravel(), np.zeros(3 * len(s.joints))])
-        evaluated.append((compiled_right_hand_side(s, motion) if compiled else motion.rhs, y, 60_000 // len(s.joints)))
-    for spent in times:
-        for k, (rhs, y, often) in enumerate(evaluated):
-            began = process_time()
-            for _ in range(often):
-                rhs(0.0, y)
-            spent[k] = (process_time() - began) / often
-    return float(np.divide(*times.min(axis=0)))
+def segments_of(s: Structure) -> tuple[set[int], float]:
+    """The programs of its segments, and how many numbers they give an evaluation and a rotor."""
+    groups = segments._groups(exact_motion(s), False)
+    given = sum(g.unknowns.shape[1] * (g.programs.forward.nouts + g.programs.back.nouts) for g in groups)
+    return {id(g.programs) for g in groups}, given / len(s.joints)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("shape", [chain, ring])
-def test_the_time_of_an_evaluation_grows_at_most_2_2_times_a_doubling(shape) -> None:
-    """Over two doublings, up to 4,096 rotors, in one run: a ratio, not seconds."""
-    assert growth(shape(4096, Link()), shape(1024, Link())) < 2.2**2
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("link", [Link(), Link(1, 0.3, 0.1)], ids=["massless", "heavy"])
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_so_does_that_of_a_compiled_one(shape, link) -> None:
+def test_a_long_one_is_more_of_the_same_segments(shape) -> None:
+    """The same programs for any number, which give as many numbers a rotor. Twin: heavy bars take others, and more."""
     pytest.importorskip("heyoka", reason="the fast extra is not installed")
-    for n in (4096, 2048):
-        assert growth(shape(n, link), shape(n // 4, link), compiled=True) < 2.2**2
+    (few, work), (many, more) = (segments_of(shape(n, Link())) for n in (1024, 4096))
+    assert few == many and more == pytest.approx(work, rel=1e-3)
+    heavy, dearer = segments_of(shape(1024, Link(1, 0.3, 0.1)))
+    assert heavy.isdisjoint(few) and dearer > 1.1 * work
 
 
 class Counted:
