@@ -94,7 +94,8 @@ prove(
 # ## Units
 #
 # In units $a+b=1$, of $\Omega_0$ for rates and with $y=\sqrt\sigma\,Y$, every coefficient is rational in $\sigma$ and $k$.
-# The equations that the library solves, written for stand-ins of the unknowns, are those above:
+# Time is measured by the phase $\Phi$, so that each derivative brings a factor $w=\Omega/\Omega_0$. The equations that the
+# library solves, written for stand-ins of the unknowns, are those above:
 
 
 # %%
@@ -129,12 +130,13 @@ class Standing:
         return Standing(self.of.subs(exchange, simultaneous=True))
 
 
-FIELD = field_of(sigma, k)
-library = equations(sigma, k, FIELD)([Standing(q) for q in (x1, y1, z1, lambda_1, tau)], Standing(sp.Integer(1)))
+FIELD, w = field_of(sigma, k), sp.Symbol("w", positive=True)
+library = equations(sigma, k, FIELD)([Standing(q) for q in (x1, y1, z1, lambda_1, tau)], Standing(w))
 own, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
 units = {a: own, b: shared, G: 1 / sp.sqrt(sigma)}
 wide = {q: sp.sqrt(sigma) * q for names in (AXES.q, AXES.v, AXES.a) for q in (names[1], names[4])}
-scaled = [e.subs(units).subs(wide, simultaneous=True) for e in first]
+by_phase = {s: w * s for s in AXES.v} | {s: w**2 * s for s in AXES.a}
+scaled = [e.subs(units).subs(wide, simultaneous=True).xreplace(by_phase) for e in first]
 prove(
     [e.of for e in library[:3]],
     (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2]),
