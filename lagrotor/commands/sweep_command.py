@@ -83,7 +83,7 @@ def sweep_command(given: argparse.Namespace) -> int:
 
     from lagrotor.commands.terminal import progress, table
     from lagrotor.files import write_text
-    from lagrotor.models.ensemble import sweep
+    from lagrotor.models.sweeps.ensemble import sweep
 
     with progress(1) as step:
         step(f"{len(family)} runs")

@@ -7,7 +7,6 @@ from lagrotor.faces import face
 if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form
     from lagrotor.models.conserved import conservation_defect as conservation_defect
-    from lagrotor.models.ensemble import Ensemble as Ensemble
     from lagrotor.models.linear import linear_error as linear_error
     from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error
@@ -38,5 +37,6 @@ if TYPE_CHECKING:
     from lagrotor.models.spring_link.system import link_force as link_force
     from lagrotor.models.spring_link.system import printed_link_force as printed_link_force
     from lagrotor.models.spring_link.system import step_limit as step_limit
+    from lagrotor.models.sweeps.ensemble import Ensemble as Ensemble
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -15,7 +15,7 @@ from lagrotor.report.page.page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
-    "Ensemble": "lagrotor.models.ensemble",
+    "Ensemble": "lagrotor.models.sweeps.ensemble",
     "choose": "lagrotor.models.choose",
     "exact_orbit": "lagrotor.models.orbits.shooting",
     "ClosedForm": "lagrotor.theory.closed_form",

@@ -9,10 +9,10 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, sweep
 from lagrotor.errors import InputError, SingularError
 from lagrotor.files import read_arrays, write_arrays
-from lagrotor.models import chunk, ensemble
-from lagrotor.models.chunk import MODELS, run_chunk
-from lagrotor.models.ensemble import started
+from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.sweeps.chunk import MODELS, run_chunk
+from lagrotor.models.sweeps.ensemble import started
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
 UP = ((0, 0, 1), (0, 0, 1))

@@ -10,12 +10,12 @@ from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.models.ensemble import started
 from lagrotor.models.integrated import integrated
 from lagrotor.models.model import Model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.models.spring_link.rigid_body import printed_rotation
+from lagrotor.models.sweeps.ensemble import started
 from lagrotor.pair.scene import Link, Scene
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.models.ensemble import sweep
 from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.sweeps.ensemble import sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of

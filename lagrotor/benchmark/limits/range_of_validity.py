@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.errors import LagrotorWarning
-from lagrotor.models.ensemble import started
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
+from lagrotor.models.sweeps.ensemble import started
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of

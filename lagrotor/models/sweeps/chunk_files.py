@@ -10,7 +10,7 @@ import numpy as np
 from lagrotor.about import __version__
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays
-from lagrotor.models.chunk import MODELS, Array, Chunk
+from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import UNIT_ERROR
 

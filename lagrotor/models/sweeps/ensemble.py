@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.models.chunk import MODELS, Array, Chunk, kind_of, run_chunk
-from lagrotor.models.chunk_files import chunk_folder
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.simulate import check_times
+from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, kind_of, run_chunk
+from lagrotor.models.sweeps.chunk_files import chunk_folder
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
