@@ -9,8 +9,8 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, sweep
 from lagrotor.errors import InputError, SingularError
 from lagrotor.files import read_arrays, write_arrays
-from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.sweeps.chunk import MODELS, run_chunk
 from lagrotor.models.sweeps.ensemble import started
 
