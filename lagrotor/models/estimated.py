@@ -1,7 +1,7 @@
 """Runs with an estimated error: two integrations at different tolerances, held to what the motion conserves.
 
-Twice the difference of the two is taken for the error of the better one, four times where rounding keeps a tighter run from
-its end. It is also how far neighbouring motions part: where it exceeds what was promised, the run has reached its horizon.
+Twice the difference of the two is taken for the error of the better one, four times where rounding may be most of it. It is
+also how far neighbouring motions part: where it exceeds what was promised, the run has reached its horizon.
 Where it exceeds LOST, nothing is known any more: there the comparison ends, and the better run goes on alone.
 """
 
@@ -24,6 +24,7 @@ from lagrotor.models.estimate_constants import (
     LOOSEST,
     LOST,
     OPPOSITE,
+    RESOLVED,
     ROUNDING,
     SAFETY,
     SHORTEST,
@@ -166,7 +167,7 @@ def _compared(watched: Watched, loose: StagedRun, tight: StagedRun) -> _Pair:
     for n, t in enumerate(watched.stages):
         one, other = seen_in(watched, loose, n), seen_in(watched, tight, n, loose)
         apart = SAFETY * np.linalg.norm(one.axes - other.axes, axis=-1).max(axis=0)
-        if watched.refused:  # rounding is nearly all that both resolve
+        if watched.refused or tight.tol < RESOLVED:  # rounding may be nearly all that both resolve
             apart = SAFETY * apart
         parts.append(np.maximum(apart, LEAST * tight.tol) + ROUNDING * (1 + PACE * t / (2 * pi)))
         faster = max(faster, float(np.abs(one.rates - other.rates).max()))
