@@ -51,18 +51,17 @@ freedom
 # %%
 size = np.array([0.4, 0.9, 0.7])
 mass, times, twin = 2 * size, np.linspace(0, 4, 161), {b: 0.9001}
+lever = np.array([mass[i + 1 :].sum() + mass[i] / 2 for i in range(3)])
+beyond = lever[np.maximum.outer(np.arange(3), np.arange(3))] - np.diag(mass / 6)
+weight = np.outer(size, size) * beyond
 
 
 def by_hand(_: float, y: np.ndarray) -> np.ndarray:
     theta, rate = y[:3], y[3:]
-    beyond = np.array([[mass[max(i, j) + 1 :].sum() + mass[max(i, j)] / 2 for j in range(3)] for i in range(3)])
-    beyond[np.arange(3), np.arange(3)] = [mass[i + 1 :].sum() + mass[i] / 3 for i in range(3)]
-    apart = theta[:, None] - theta[None, :]
-    weight = np.outer(size, size) * beyond
-    lever = np.array([mass[i + 1 :].sum() + mass[i] / 2 for i in range(3)])
-    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * size * np.cos(theta)
-    rows = np.array([-size * np.sin(theta), size * np.cos(theta)])
-    bent = np.array([size * np.cos(theta), size * np.sin(theta)]) @ rate**2
+    apart, along, up = theta[:, None] - theta[None, :], size * np.cos(theta), size * np.sin(theta)
+    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * along
+    rows = np.array([-up, along])
+    bent = np.array([along, up]) @ rate**2
     whole = np.block([[weight * np.cos(apart), rows.T], [rows, np.zeros((2, 2))]])
     return np.concatenate([rate, np.linalg.solve(whole, np.concatenate([force, bent]))[:3]])
 

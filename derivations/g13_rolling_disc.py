@@ -57,15 +57,15 @@ def wedge(a: np.ndarray) -> np.ndarray:
 def newton_euler(_: float, state: np.ndarray) -> np.ndarray:
     Q, w, up = state[:9].reshape(3, 3), state[9:12], np.array([0, 0, 1.0])
     n = Q[:, 1]
-    steepest, n_v = up - (up @ n) * n, np.cross(w, n)
+    turn = wedge(w)
+    steepest, n_v = up - (up @ n) * n, turn @ n
     length, steepest_v = np.linalg.norm(steepest), -(up @ n_v) * n - (up @ n) * n_v
     contact = -0.5 * steepest / length
     contact_v = -0.5 * (steepest_v / length - steepest * (steepest @ steepest_v) / length**3)
     inertia = Q @ (0.5 * np.diag([0.25, 0.5, 0.25])) @ Q.T
-    force = 2 * (9.81 * up - np.cross(w, contact_v))
-    whole = inertia - 2 * wedge(contact) @ wedge(contact)
-    w_v = np.linalg.solve(whole, np.cross(contact, force) - np.cross(w, inertia @ w))
-    return np.concatenate([(wedge(w) @ Q).ravel(), w_v, -np.cross(w, contact)])
+    force, arm = 2 * (9.81 * up - turn @ contact_v), wedge(contact)
+    w_v = np.linalg.solve(inertia - 2 * arm @ arm, arm @ force - turn @ inertia @ w)
+    return np.concatenate([(turn @ Q).ravel(), w_v, -turn @ contact])
 
 
 def difference(given: dict) -> float:

@@ -4,20 +4,18 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol
-from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
     motion_program,
     parameter_values,
     projection_program,
+    start_program,
 )
 from lagrotor.numerics.heyoka_programs import taylor_rhs
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
@@ -101,25 +99,23 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
 
     Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
     """
-    n = len(system.c.q)
+    n, h = len(system.c.q), len(system.constraints)
     q, v = vector("q0", q0, n), vector("v0", v0, n)
-    h = len(system.constraints)
-    parts = (system.mass, sp.Matrix(h, 1, system.constraints), system.rows, system.residual)
-    used = set().union(*(part.free_symbols for part in parts)) - {*system.c.q, *system.c.v}
-    put = by_symbol(values, used) | {time: t}
-    if missing := sorted(map(str, used - put.keys())):
-        raise InputError(f"consistent: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
-    M, g, G, off = (sp.lambdify([system.c.q, system.c.v], part.subs(put), "numpy") for part in parts)
+    given = start_program(system)
+    rest = (*([t] if depends_on_time(system) else []), *parameter_values(given, values, "consistent"))
+    ends = np.cumsum([n * n, h, n * len(system.multipliers)])
 
-    def rows(at: Any) -> Array:
-        return np.array(G(at, v), dtype=float).reshape(-1, n)
+    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array]:
+        """M, g, G and G v + b."""
+        with np.errstate(all="ignore"):
+            found = np.array(given.function(*np.concatenate([at, rates, rest])), float)
+        M, g, G, off = np.split(found, ends)
+        return M.reshape(n, n), g, G.reshape(-1, n), off
 
     if h:
-        mass = np.array(M(q, v), float)
-        placed = project_position(lambda at: np.array(g(at, v), float).ravel(), lambda at: rows(at)[:h], q, mass)
+        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2][:h], q, parts(q, v)[0])
         q = np.asarray(placed, float)
-    wanted = np.array(off(q, np.zeros(n)), float).ravel()  # b, so that G v + b = 0
-    mass, slope = np.array(M(q, v), float), rows(q)
+    mass, _, slope, wanted = parts(q, np.zeros(n))  # wanted: b, so that G v + b = 0
     particular = -np.linalg.pinv(slope) @ wanted
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
 

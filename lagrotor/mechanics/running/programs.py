@@ -105,6 +105,12 @@ def rows_program(system: Equations) -> Generated:
     return generated(system, (), list(system.rows))
 
 
+@lru_cache(maxsize=64)
+def start_program(system: Equations) -> Generated:
+    """(q, v[, t]) → M, g, G and G v + b, one row after another."""
+    return generated(system, (), [*system.mass, *system.constraints, *system.rows, *system.residual])
+
+
 def function_program(system: Equations, expression: sp.Expr) -> Generated:
     """(q, v[, t]) → an expression in q, v, t, the accelerations and the multipliers of a motion."""
     if not expression.free_symbols & {*system.c.a, *system.multipliers}:
@@ -217,22 +223,22 @@ def tangent_program(given: Generated) -> Generated:
     return Generated(both, (*given.states, *names), given.parameters)
 
 
-def parameter_values(given: Generated, values: Mapping[Any, Any]) -> tuple[float, ...]:
+def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[float, ...]:
     """The parameters' values in the program's order; keys are symbols or their names.
 
-    Raises InputError when one is missing or is not a finite number.
+    Raises InputError, on behalf of the function `where`, when one is missing or is not a finite number.
     """
     if not isinstance(values, Mapping):
-        raise InputError(f"simulate: values = {values!r} must be {{symbol: number, …}}, a dictionary")
+        raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}
     if missing := [str(p) for p in given.parameters if str(p) not in by_name]:
-        raise InputError(f"simulate: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
+        raise InputError(f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
     found = []
     for p in given.parameters:
         try:
             found.append(float(by_name[str(p)]))
         except (TypeError, ValueError):
-            raise InputError(f"simulate: {p} = {by_name[str(p)]!r} must be a number") from None
+            raise InputError(f"{where}: {p} = {by_name[str(p)]!r} must be a number") from None
         if not abs(found[-1]) < float("inf"):
-            raise InputError(f"simulate: {p} = {found[-1]} must be finite")
+            raise InputError(f"{where}: {p} = {found[-1]} must be finite")
     return tuple(found)
