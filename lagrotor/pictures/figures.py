@@ -8,11 +8,13 @@ the numbers read off it.
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 from lagrotor.errors import InputError, near
-from lagrotor.files import write_beside
+from lagrotor.files import write_beside, write_text
 from lagrotor.paper.scripts import Scripts
+from lagrotor.pictures.lean_svg import lean_svg
 
 
 @dataclass(frozen=True)
@@ -62,9 +64,9 @@ def draw(key: str, folder: Path, scripts: Scripts) -> Picture:
         if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
             raise InputError(f"{scripts.path('figures', stem)}: it defines no {lacking[0]}")
         with laid_out(scripts.called("figures", stem, "figure")) as figure:
-            svg = write_beside(
-                folder / f"{stem}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
-            )
+            drawn = StringIO()
+            figure.savefig(drawn, format="svg", metadata={"Date": None})
+            svg = write_text(folder / f"{stem}.svg", lean_svg(drawn.getvalue()))
             png = write_beside(
                 folder / f"{stem}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
             )
