@@ -25,6 +25,16 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def load_at_the_side(loaded: Sequence[str] = ALL) -> None:
+    """Begin to load what each process of `results` begins with, while this one still loads what it needs itself."""
+    if "forkserver" in multiprocessing.get_all_start_methods() and cores() > 1:
+        from multiprocessing import forkserver
+
+        forkserver.set_forkserver_preload(list(loaded))
+        with _no_interrupts():
+            forkserver.ensure_running()
+
+
 def results(
     tasks: Iterable[Task],
     run: Callable[..., Any],
@@ -72,6 +82,20 @@ def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
         if (more := given(task)) is not None:
             return left.pop(i), more
     raise RuntimeError(f"each of {left} waits for another")
+
+
+@contextmanager
+def _no_interrupts() -> Iterator[None]:
+    """A process that is started here never hears of an interrupt, which is its parent's to handle."""
+    try:
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    except ValueError:  # not in the main thread: the caller keeps its signals
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _begin() -> None:

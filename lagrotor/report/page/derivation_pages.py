@@ -5,18 +5,19 @@ from base64 import b64encode
 from collections.abc import Mapping
 from html import escape
 from io import BytesIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.drawing.style import laid_out
 from lagrotor.paper.proof import Formula, Remark, Step
 from lagrotor.paper.scripts import Script
 from lagrotor.paper.stating import Stated
 from lagrotor.paper.tables import Table
 from lagrotor.report.content import Report, anchor
 from lagrotor.report.page.page_pieces import badge, link, prose, rows, typeset
+
+if TYPE_CHECKING:
+    from lagrotor.drawing.run_figure import RunFigure
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
@@ -72,15 +73,19 @@ def _shown(value: Any, answers: Mapping[str, str]) -> str:
         return rows(value.head, (tuple(_cell(cell) for cell in row) for row in value.rows))
     if isinstance(value, sp.Basic | sp.MatrixBase):
         return typeset(Formula(value).tex)
+    from lagrotor.drawing.run_figure import RunFigure
+
     if isinstance(value, RunFigure):
         labels = ", ".join(axes.get_ylabel().strip("$") for axes in value.axes)
         return f'<img src="{_png(value)}" alt="Over time: {escape(labels)}">'
     return ""
 
 
-def _png(figure: RunFigure) -> str:
+def _png(figure: "RunFigure") -> str:
     """The figure as an address that holds it; coarse and in 64 colours, as many are on a page."""
     from PIL import Image
+
+    from lagrotor.drawing.style import laid_out
 
     with BytesIO() as file, BytesIO() as small:
         figure.set_dpi(72)
