@@ -77,13 +77,22 @@ def _from_upright(axes: Array) -> Array:
 
 
 def turn_about(n: Array, angle: Array) -> Array:
-    """Rotations by `angle` (…,) about unit vectors n (…, 3): 1 + sin [n]× + (1 − cos)(n nᵀ − 1), (…, 3, 3)."""
-    angle = angle[..., None, None]
-    across = n[..., :, None] * n[..., None, :] - _ONE
-    turned: Array = _ONE + np.sin(angle) * cross_matrix(n) + 2 * np.sin(angle / 2) ** 2 * across
+    """Rotations by `angle` (…,) about unit vectors n (…, 3), (…, 3, 3): 1 + 2 cos(angle/2) [q]× + 2 [q]×², q = sin(angle/2) n.
+
+    This is 1 + sin(angle) [n]× + (1 − cos(angle)) [n]×².
+    """
+    half = angle[..., None] / 2
+    crossed = cross_matrix(np.sin(half) * n)
+    turned: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
     return turned
 
 
 def cross_matrix(v: Array) -> Array:
     """[v]× with [v]× w = v × w: (…, 3) → (…, 3, 3)."""
-    return (v @ _LEVI_CIVITA).reshape(*v.shape, 3)
+    return v.dot(_LEVI_CIVITA).reshape(*v.shape, 3)
+
+
+def turning_sum(products: Array) -> Array:
+    """Σ a × b of the sums Σ a bᵀ of products, (…, 3, 3) → (…, 3)."""
+    total: Array = products.reshape(*products.shape[:-2], 9).dot(-_LEVI_CIVITA.T)
+    return total

@@ -38,8 +38,7 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     off unit length, but then sin θ is subnormal too, and so is the error.
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
-    n = Omega / (size + (size == 0))[:, None]
-    return turn_about(n, size * dt)
+    return turn_about(Omega / (size + (size == 0))[:, None], size * dt)
 
 
 def printed_rotation(Omega: Array, dt: float) -> Array:

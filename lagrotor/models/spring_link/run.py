@@ -19,7 +19,7 @@ from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.scene import Shock
 
-LOST = 1e100  # a state as large as this has blown up; its energies are still finite
+LOST = 1e100  # a state of this norm has blown up; its energies are still finite
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,12 +86,13 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                 _shake(moving, shock, k * dt - shock.at if shock else 0.0)
                 moving.step(dt)
                 k += 1
-            if not max(abs(moving.X).max(), abs(moving.U).max(), abs(moving.R).max(), abs(moving.L).max()) < LOST:
+            state = moving.X.copy(), moving.U.copy(), moving.R, moving.L.copy()
+            if not sum(np.vdot(part, part) for part in state) < LOST**2:
                 raise IntegrationError(
                     f"run_steps: the state is not a number, or beyond {LOST:g}, at t = {k * dt:.6g} s with dt = {dt:g} "
                     f"s; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
                 )
-            seen.append((moving.X.copy(), moving.U.copy(), moving.R, moving.L.copy()))
+            seen.append(state)
     X, U, R, L = (np.array(part) for part in zip(*seen, strict=True))
     return _read(system, times, X, U, R, L, k)
 

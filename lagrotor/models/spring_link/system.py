@@ -1,8 +1,9 @@
 """Rung 6: the paper's own simulator, rigid bodies whose vertices are joined by stiff springs of no rest length.
 
 All bodies are stepped at once in stacked arrays, the ground being one more body, whose inverse mass and inverse inertia
-are zero. A step costs about thirty array calls on some ten rows each: what limits it is the overhead of a call, not the
-number of bodies or links.
+are zero. The gaps of the links are one matrix B times the places of centres and body axes, their rates B times the
+velocities of these, and Bᵀ takes the links' forces to the bodies. A step costs some forty array calls on a few rows each:
+what limits it is the overhead of a call, not the number of bodies or links.
 """
 
 from collections.abc import Callable
@@ -20,7 +21,7 @@ from lagrotor.models.spring_link.rigid_body import (
     finite_rotation,
     inertia_transform,
 )
-from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.numerics.rotations import cross_matrix, turning_sum
 
 LinkForce = Callable[[Array, Array, float, float], Array]
 
@@ -86,8 +87,7 @@ class RigidBodySystem:
         self.external = np.zeros_like(self.X)
         self.F, self.tau = np.zeros_like(self.X), np.zeros_like(self.X)
         self.Omega = self.angular_velocity()
-        self._ends: tuple[list[tuple[int, Array]], list[tuple[int, Array]]] = ([], [])
-        self._assemble()
+        self._incidence = np.empty((0, 4 * len(self.X)))
 
     def add_external(self, body: int, force: ArrayLike) -> None:
         """A lasting force (3,) in N on the centre of mass of `body`, without torque; not counted in any energy."""
@@ -115,11 +115,12 @@ class RigidBodySystem:
 
     def compute_forces(self) -> None:
         """F and tau (n + 1, 3): sums of the external and the link forces, and of X_r × F (3.02, 3.06)."""
-        arm, gap, rate = self._joints()
+        gap, rate = self.gaps(self.X, self.R), self.gaps(self.U, cross_matrix(self.Omega) @ self.R)
         pull = self.force(gap, rate, self.stiffness, self.damping)
-        on_ends = np.concatenate((pull, -pull))
-        self.F = self.external + self._gather @ on_ends
-        self.tau = self._gather @ (cross_matrix(arm) @ on_ends[:, :, None])[:, :, 0]
+        # Σ ±F for each body, then Σ ±a_k F for each of its axes e_k: X_r = Σ a_k e_k.
+        on_bodies = self._incidence.T.dot(pull).reshape(-1, 4, 3)
+        self.F = self.external + on_bodies[:, 0]
+        self.tau = turning_sum(self.R @ on_bodies[:, 1:])
 
     def step(self, dt: float) -> None:
         """The paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R. No matrix is inverted.
@@ -141,38 +142,28 @@ class RigidBodySystem:
         W = B M⁻¹ Bᵀ, where the row of B for a vertex at r from its centre is (1, −[r]×): gap rate = B (U, Omega). Its
         3 × 3 blocks on the diagonal are the sums over both ends of 1/M − [r]× I⁻¹ [r]×.
         """
-        n = len(self._of) // 2
-        crossed, share = cross_matrix(self._joints()[0]), np.hstack((np.eye(n), -np.eye(n)))
-        turning = self.transform(self.R, self.inverse_inertia)[self._of]
-        same = self._of[:, None] == self._of[None, :]
-        moving = self.inverse_mass[self._of, 0][:, None, None, None] * np.eye(3)
-        blocks = same[:, :, None, None] * (moving - crossed[:, None] @ turning[:, None] @ crossed[None, :])
-        return np.einsum("la,abij,mb->limj", share, blocks, share).reshape(3 * n, 3 * n)
+        n, ends = len(self._incidence), self._incidence.reshape(-1, len(self.X), 4)
+        share, crossed = ends[..., 0], cross_matrix((self.R @ ends[..., 1:, None])[..., 0])
+        turning = self.transform(self.R, self.inverse_inertia)
+        pushed = np.einsum("lb,b,mb,ij->limj", share, self.inverse_mass[:, 0], share, np.eye(3))
+        turned = np.einsum("lbij,bjk,mbkn->limn", crossed, turning, crossed)
+        return (pushed - turned).reshape(3 * n, 3 * n)
 
     def gaps(self, X: Array, R: Array) -> Array:
-        """X_1 − X_2 of every link (…, n_links, 3) in m, for stacks of centres (…, n + 1, 3) and rotations."""
-        point = X[..., self._of, :] + (R[..., self._of, :, :] @ self._arm)[..., 0]
-        n = len(self._of) // 2
-        return point[..., :n, :] - point[..., n:, :]
+        """X_1 − X_2 of every link (…, n_links, 3) in m, for stacks of centres (…, n + 1, 3) and rotations.
 
-    def _joints(self) -> tuple[Array, Array, Array]:
-        """Arms of all ends from their centres (2 n_links, 3), gaps and gap rates (n_links, 3), in world components."""
-        arm = (self.R[self._of] @ self._arm)[:, :, 0]
-        velocity = self.U[self._of] + (cross_matrix(self.Omega)[self._of] @ arm[:, :, None])[:, :, 0]
-        point, n = self.X[self._of] + arm, len(arm) // 2
-        return arm, point[:n] - point[n:], velocity[:n] - velocity[n:]
+        Its rate (m/s) for their velocities U and [Omega]× R.
+        """
+        centres_and_axes = np.concatenate((X[..., None, :], R.swapaxes(-1, -2)), axis=-2)
+        found: Array = self._incidence @ centres_and_axes.reshape(*X.shape[:-2], -1, 3)
+        return found
 
     def _join(self, first: tuple[int, Array], second: tuple[int, Array]) -> None:
-        self._ends[0].append(first)
-        self._ends[1].append(second)
-        self._assemble()
-
-    def _assemble(self) -> None:
-        """Body and arm of every end, first ends before second ends, and the 0–1 matrix that gathers ends by body."""
-        ends = [*self._ends[0], *self._ends[1]]
-        self._of = np.array([i for i, _ in ends], dtype=np.intp)
-        self._arm = np.array([arm for _, arm in ends]).reshape(-1, 3, 1)
-        self._gather = (np.arange(len(self.X))[:, None] == self._of[None, :]).astype(float)
+        """One more row: for the body of each end ± (1, arm), on the places of its centre and its axes."""
+        row = np.zeros((len(self.X), 4))
+        for (i, arm), sign in ((first, 1.0), (second, -1.0)):
+            row[i] += sign * np.array([1.0, *arm])
+        self._incidence = np.vstack((self._incidence, row.ravel()))
 
     def _body(self, body: int) -> int:
         if isinstance(body, bool) or not isinstance(body, int) or not 1 <= body <= len(self.vertices):

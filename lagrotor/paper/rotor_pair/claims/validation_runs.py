@@ -108,7 +108,7 @@ def measure_c07(size: float) -> dict[str, float]:
         middle = (low + high) / 2
         low, high = (middle, high) if _is_nan(printed_rotation, 10**middle) else (low, middle)
     scene = Scene(SPINS, link=HEAVY, shock=Shock((50, 0, 0), 0.56, 1 / 50))
-    ends = np.round(np.arange(0.02, 0.21, 0.02), 6)
+    ends = np.round(np.arange(1, 201) * STEP, 6)
     return {
         "omega_rad_per_s": size,
         "omega_squared": size * size,
