@@ -33,7 +33,7 @@ from lagrotor.report.page import whole_page as page
 from lagrotor.report.interactive import interactive
 """
 SUBSET = """
-kept = {"s2a_angular_momentum", "s3e_link", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
+kept = {"s3e_link", "s5_2a_single_rotor", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}
 names = Scripts.names
 Scripts.names = lambda scripts, kind, prefix="": [name for name in names(scripts, kind, prefix) if name in kept]
 interactive.interactive = lambda: '<section id="model"><h2>The model</h2></section>'
