@@ -45,7 +45,7 @@ def structure_picture(s: Assembly) -> Figure:
             reason = "None about upright:\nthere a bar is not as long\nas its tips are apart"
             roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
             return figure
-        found, standing = small_motion(s).roots[0], stands(s)
+        found, standing = small_motion(s).roots, stands(s)
         for grows, ink in ((False, MODEL), (True, PAPER)):
             part = found[(found.real > 0) == grows]
             roots.plot(part.real, part.imag, "o", color=ink, markersize=6)

@@ -25,6 +25,7 @@ Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
 # Of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits).
 ZERO = 1e-6
+_DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -49,7 +50,10 @@ class Modes(Shown):
 
 @dataclass(frozen=True, eq=False)
 class SmallMotion:
-    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the freedoms u = basis q, basis (2 N, n)."""
+    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the freedoms u = basis q, basis (2 N, n).
+
+    Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
+    """
 
     mass: Matrix
     damping: Matrix
@@ -61,7 +65,7 @@ class SmallMotion:
     @property
     def freedoms(self) -> int:
         """How many freedoms the bars leave."""
-        return len(self.mass)
+        return int(self.mass.shape[-1])
 
     def scaled(self, factor: float) -> "SmallMotion":
         """The same with all spins multiplied."""
@@ -72,34 +76,45 @@ class SmallMotion:
         return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
 
     @cached_property
-    def roots(self) -> tuple[Complex, Complex]:
-        """All 2n roots s of det(M s² + C s + K) and their vectors (n, 2n), nearly zero ones set to zero."""
+    def roots(self) -> Complex:
+        """All 2n roots s of det(M s² + C s + K), nearly zero ones set to zero."""
+        return self._in_seconds(np.linalg.eigvals(self._first_order))
+
+    @cached_property
+    def waves(self) -> tuple[Complex, Complex]:
+        """The roots and their vectors (n, 2n)."""
+        s, vectors = np.linalg.eig(self._first_order)
+        return self._in_seconds(s), vectors[..., : self.freedoms, :] + 0j
+
+    @property
+    def _first_order(self) -> Matrix:
+        """The matrix of (q, q')' in units of the rate, (2n, 2n)."""
         n, unit = self.freedoms, self.rate
-        C, K = (self.damping + self.gyroscopic) / unit, self.stiffness / unit**2
-        below = np.linalg.solve(self.mass, np.hstack([-K, -C]))
-        s, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below]))
-        s = np.where(np.abs(s.real) < ZERO * _size(s), 1j * s.imag, s)
-        s = np.where(np.abs(s.imag) < ZERO * _size(s), s.real, s) + 0j
-        return unit * s, vectors[:n] + 0j
+        below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
+        found = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
+        found[..., :n, n:] = np.eye(n)
+        found[..., n:, :] = np.linalg.solve(self.mass, below)
+        return found
+
+    def _in_seconds(self, s: Matrix) -> Complex:
+        least = ZERO * np.maximum(np.abs(s), 1.0)
+        return np.asarray(
+            self.rate * (np.where(np.abs(s.real) < least, 0, s.real) + 1j * np.where(np.abs(s.imag) < least, 0, s.imag))
+        )
 
     @property
     def growth(self) -> float:
         """The largest real part of a root, 1/s; zero where nothing grows."""
-        return float(max(self.roots[0].real.max(), 0.0))
+        return float(max(self.roots.real.max(), 0.0))
 
     @property
     def drifts(self) -> bool:
         """Whether some displacement neither returns nor grows but goes on at its speed: a double root zero in one motion."""
-        s = self.roots[0]
-        zeros = int((s == 0).sum())
+        zeros = int((self.roots == 0).sum())
         if not zeros:
             return False
         sizes = np.linalg.svd(self.stiffness / self.rate**2, compute_uv=False)
         return zeros > int((sizes < 1e-9 * max(1.0, float(np.abs(self.mass).max()))).sum())
-
-
-def _size(s: Complex) -> Array:
-    return np.maximum(np.abs(s), 1.0)
 
 
 @lru_cache(maxsize=64)
@@ -117,17 +132,24 @@ def small_motion(s: Assembly) -> SmallMotion:
     return on_freedoms(matrices(c), bar_rows(c), c.rate)
 
 
-def on_freedoms(parts: tuple[Matrix, ...], rows: Matrix, rate: float) -> SmallMotion:
-    """The system of `matrices` on what rows u = 0 leaves; all may be complex."""
-    from scipy.linalg import null_space
-
-    Z = null_space(rows, rcond=1e-10) if len(rows) else np.eye(len(parts[0]))
-    mass, damping, gyroscopic, stiffness = (Z.conj().T @ part @ Z for part in parts)
+def on_freedoms(parts: Matrix, rows: Matrix, rate: float) -> SmallMotion:
+    """The system of `matrices`, (…, 4, n, n), on what rows u = 0 leaves, rows (…, B, n) of one rank; all may be complex."""
+    Z: Matrix = np.eye(rows.shape[-1])
+    if rows.shape[-2]:
+        _, sizes, vectors = np.linalg.svd(rows)
+        Z = vectors[..., int(rank_of(sizes).max()) :, :].conj().swapaxes(-1, -2)
+        parts = Z.conj().swapaxes(-1, -2)[..., None, :, :] @ parts @ Z[..., None, :, :]
+    mass, damping, gyroscopic, stiffness = np.moveaxis(parts, -3, 0)
     return SmallMotion(mass, damping, gyroscopic, stiffness, Z, rate)
 
 
-def matrices(c: Coefficients) -> tuple[Matrix, ...]:
-    """Mass, damping, gyroscopic and stiffness matrix on u, (2 N, 2 N) each, the bars' constraints left aside."""
+def rank_of(sizes: Array) -> NDArray[np.intp]:
+    """Rank of the bars' rows by their singular values (…, k): (…,)."""
+    return np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
+
+
+def matrices(c: Coefficients) -> Array:
+    """Mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), the bars' constraints left aside."""
     A = np.diag(c.A)
     np.add.at(A, (c.i, c.j), c.coupling)
     np.add.at(A, (c.j, c.i), c.coupling)
@@ -135,7 +157,7 @@ def matrices(c: Coefficients) -> tuple[Matrix, ...]:
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    return np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K
+    return np.array([np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
 
 
 def bar_rows(c: Coefficients) -> Array:
@@ -165,7 +187,7 @@ def modes(s: Assembly) -> Modes:
     Raises InputError where a bar is not as long as its tips are apart when upright.
     """
     linear = small_motion(s)
-    roots, vectors = linear.roots
+    roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
     real = real[np.argsort(-roots[real].real, kind="stable")][: linear.freedoms - len(turning)]

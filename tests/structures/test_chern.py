@@ -46,18 +46,20 @@ def test_spins_that_differ_enough_end_the_phase() -> None:
 def energy_chern(pattern, grid: int) -> tuple[int, ...]:
     """The same from the Hermitian matrix of (K^½ u, M^½ u'), whose square is twice the energy."""
     b, phases = bloch(pattern), 2 * np.pi * (np.arange(grid) + 0.5) / grid
-    states = []
-    for q in ((x, y) for x in phases for y in phases):
-        m = b.motion(np.array(q))
-        stiff, vectors = np.linalg.eigh(m.stiffness)
-        root_K = (vectors * np.sqrt(stiff)) @ vectors.conj().T
-        heavy, vectors = np.linalg.eigh(m.mass)
-        root_M = (vectors / np.sqrt(heavy)) @ vectors.conj().T
-        across = 1j * root_K @ root_M
-        _, v = np.linalg.eigh(np.block([[0 * across, across], [across.conj().T, -1j * root_M @ m.gyroscopic @ root_M]]))
-        f = m.freedoms
-        states.append(np.vstack([m.basis @ v[:f, f:], m.basis @ v[f:, f:]]).T)
-    v = np.array(states).reshape(grid, grid, *states[0].shape)
+    ((_, m),) = b.motions(np.array([(x, y) for x in phases for y in phases]))
+
+    def dagger(x):
+        return x.conj().swapaxes(-1, -2)
+
+    stiff, vectors = np.linalg.eigh(m.stiffness)
+    root_K = (vectors * np.sqrt(stiff)[:, None]) @ dagger(vectors)
+    heavy, vectors = np.linalg.eigh(m.mass)
+    root_M = (vectors / np.sqrt(heavy)[:, None]) @ dagger(vectors)
+    across = 1j * root_K @ root_M
+    _, v = np.linalg.eigh(np.block([[0 * across, across], [dagger(across), -1j * root_M @ m.gyroscopic @ root_M]]))
+    f = m.freedoms
+    v = np.concatenate([m.basis @ v[:, :f, f:], m.basis @ v[:, f:, f:]], axis=-2).swapaxes(-1, -2)
+    v = v.reshape(grid, grid, *v.shape[1:])
     link = [(v.conj() * np.roll(v, -1, axis)).sum(-1) for axis in (0, 1)]
     loop = link[0] * np.roll(link[1], -1, 0) * np.roll(link[0], -1, 1).conj() * link[1].conj()
     sense = np.sign(np.linalg.det(pattern.steps))

@@ -17,6 +17,7 @@ from lagrotor.structures import (
     straight_row,
     zigzag,
 )
+from lagrotor.structures.waves import dispersion as dispersion_module
 
 J = Rotor().J
 Q = np.linspace(-3.1, 3.1, 24)
@@ -148,6 +149,24 @@ def test_a_piece_and_its_pattern_agree_with_springs_and_several_rotors() -> None
     rates = body.modes().rates
     inside = [(bands.min(0) - 1e-9 <= w) & (w <= bands.max(0) + 1e-9) for w in rates]
     assert np.all(np.any(inside, axis=1))
+
+
+def test_many_wave_numbers_at_once_give_what_each_gives_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At q = 0 the rigid honeycomb has a freedom more: wave numbers of both kinds, in no order, in blocks."""
+    pattern, q = (
+        honeycomb(spins=(30.0, 10.0), hinge=200.0),
+        np.array([[0.3, 0.2], [0, 0], [1.0, 2.0], [0, 0], [2.5, 0.4]]),
+    )
+    monkeypatch.setattr(dispersion_module, "_TOGETHER", 2)
+    together = dispersion(pattern, q)
+    assert together.freedoms.tolist() == [1, 2, 1, 2, 1] and together.zero_bands == 0
+    for k, point in enumerate(q):
+        alone = dispersion(pattern, point[None])
+        f = alone.rates.shape[1]
+        assert np.isnan(together.rates[k, f:]).all() and np.allclose(together.rates[k, :f], alone.rates[0], rtol=1e-13)
+        # A shape is known but for its phase.
+        product = np.abs((together.shapes[k, :f].conj() * alone.shapes[0]).sum((-2, -1)))
+        assert np.allclose(product, 1, atol=1e-13)
 
 
 def test_gaps_are_where_no_band_is() -> None:

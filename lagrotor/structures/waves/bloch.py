@@ -5,14 +5,16 @@ cell and its neighbours, Mass, damping, gyroscopic and stiffness matrices are P�
 the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, Complex, coefficients
-from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, matrices, on_freedoms
+from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, matrices, on_freedoms, rank_of
 from lagrotor.structures.waves.cell import Cell
 
 _ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
@@ -20,36 +22,44 @@ _ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
 
 @dataclass(frozen=True, eq=False)
 class Bloch:
-    """parts: mass, damping, gyroscopic, stiffness of the cell with its neighbours, (2 n, 2 n); rows (B, 2 n) of its bars;
+    """parts: mass, damping, gyroscopic, stiffness of the cell with its neighbours, (4, 2 n, 2 n); rows (B, 2 n) of its bars;
     copies (2 n, 2 N): the neighbours as turned copies of the cell's joints; shifts (2 n, d): how many steps away."""
 
-    parts: tuple[Array, ...]
+    parts: Array
     rows: Array
     copies: Array
     shifts: Array
     rate: float
 
     def phases(self, q: Array) -> Complex:
-        """P(q), (2 n, 2 N)."""
-        return np.asarray(np.exp(1j * self.shifts @ q)[:, None] * self.copies)
+        """P(q), (…, 2 n, 2 N), of wave numbers (…, d)."""
+        return np.asarray(np.exp(1j * q @ self.shifts.T)[..., None] * self.copies)
 
-    def at(self, q: Array) -> tuple[tuple[Matrix, ...], Matrix]:
-        """The four matrices (2 N, 2 N) and the rows (B, 2 N) at q."""
+    def at(self, q: Array) -> tuple[Matrix, Matrix]:
+        """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d)."""
         P = self.phases(q)
-        return tuple(P.conj().T @ part @ P for part in self.parts), self.rows @ P
+        return _between(P, self.parts, P), self.rows @ P
 
-    def slopes(self, q: Array, k: int) -> tuple[tuple[Matrix, ...], Matrix]:
+    def slopes(self, q: Array, k: int) -> tuple[Matrix, Matrix]:
         """Their derivatives by q_k."""
         P = self.phases(q)
         dP = 1j * self.shifts[:, k, None] * P
-        return tuple(dP.conj().T @ part @ P + P.conj().T @ part @ dP for part in self.parts), self.rows @ dP
+        return _between(dP, self.parts, P) + _between(P, self.parts, dP), self.rows @ dP
 
-    def motion(self, q: Array) -> SmallMotion:
-        """The linear system on the freedoms that the bars leave at q."""
+    def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
+        """Of the wave numbers q (n_q, d) those at which the bars leave equally many freedoms, by their places in q, and the
+        linear systems there."""
         parts, rows = self.at(q)
-        return on_freedoms(
-            parts, np.where(np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0), 0, rows), self.rate
-        )
+        rows = np.where(np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0), 0, rows)
+        ranks = rank_of(np.linalg.svd(rows, compute_uv=False)) if rows.shape[-2] else np.zeros(len(q), dtype=np.intp)
+        for rank in np.unique(ranks):
+            (places,) = np.nonzero(ranks == rank)
+            yield places, on_freedoms(parts[places], rows[places], self.rate)
+
+
+def _between(left: Complex, parts: Array, right: Complex) -> Complex:
+    """left† part right of each of four parts, (…, 4, 2 N, 2 N)."""
+    return np.asarray(left.conj().swapaxes(-1, -2)[..., None, :, :] @ parts @ right[..., None, :, :])
 
 
 def bloch(p: Cell) -> Bloch:

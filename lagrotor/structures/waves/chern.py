@@ -18,6 +18,7 @@ from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import Dispersion, dispersion
 
 _APART = 1e-6  # of the highest rate: bands nearer to each other at some wave number belong to one group
+_STARTS = 4  # local minima of a grid that are followed
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     d = dispersion(p, q)
     _check(d)
     n = d.rates.shape[1]
-    between = np.array([_least_distance(d, k) for k in range(n - 1)])
+    between = np.array([_least_distance(d, k, grid) for k in range(n - 1)])
     ends = [k for k in range(n) if k == n - 1 or between[k] > _APART * d.rates.max()]
     groups = tuple(zip([0, *(k + 1 for k in ends[:-1])], ends, strict=True))
     sums = np.array([_flux(d, first, last, grid).sum() / (2 * np.pi) for first, last in groups])
@@ -56,20 +57,23 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     )
 
 
-def _least_distance(d: Dispersion, k: int, starts: int = 4) -> float:
-    """The least distance of band k to the next at one wave number, rad/s, from the nearest places on the grid on."""
+def _least_distance(d: Dispersion, k: int, grid: int) -> float:
+    """The least distance of band k to the next at one wave number, rad/s, from the grid's local minima on, the least four."""
     from scipy.optimize import minimize
 
     b = bloch(d.pattern)
 
     def distance(q: Array) -> float:
-        s = b.motion(q).roots[0]
-        rates = np.sort(-s.imag)[len(s) // 2 :]
-        return float(rates[k + 1] - rates[k]) if len(s) == 2 * d.rates.shape[1] else np.inf
+        ((_, motion),) = b.motions(q[None])
+        rates = np.sort(-motion.roots[0].imag)[motion.freedoms :]
+        return float(rates[k + 1] - rates[k]) if len(rates) == d.rates.shape[1] else np.inf
 
-    nearest = np.argsort(d.rates[:, k + 1] - d.rates[:, k], kind="stable")[:starts]
+    apart = (d.rates[:, k + 1] - d.rates[:, k]).reshape(grid, grid)
+    beside = [np.roll(apart, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    lowest = np.flatnonzero(apart <= np.min(beside, axis=0))
+    starts = lowest[np.argsort(apart.ravel()[lowest], kind="stable")][:_STARTS]
     options = {"xatol": 1e-9, "fatol": 1e-12 * d.rates.max(), "maxiter": 200}
-    return float(min(minimize(distance, d.q[m], method="Nelder-Mead", options=options).fun for m in nearest))
+    return float(min(minimize(distance, d.q[m], method="Nelder-Mead", options=options).fun for m in starts))
 
 
 def _check(d: Dispersion) -> None:
@@ -96,13 +100,8 @@ def _flux(d: Dispersion, first: int, last: int, grid: int) -> Array:
     """Berry's phase around each plaquette, (grid, grid), the bands first to last together."""
     b = bloch(d.pattern)
     u = d.shapes[:, first : last + 1].reshape(len(d.q), last + 1 - first, -1)
-    parts = [b.at(q)[0] for q in d.q]
-    momenta = np.stack(
-        [
-            -1j * rates[:, None] * (waves @ M.T) + waves @ G.T / 2
-            for rates, waves, (M, _, G, _) in zip(d.rates[:, first : last + 1], u, parts, strict=True)
-        ]
-    )
+    M, _, G, _ = np.moveaxis(b.at(d.q)[0].swapaxes(-1, -2), -3, 0)
+    momenta = -1j * d.rates[:, first : last + 1, None] * (u @ M) + u @ G / 2
     u, momenta = (each.reshape(grid, grid, *each.shape[1:]) for each in (u, momenta))
     along, across = (_link(u, momenta, axis) for axis in (0, 1))
     loop = along * np.roll(across, -1, 0) * np.roll(along, -1, 1).conj() * across.conj()

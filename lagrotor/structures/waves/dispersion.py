@@ -1,7 +1,6 @@
 """Bands of a pattern: rates against wave number, growth, gaps, group velocity, zero bands, long-wave speed."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,10 +8,12 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Complex
+from lagrotor.structures.small_motion import SmallMotion
 from lagrotor.structures.waves.bloch import Bloch, bloch
 from lagrotor.structures.waves.cell import Cell
 
 _SAME = 1e-9  # of the largest rate: a difference below it is none
+_TOGETHER = 64  # wave numbers whose matrices are held at once
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,32 +87,39 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     points = points[:, None] if points.ndim == 1 and d == 1 else points
     if points.ndim != 2 or points.shape[1] != d or not len(points) or not np.isfinite(points).all():
         raise InputError(f"dispersion: q must be finite numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
-    b = bloch(p)
-    found = [_waves(b, point) for point in points]
-    freedoms = np.array([len(rates) for rates, *_ in found])
-    most = int(freedoms.max())
-    rates, growth, shapes = (np.stack([_padded(row[k], most) for row in found]) for k in range(3))
-    still = min(row[3] for row in found if len(row[0]) == freedoms.min())
-    return Dispersion(p, points, rates, growth, shapes.reshape(*rates.shape, len(p.joints), 2), freedoms, still)
+    b, most = bloch(p), 2 * len(p.joints)
+    rates, growth = np.full((2, len(points), most), np.nan)
+    shapes = np.full((len(points), most, most), np.nan, dtype=complex)
+    freedoms, still = np.zeros(len(points), dtype=int), dict[int, int]()
+    for first in range(0, len(points), _TOGETHER):
+        for places, motion in b.motions(points[first : first + _TOGETHER]):
+            here, f = first + places, motion.freedoms
+            freedoms[here], still[f] = f, min(still.get(f, f), _still(motion))
+            if f:
+                rates[here, :f], growth[here, :f], shapes[here, :f] = _waves(motion)
+    n = int(freedoms.max())
+    found = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
+    return Dispersion(p, points, rates[:, :n], growth[:, :n], found, freedoms, still[min(still)])
 
 
-def _padded(row: Any, most: int) -> Any:
-    """Rows of nan added at the end, `most` in all."""
-    return np.concatenate([row, np.full((most - len(row), *row.shape[1:]), np.nan)])
+def _still(motion: SmallMotion) -> int:
+    """How many freedoms nothing acts on, the fewest of the wave numbers."""
+    acting = np.concatenate(
+        [motion.stiffness / motion.rate**2, (motion.gyroscopic + motion.damping) / motion.rate], axis=-2
+    )
+    if not motion.freedoms:
+        return 0
+    least = _SAME * np.maximum(1.0, np.abs(motion.mass).max((-2, -1)))
+    return int(motion.freedoms - np.linalg.matrix_rank(acting, tol=least).max())
 
 
-def _waves(b: Bloch, q: Array) -> tuple[Array, Array, Complex, int]:
-    """Rates, growth (f,), shapes (f, 2 N), and how many freedoms nothing acts on."""
-    motion = b.motion(q)
-    f = motion.freedoms
-    if not f:
-        return np.zeros(0), np.zeros(0), np.zeros((0, b.copies.shape[1]), dtype=complex), 0
-    s, vectors = motion.roots
-    kept = np.lexsort((s.real, -s.imag))[f:]
-    shapes = (motion.basis @ vectors[:, kept]).T
-    acting = np.vstack([motion.stiffness / b.rate**2, (motion.gyroscopic + motion.damping) / b.rate])
-    still = f - np.linalg.matrix_rank(acting, tol=_SAME * max(1.0, float(np.abs(motion.mass).max())))
-    return 0.0 - s.imag[kept], s.real[kept], shapes / np.linalg.norm(shapes, axis=1, keepdims=True), int(still)
+def _waves(motion: SmallMotion) -> tuple[Array, Array, Complex]:
+    """Rates, growth (n_q, f), shapes (n_q, f, 2 N)."""
+    s, vectors = motion.waves
+    kept = np.lexsort((s.real, -s.imag), axis=-1)[:, motion.freedoms :]
+    s, vectors = np.take_along_axis(s, kept, -1), np.take_along_axis(vectors, kept[:, None, :], -1)
+    shapes = (motion.basis @ vectors).swapaxes(-1, -2)
+    return 0.0 - s.imag, s.real, shapes / np.linalg.norm(shapes, axis=-1, keepdims=True)
 
 
 def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
