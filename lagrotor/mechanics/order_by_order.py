@@ -10,10 +10,14 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import lcm
+
+from sympy import QQ, ZZ
 
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries
 
 Waves = Mapping[int, Coefficient]  # of one power of eps: cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
+Pairs = list[tuple[Waves, Waves]]
 
 
 @dataclass(eq=False)
@@ -104,26 +108,44 @@ def _sum(a: Waves, b: Waves) -> Waves:
     return {h: v for h, v in total.items() if v}
 
 
-def _product(pairs: list[tuple[Waves, Waves]]) -> Waves:
-    """The sum of products of waves, by cos p cos q = (cos(p−q) + cos(p+q))/2 and its kin."""
+def _product(pairs: Pairs) -> Waves:
+    """The sum of products of waves; of rational ones by whole numbers over one denominator, reduced once a harmonic."""
+    whole, below = _over_one_denominator(pairs)
     total: dict[int, Coefficient] = defaultdict(int)
-    for first, second in pairs:
-        if not first:
-            continue
-        for q, v in second.items():
-            half = v / 2
-            for p, u in first.items():
-                part = u * half
-                i, j = abs(p), abs(q)
-                if p >= 0 and q >= 0:
-                    total[abs(i - j)] += part
-                    total[i + j] += part
-                elif p < 0 and q < 0:
-                    total[abs(i - j)] += part
-                    total[i + j] -= part
-                else:
-                    sine, cosine = (i, j) if p < 0 else (j, i)
-                    total[-(i + j)] += part
-                    if sine != cosine:
-                        total[-abs(sine - cosine)] += part if sine > cosine else -part
-    return {h: v for h, v in total.items() if v}
+    for first, second in whole:
+        _add_twice_the_product(total, first, second)
+    return {h: QQ(v, 2 * below) if isinstance(v, ZZ.dtype) else v / 2 for h, v in total.items() if v}
+
+
+def _over_one_denominator(pairs: Pairs) -> tuple[Pairs, int]:
+    """Pairs of rational waves as whole numbers, and the denominator of all their products; others as they are, over 1."""
+    if not all(isinstance(v, QQ.dtype) for pair in pairs for waves in pair for v in waves.values()):
+        return pairs, 1
+    each = [(_whole(first), _whole(second)) for first, second in pairs]
+    below = lcm(*(a * b for (_, a), (_, b) in each))
+    return [(f, {h: v * (below // (a * b)) for h, v in s.items()}) for (f, a), (s, b) in each], below
+
+
+def _whole(waves: Waves) -> tuple[Waves, int]:
+    """Rational waves as whole numbers over one denominator."""
+    below = lcm(*(int(v.denominator) for v in waves.values()))
+    return {h: v.numerator * (below // v.denominator) for h, v in waves.items()}, below
+
+
+def _add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: Waves) -> None:
+    """Twice the product is added to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its kin."""
+    for q, v in second.items():
+        for p, u in first.items():
+            part = u * v
+            i, j = abs(p), abs(q)
+            if p >= 0 and q >= 0:
+                total[abs(i - j)] += part
+                total[i + j] += part
+            elif p < 0 and q < 0:
+                total[abs(i - j)] += part
+                total[i + j] -= part
+            else:
+                sine, cosine = (i, j) if p < 0 else (j, i)
+                total[-(i + j)] += part
+                if sine != cosine:
+                    total[-abs(sine - cosine)] += part if sine > cosine else -part
