@@ -48,12 +48,13 @@ def data() -> dict[str, np.ndarray]:
     spins = np.linspace(0, 4, 161)
     c = coefficients(structure("a rotor alone", 1))
     fall = float(np.sqrt(c.gravity * c.S[0] / c.A[0]))
+    unit_spins = [small_motion(structure(name, 1)) for name in SHOWN]
     found = {name: [structure(name, x) for x in TRIED] for name in SHOWN}
     t = np.linspace(0, 24 / fall, 401)
     runs = [structure("corner of three", 8**0.5 * x).simulate(t, rates=[(1e-3, 0)] * 3, tol=1e-8) for x in (0.97, 1.03)]
     return {
         "spins": spins,
-        "growth": np.array([[small_motion(structure(n, x)).growth / fall for x in spins] for n in SHOWN]),
+        "growth": np.array([[motion.scaled(x).growth / fall for x in spins] for motion in unit_spins]),
         "measured": np.array(
             [[measured_growth(s) / fall if small_motion(s).growth else np.nan for s in row] for row in found.values()]
         ),
