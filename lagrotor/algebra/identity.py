@@ -89,6 +89,10 @@ def decide_zero(expression: sp.Expr) -> Decision:
         expression = scalar(expression, "decide_zero")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
+    return _decided_or_not(expression)
+
+
+def _decided_or_not(expression: sp.Expr) -> Decision:
     try:
         return _decided(expression)
     except NotExactError as refusal:
@@ -156,7 +160,7 @@ def _decide_difference(left: sp.Expr, right: sp.Expr) -> Decision:
         left, right = scalar(left, "decide_equal"), scalar(right, "decide_equal")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    return decide_zero(left - right)
+    return _decided_or_not(left - right)
 
 
 def normal_form(expression: sp.Expr) -> sp.Expr:
@@ -210,6 +214,9 @@ def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
     named = ring.divisors.get(polynomial.monic())
     if named is not None:
         return [*found, named]
-    if len(polynomial) > _MOST_TERMS or max(map(sum, polynomial.monoms())) > _MOST_DEGREE:
+    if len(polynomial) == 1:
+        [monomial] = polynomial.itermonoms()
+        return found + [name for name, power in zip(ring.names, monomial, strict=True) if power]
+    if len(polynomial) > _MOST_TERMS or max(map(sum, polynomial.itermonoms())) > _MOST_DEGREE:
         return [*found, ring.expression(polynomial)]
     return found + [ring.expression(factor) for factor, _ in polynomial.factor_list()[1]]

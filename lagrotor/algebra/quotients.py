@@ -38,14 +38,11 @@ class Ring:
         self.names = tuple(names) or (sp.Dummy(),)
         # Fixed letters: the names of the generators themselves may coincide.
         self.polynomials = PolyRing(sp.symbols(f"g:{len(self.names)}"), sp.QQ)
+        self.one = self.polynomials.one
         self.generators: dict[sp.Expr, PolyElement] = dict(zip(self.names, self.polynomials.gens, strict=True))
         self.squares: dict[int, PolyElement] = {}
         self.divisors: dict[PolyElement, sp.Expr | None] = {}
         self.work = 0
-
-    @property
-    def one(self) -> PolyElement:
-        return self.polynomials.one
 
     def set_square(self, name: sp.Expr, square: PolyElement) -> None:
         """Add the rule name**2 = square."""
@@ -64,6 +61,8 @@ class Ring:
             raise NotExactError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
 
     def product(self, a: PolyElement, b: PolyElement) -> PolyElement:
+        if a is self.one or b is self.one:
+            return a if b is self.one else b
         self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _LETTERS))
         return self.reduced(a * b)
 
@@ -72,7 +71,7 @@ class Ring:
 
     def power(self, polynomial: PolyElement, times: int) -> PolyElement:
         if len(polynomial) == 1:
-            [(monomial, coefficient)] = polynomial.terms()
+            [(monomial, coefficient)] = polynomial.iterterms()
             if abs(coefficient) != 1:
                 self.spend((1 + times * _bits(coefficient) // _BITS) ** 2)
             raised = self.polynomials.from_dict({tuple(times * e for e in monomial): coefficient**times})
@@ -87,13 +86,13 @@ class Ring:
 
     def reduced(self, polynomial: PolyElement) -> PolyElement:
         """Replace g**(2*k + r) by square**k * g**r, r = 0 or 1, for every generator g with a known square."""
-        degrees = tuple(map(max, zip(*polynomial.monoms(), strict=True)))
+        degrees = tuple(map(max, zip(*polynomial.itermonoms(), strict=True)))
         for index, square in self.squares.items():
             # A square holds no generator with a rule: the degrees in the others that have one do not change.
             if not degrees or degrees[index] < 2:
                 continue
             parts: dict[int, dict[tuple[int, ...], Any]] = {}
-            for monomial, coefficient in polynomial.terms():
+            for monomial, coefficient in polynomial.iterterms():
                 times, rest = divmod(monomial[index], 2)
                 parts.setdefault(times, {})[(*monomial[:index], rest, *monomial[index + 1 :])] = coefficient
             polynomial = self.polynomials.zero
@@ -131,9 +130,11 @@ class Ring:
         """Return 1/polynomial, noting its factors, or `name` for it; raise NotExactError if it is zero in the ring."""
         if not polynomial:
             raise NotExactError("A denominator vanishes identically.")
-        powers = tuple(min(exponents) for exponents in zip(*polynomial.monoms(), strict=True))
+        powers = tuple(min(exponents) for exponents in zip(*polynomial.itermonoms(), strict=True))
         factors = {g: n for g, n in zip(self.polynomials.gens, powers, strict=True) if n}
-        rest = {tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.terms()}
+        rest = {
+            tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.iterterms()
+        }
         if len(rest) > 1:
             factors[self.polynomials.from_dict(rest).monic()] = 1
         if name is None:
@@ -146,8 +147,8 @@ class Ring:
 
 def _length(polynomial: PolyElement) -> int:
     """The longest coefficient, in units of _BITS."""
-    return 1 + max(map(_bits, polynomial.coeffs()), default=0) // _BITS
+    return 1 + max(map(_bits, polynomial.itercoeffs()), default=0) // _BITS
 
 
 def _bits(coefficient: Any) -> int:
-    return int(coefficient.numerator).bit_length() + int(coefficient.denominator).bit_length()
+    return coefficient.numerator.bit_length() + coefficient.denominator.bit_length()
