@@ -48,9 +48,9 @@ _LONGEST = 240
 
 @dataclass(frozen=True)
 class Step:
-    """Equations that were proved. pairs: (left, right). names: LaTeX of the left sides, where they are better named than
-    written out. written: LaTeX of the equations, where vectors read better than the components that were compared. domain:
-    factors that must not vanish. order: of a series in `small`."""
+    """Equations that were proved. pairs: (left, right). names: LaTeX of the left sides. written: LaTeX of the equations,
+    where vectors read better than the components that were compared. domain: factors that must not vanish. order: of a
+    series in `small`."""
 
     pairs: tuple[tuple[Any, Any], ...]
     says: str
@@ -64,10 +64,8 @@ class Step:
     def tex(self) -> str:
         """The equations below each other, as LaTeX."""
         end = rf" + O\left({latex(self.small)}^{{{(self.order or 0) + 1}}}\right)" if self.small is not None else ""
-        names = self.names or tuple(latex(left) for left, _ in self.pairs)
-        sides = zip(names, self.pairs, strict=True)
         lines = [f"{line}{end}" for line in self.written] or [
-            f"{name} &= {latex(right)}{end}" for name, (_, right) in sides
+            f"{name} &= {latex(right)}{end}" for name, (_, right) in zip(self.names, self.pairs, strict=True)
         ]
         return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
 
@@ -95,8 +93,12 @@ def prove(
     for given, what in ((named, "names"), (shown, "equations are written")):
         if given and len(given) != len(pairs):
             raise ProofError(f"prove: {len(given)} {what} for {len(pairs)} equations")
-    if not (named or shown) and any(len(latex(a)) > _LONGEST for a, _ in pairs):
-        raise ProofError(f"prove: {says or 'this step'}: a left side is too long to be read; give `names` or `written`")
+    if not (named or shown):
+        named = tuple(latex(left) for left, _ in pairs)
+        if any(len(name) > _LONGEST for name in named):
+            raise ProofError(
+                f"prove: {says or 'this step'}: a left side is too long to be read; give `names` or `written`"
+            )
     domain: dict[sp.Expr, None] = {}
     for a, b in pairs:
         if small is not None:
