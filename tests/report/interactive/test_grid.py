@@ -12,17 +12,10 @@ import pytest
 from lagrotor import Link, Structure
 from lagrotor.report.interactive import grid as module
 from lagrotor.report.interactive.grid import grid_section
+from tests.report.interactive.in_node import NODE, value_of
 
-NODE = shutil.which("node")
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 SOURCE = (Path(module.__file__).with_name("grid_standing.js")).read_text(encoding="utf-8")
-
-
-def run_node(expression: str) -> object:
-    code = f"{SOURCE}\nconsole.log(JSON.stringify({expression}));"
-    ran = subprocess.run([str(NODE), "-"], input=code, capture_output=True, text=True, timeout=60)
-    assert ran.returncode == 0, ran.stderr[-800:]
-    return json.loads(ran.stdout)
 
 
 def random_boards(n: int) -> list[tuple[list[float | None], list[int], list[int], float]]:
@@ -49,7 +42,7 @@ def structure(spins, right, up, load) -> Structure:
 @pytest.mark.skipif(NODE is None, reason="node is not installed")
 def test_a_board_stands_where_the_structure_does() -> None:
     boards = random_boards(20)
-    verdicts = run_node(f"{json.dumps(boards)}.map(board => standing(...board))")
+    verdicts = value_of(f"{json.dumps(boards)}.map(board => standing(...board))", SOURCE)
     seen = set()
     for board, found in zip(boards, verdicts, strict=True):
         expected = structure(*board).stands()
@@ -61,7 +54,7 @@ def test_a_board_stands_where_the_structure_does() -> None:
         seen.add((found["stands"], found["factor"] is None))
     assert seen == {(True, False), (False, False), (False, True)}
     other = [(*board[:3], board[3] + 0.1) for board in boards]
-    moved = run_node(f"{json.dumps(other)}.map(board => standing(...board))")
+    moved = value_of(f"{json.dumps(other)}.map(board => standing(...board))", SOURCE)
     assert all(a["growth"] != b["growth"] for a, b in zip(verdicts, moved, strict=True) if a["growth"])
 
 
@@ -69,14 +62,15 @@ def test_a_board_stands_where_the_structure_does() -> None:
 def test_the_plan_moves_as_the_structure_does() -> None:
     """A corner of three: its small motion, and that of the exact model from a hundred-thousandth of its push."""
     spins, board = [30.0, 30.0, None, None, 30.0, None, None, None, None], ([0], [1], 2.0)
-    tilts, pushed = run_node(
+    tilts, pushed = value_of(
         f"""(() => {{
         const found = standing(...{json.dumps([spins, *board])}), motion = stepper(found, {json.dumps(spins)});
         let y = motion.pushed(), n = y.length / 2;
         const pushed = motion.tilts(y.slice(n));
         for (let k = 0; k < 500; k++) y = motion.step(y, 0.002);
         return [motion.tilts(y), pushed];
-        }})()"""
+        }})()""",
+        SOURCE,
     )
     moved, rates = (1e-5 * np.array([of[place] for place in "014"]) for of in (tilts, pushed))
     exact = structure(spins, *board).simulate([1.0], rates=rates, tol=1e-11)

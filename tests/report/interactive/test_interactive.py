@@ -28,8 +28,8 @@ from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, pair_section, programs
 from lagrotor.theory import series_orbit
+from tests.report.interactive.in_node import NODE, value_of
 
-NODE = shutil.which("node")
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 browser = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
@@ -62,11 +62,7 @@ def script() -> str:
 
 def run_node(expression: str, source: str | None = None) -> Any:
     """The value of a JavaScript expression after the script; a number that is not finite comes as None."""
-    code = f'"use strict";\n{script() if source is None else source}\nconsole.log(JSON.stringify({expression}));'
-    command = [str(NODE), "--input-type=commonjs", "-"]
-    ran = subprocess.run(command, input=code, capture_output=True, text=True, timeout=60)
-    assert ran.returncode == 0, ran.stderr[-800:]
-    return json.loads(ran.stdout)
+    return value_of(expression, script() if source is None else source)
 
 
 def called(name: str, rows: list[list[float]], source: str | None = None) -> Any:
