@@ -1,9 +1,16 @@
 """The table of what doubling a chain costs: its form, on short chains; the times are read, not asserted."""
 
 import numpy as np
+import pytest
 
+from lagrotor.benchmark import doublings
 from lagrotor.benchmark.doublings import BARS, table, times
 from lagrotor.benchmark.structure_comparison import staircase
+
+
+@pytest.fixture(autouse=True)
+def few_evaluations(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doublings, "_ROTORS", 600)
 
 
 def test_each_kind_of_bar_has_a_line_with_a_ratio_for_each_doubling() -> None:
