@@ -2,6 +2,7 @@
 
 import ast
 from collections import Counter
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -41,10 +42,15 @@ def module_name(path: Path) -> str:
 MODULES = {module_name(path): path for path in sorted((ROOT / "lagrotor").rglob("*.py"))}
 
 
+@cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    return tuple(ast.walk(ast.parse(path.read_text())))
+
+
 def imported(path: Path) -> set[str]:
     """Modules of the package that a file imports, wherever in it; by absolute names, which a test below asks for."""
     found: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in nodes(path):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -54,7 +60,9 @@ def imported(path: Path) -> set[str]:
     return {name for name in found if name in MODULES}
 
 
-IMPORTS = {name: imported(path) for name, path in MODULES.items()}
+@pytest.fixture(scope="module")
+def imports() -> dict[str, set[str]]:
+    return {name: imported(path) for name, path in MODULES.items()}
 
 
 def floor(module: str) -> int | None:
@@ -96,22 +104,32 @@ def test_every_room_has_its_floor() -> None:
     assert rooms - {"__init__", "__main__"} == set(FLOORS) - {""}
 
 
-def test_no_import_runs_upward() -> None:
-    assert upward(IMPORTS) == []
+def test_no_import_runs_upward(imports: dict[str, set[str]]) -> None:
+    assert upward(imports) == []
 
 
-def test_no_module_lies_on_a_circle() -> None:
-    assert circles(IMPORTS) == []
+def test_no_module_lies_on_a_circle(imports: dict[str, set[str]]) -> None:
+    assert circles(imports) == []
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_imports_name_their_module_in_full(name: str) -> None:
-    nodes = ast.walk(ast.parse(MODULES[name].read_text()))
-    assert all(node.level == 0 for node in nodes if isinstance(node, ast.ImportFrom))
+def relative(path: Path) -> list[str]:
+    """The imports of a file that do not name their module in full."""
+    return [
+        f"{path.name}: line {node.lineno}" for node in nodes(path) if isinstance(node, ast.ImportFrom) and node.level
+    ]
 
 
-def test_an_upward_import_and_a_circle_would_be_seen() -> None:
-    changed = IMPORTS | {"lagrotor.errors": {"lagrotor.pair.scene"}}
+def test_imports_name_their_module_in_full() -> None:
+    assert [found for path in MODULES.values() for found in relative(path)] == []
+
+
+def test_a_relative_import_would_be_seen(tmp_path: Path) -> None:
+    (tmp_path / "module.py").write_text("from lagrotor import pair\nfrom .scene import Scene\n")
+    assert relative(tmp_path / "module.py") == ["module.py: line 2"]
+
+
+def test_an_upward_import_and_a_circle_would_be_seen(imports: dict[str, set[str]]) -> None:
+    changed = imports | {"lagrotor.errors": {"lagrotor.pair.scene"}}
     assert upward(changed) == ["lagrotor.errors imports lagrotor.pair.scene"]
     assert {"lagrotor.errors", "lagrotor.pair.scene"} in circles(changed)
 
@@ -146,8 +164,8 @@ def past_the_face(file: Path) -> list[str]:
     """Names that a file imports from a module, although a face above that module hands them on."""
     return [
         f"{file.name}: {alias.name} from {node.module}"
-        for node in ast.walk(ast.parse(file.read_text()))
-        if isinstance(node, ast.ImportFrom)
+        for node in nodes(file)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("lagrotor")
         for alias in node.names
         for handed in FACES.values()
         if handed.get(alias.name) == node.module
@@ -168,7 +186,7 @@ def long_ones(file: Path, lines: int, function: int) -> list[str]:
     """What of a file is longer than it may be: itself, or a function in it."""
     text = file.read_text()
     found = [f"{file.name}: {n} lines"] if (n := len(text.splitlines())) > lines else []
-    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    functions = [node for node in nodes(file) if isinstance(node, ast.FunctionDef)]
     spans = [(node.name, (node.end_lineno or 0) - node.lineno + 1) for node in functions]
     return found + [f"{file.name}: {name}: {span} lines" for name, span in spans if span > function]
 
