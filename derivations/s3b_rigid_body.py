@@ -14,6 +14,7 @@
 # %%
 import sympy as sp
 
+from lagrotor.algebra import hessian
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.notation import ROTOR
 from lagrotor.paper import Formula, Premise, prove, verdict
@@ -107,7 +108,7 @@ verdict(
 
 # %%
 turning = sum(m * cross(Omega, arm).dot(cross(Omega, arm)) / 2 for m, arm in zip(masses, arms, strict=True))
-inertia = sp.hessian(turning, list(Omega))
+inertia = hessian(turning, list(Omega))
 prove(
     turning,
     (Omega.T * inertia * Omega)[0] / 2,

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
+from lagrotor.algebra import hessian
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, a, b, k, nu
 from lagrotor.paper import Remark, prove
@@ -74,8 +75,8 @@ prove(toppling_residual(), residual, "as the library has it")
 # %%
 e = b * nu**2 - G * nu / k
 state, off = (U, Delta, U_v, Delta_v, alpha_v), sp.symbols("U Delta U_dot Delta_dot beta_dot", real=True)
-hessian = sp.hessian(L, list(state)).subs(turning()).subs({G_1: G, G_2: -G})
-quadratic = (sp.Matrix([off]) * hessian * sp.Matrix(off))[0] / 2
+second = hessian(L, state).subs(turning()).subs({G_1: G, G_2: -G})
+quadratic = (sp.Matrix([off]) * second * sp.Matrix(off))[0] / 2
 u, d, u_v, d_v, beta_v = off
 prove(
     sp.expand(quadratic),

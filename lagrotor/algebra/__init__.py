@@ -6,6 +6,7 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.algebra.differentiation import derivative as derivative
+    from lagrotor.algebra.differentiation import hessian as hessian
     from lagrotor.algebra.identity import Decision as Decision
     from lagrotor.algebra.identity import decide_equal as decide_equal
     from lagrotor.algebra.identity import decide_zero as decide_zero

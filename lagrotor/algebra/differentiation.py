@@ -3,6 +3,8 @@
 sympy looks at the derivative of every part for whether its assumptions make it zero, which takes more than half of its time.
 """
 
+from collections.abc import Sequence
+
 import sympy as sp
 
 _FUNCTIONS = (
@@ -14,6 +16,12 @@ _FUNCTIONS = (
 def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """∂e/∂s of an expression e by a symbol s."""
     return _derivative(sp.sympify(expression), symbol, {})
+
+
+def hessian(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    """∂²e/∂s_i ∂s_j, (n, n)."""
+    slopes = [derivative(expression, s) for s in symbols]
+    return sp.Matrix([[derivative(slope, s) for s in symbols] for slope in slopes])
 
 
 def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:

@@ -13,6 +13,7 @@ from functools import cache
 
 import sympy as sp
 
+from lagrotor.algebra import hessian
 from lagrotor.mechanics import LinearSystem, euler_lagrange
 from lagrotor.pair.lagrangians import mercator_lagrangian, minimal_embedding
 from lagrotor.pair.notation import G_1, G_2, MERCATOR, MINIMAL, TWISTED, G, a, b, k, nu
@@ -58,7 +59,7 @@ def linear_toppling() -> LinearSystem:
     """
     L = twisted_lagrangian()
     q, v = list(TWISTED.q), list(TWISTED.v)
-    second = sp.hessian(L, q + v).subs(turning()).applyfunc(sp.factor)
+    second = hessian(L, q + v).subs(turning()).applyfunc(sp.factor)
     qq, vq, vv = second[:3, :3], second[3:, :3], second[3:, 3:]
     return LinearSystem(vv, (vq - vq.T).applyfunc(sp.factor), -qq, sp.eye(3))
 
