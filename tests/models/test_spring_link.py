@@ -27,6 +27,7 @@ from lagrotor.models import (
     run_steps,
     step_limit,
 )
+from lagrotor.models.spring_link.recorded_step import step_function
 from lagrotor.numerics import cross_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
@@ -216,6 +217,23 @@ def test_angular_momentum_goes_to_the_ground_and_nowhere_else():
 
 
 # --- the pair
+
+
+@pytest.mark.parametrize("rotation", [finite_rotation, printed_rotation])
+def test_a_run_repeats_the_step_of_the_arrays(rotation):
+    shock = Shock(force=(40, -11, 0), at=0.2, width=1 / 50)
+    scene = Scene(spins=(10, -6), rotor=Rotor(I1=1.0, I3=0.4), link=BAR, rates=MOVING.rates, shock=shock)
+    by_hand, unshaken = (paper_system(scene, 1e4, 250, rotation=rotation) for _ in range(2))
+    step, state = step_function(by_hand, shock, 1e-3), by_hand.state.tolist()
+    for strength in np.linspace(0.2, 1.0, 20):
+        state = step(state, strength)
+        for system in (by_hand, unshaken):
+            system.compute_forces()
+            if system is by_hand:
+                system.push(1, 2, strength * np.array(shock.force))
+            system.step(1e-3)
+    assert abs(state - by_hand.state).max() < 1e-13
+    assert abs(state - unshaken.state).max() > 1e-2
 
 
 def test_the_papers_step_converges_to_the_solver_at_first_order():

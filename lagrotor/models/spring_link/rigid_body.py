@@ -13,6 +13,7 @@ from lagrotor.numerics.rotations import cross_matrix, turn_about
 
 Array = NDArray[np.float64]
 
+_LEAST = np.finfo(float).smallest_normal
 CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
 
 
@@ -34,11 +35,11 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     """dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|: (n, 3) → (n, 3, 3). From 3.15.
 
     Defined for every Omega: |Omega| is taken by `hypot`, which neither under- nor overflows, and nothing is divided by
-    its square. At Omega = 0 the axis is left at zero, and dR = 1. A subnormal |Omega| may be off its last bits, hence n
-    off unit length, but then sin θ is subnormal too, and so is the error.
+    its square. The least normal number added to it changes only an |Omega| near that number: n is then shorter than a unit,
+    but sin θ is as small, and so is the error. At Omega = 0 the axis is left at zero, and dR = 1.
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
-    return turn_about(Omega / (size + (size == 0))[:, None], size * dt)
+    return turn_about(Omega / (size + _LEAST)[:, None], size * dt)
 
 
 def printed_rotation(Omega: Array, dt: float) -> Array:

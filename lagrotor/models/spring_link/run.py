@@ -1,9 +1,9 @@
 """Running spring-linked bodies: the paper's fixed step, and a stiff solver beside it."""
 
 from collections.abc import Callable
-from copy import deepcopy
+from copy import copy
 from dataclasses import dataclass
-from math import exp, isfinite
+from math import exp, hypot, inf, isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,13 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models.simulate import check_times
 from lagrotor.models.spring_link.paper_bodies import TIP
+from lagrotor.models.spring_link.recorded_step import step_function
 from lagrotor.models.spring_link.rigid_body import Array
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.numerics.integrate import check_tolerance
 from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
 from lagrotor.pair.scene import Shock
 
 LOST = 1e100  # a state of this norm has blown up; its energies are still finite
@@ -77,24 +79,23 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
         raise InputError(
             f"run_steps: dt = {dt:g} s steps over a shock of width {shock.width:g} s; take dt well below it"
         )
-    moving, k = deepcopy(system), 0
-    seen: list[tuple[Array, ...]] = []
+    step, state, k, at = step_function(system, shock, dt), system.state.tolist(), 0, shock.at if shock else 0.0
+    seen = []
     with np.errstate(over="ignore", invalid="ignore"):
         for count in counts:
-            while k < count:
-                moving.compute_forces()
-                _shake(moving, shock, k * dt - shock.at if shock else 0.0)
-                moving.step(dt)
-                k += 1
-            state = moving.X.copy(), moving.U.copy(), moving.R, moving.L.copy()
-            if not sum(np.vdot(part, part) for part in state) < LOST**2:
+            try:
+                while k < count:
+                    state = step(state, _strength(shock, k * dt - at))
+                    k += 1
+            except OUT_OF_RANGE:
+                state = [nan]  # which arrays would hold here
+            if not hypot(*state) < LOST:
                 raise IntegrationError(
                     f"run_steps: the state is not a number, or beyond {LOST:g}, at t = {k * dt:.6g} s with dt = {dt:g} "
                     f"s; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
                 )
             seen.append(state)
-    X, U, R, L = (np.array(part) for part in zip(*seen, strict=True))
-    return _read(system, times, X, U, R, L, k)
+    return _read(system, times, np.array(seen), k)
 
 
 def run_solver(
@@ -113,12 +114,11 @@ def run_solver(
     times, error = check_times(t), check_tolerance(tol) / 20
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
-    moving, n = deepcopy(system), len(system.vertices)
-    load, rhs = _right_hand_side(moving)
+    rhs = _right_hand_side(system)
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     since_peak = times - at
     begin, end = -at, float(since_peak[-1])
-    y = np.concatenate([part[:n].ravel() for part in (moving.X, moving.U, moving.L, moving.R)])
+    y = system.state[: 18 * len(system.vertices)]
     states, evaluations = np.empty((len(times), len(y))), 0
     states[since_peak == begin] = y
     for left, right, pulsed in segments(begin, end, width):
@@ -138,71 +138,61 @@ def run_solver(
             )
         states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
         evaluations += found.nfev
-    history: dict[str, list[Array]] = {"X": [], "U": [], "R": [], "L": []}
-    for state in states:
-        load(state)
-        for name, kept in history.items():
-            kept.append(getattr(moving, name).copy())
-    X, U, R, L = (np.array(kept) for kept in history.values())
-    return _read(system, times, X, U, R, L, evaluations)
+    return _read(system, times, states, evaluations)
 
 
-def _right_hand_side(moving: RigidBodySystem) -> tuple[Callable[[Array], None], Callable[..., Array]]:
-    """Putting a state y (18 n,) of X, U, L, R of n bodies into `moving`; and y' at s after a shock's peak, under that shock."""
-    n = len(moving.vertices)
-
-    def load(y: Array) -> None:
-        moving.X[:n], moving.U[:n], moving.L[:n] = y[: 9 * n].reshape(3, n, 3)
-        moving.R[:n] = y[9 * n :].reshape(n, 3, 3)
+def _right_hand_side(system: RigidBodySystem) -> Callable[..., Array]:
+    """(s, y, shock) → y' of the state y (18 n,) of X, U, L, R of n bodies, at s after the peak of the shock."""
+    moving = copy(system)
 
     def rhs(s: float, y: Array, acting: Shock | None) -> Array:
-        load(y)
-        moving.Omega = moving.angular_velocity()
+        moving.load(y)
         moving.compute_forces()
-        _shake(moving, acting, s)
-        changes = np.empty_like(y)
-        changes[: 9 * n].reshape(3, n, 3)[:] = moving.U[:n], moving.F[:n] * moving.inverse_mass[:n], moving.tau[:n]
-        changes[9 * n :] = (cross_matrix(moving.Omega[:n]) @ moving.R[:n]).ravel()
-        return changes
+        if acting is not None:
+            moving.push(acting.body, TIP, acting.force, _strength(acting, s))
+        turning = cross_matrix(moving.Omega) @ moving.R
+        changes = moving.U, moving.F * moving.inverse_mass, moving.tau, turning
+        return np.concatenate([change[:-1].ravel() for change in changes])
 
-    return load, rhs
-
-
-def _shake(system: RigidBodySystem, shock: Shock | None, s: float) -> None:
-    """The shock on the tip of its rotor, s after its peak (4.04); nothing once it underflows to zero."""
-    if shock is None:
-        return
-    ratio = s / shock.width
-    strength = exp(-ratio * ratio)
-    if strength > 0:
-        system.push(shock.body, TIP, strength * np.array(shock.force))
+    return rhs
 
 
-def _read(system: RigidBodySystem, t: Array, X: Array, U: Array, R: Array, L: Array, evaluations: int) -> SpringRun:
-    """A run from states (n, n_b + 1, …), whose last body is the ground; Omega follows from L and R (3.17)."""
+def _strength(shock: Shock | None, s: float) -> float:
+    """exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
+    ratio = s / shock.width if shock else inf
+    return exp(-ratio * ratio)
+
+
+def _read(system: RigidBodySystem, t: Array, states: Array, evaluations: int) -> SpringRun:
+    """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
-    Omega = (system.transform(R, system.inverse_inertia) @ L[..., None])[..., 0]
+    n, n_b = len(t), len(system.vertices)
+    X, U, L = states[:, : 9 * n_b].reshape(n, 3, n_b, 3).swapaxes(0, 1)
+    R = states[:, 9 * n_b : 18 * n_b].reshape(n, n_b, 3, 3)
+    Omega = (system.transform(R, system.inverse_inertia[:-1]) @ L[..., None])[..., 0]
     axes, rates, tips = [], [], []
     for i, vertices in enumerate(system.vertices[:2]):
         bottom, top = vertices[0], vertices[TIP - 1]
         axes.append(R[:, i] @ ((top - bottom) / np.linalg.norm(top - bottom)))
         rates.append(np.cross(Omega[:, i], axes[i]))
         tips.append(X[:, i] + R[:, i] @ top)
-    stretches = np.linalg.norm(system.gaps(X, R), axis=-1).T
-    momenta = U[:, :-1] / system.inverse_mass[:-1]
+    held = (np.broadcast_to(part[-1:], (n, *part[-1:].shape)) for part in (system.X, system.R))
+    places = (np.concatenate((part, ground), axis=1) for part, ground in zip((X, R), held, strict=True))
+    stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
+    momenta = U / system.inverse_mass[:-1]
     return SpringRun(
         t=t,
         axes=np.array(axes),
         rates=np.array(rates),
         tips=np.array(tips),
-        centres=X[:, :-1].swapaxes(0, 1),
-        rotations=R[:, :-1].swapaxes(0, 1),
+        centres=X.swapaxes(0, 1),
+        rotations=R.swapaxes(0, 1),
         stretches=stretches,
         momentum=momenta.sum(1),
-        angular_momentum=(np.cross(X[:, :-1], momenta) + L[:, :-1]).sum(1),
-        translation=((U[:, :-1] ** 2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
-        rotation=(Omega * L).sum(-1)[:, :-1].T / 2,
+        angular_momentum=(np.cross(X, momenta) + L).sum(1),
+        translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
+        rotation=(Omega * L).sum(-1).T / 2,
         spring=system.stiffness * stretches**2 / 2,
         evaluations=evaluations,
     )

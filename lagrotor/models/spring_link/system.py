@@ -3,7 +3,7 @@
 All bodies are stepped at once in stacked arrays, the ground being one more body, whose inverse mass and inverse inertia
 are zero. The gaps of the links are one matrix B times the places of centres and body axes, their rates B times the
 velocities of these, and Bᵀ takes the links' forces to the bodies. A step costs some forty array calls on a few rows each:
-what limits it is the overhead of a call, not the number of bodies or links.
+what limits it is the overhead of a call, not the number of bodies or links. `recorded_step` is what runs repeat.
 """
 
 from collections.abc import Callable
@@ -102,10 +102,10 @@ class RigidBodySystem:
         i, arm = self._end(body, vertex)
         self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
 
-    def push(self, body: int, vertex: int, force: ArrayLike) -> None:
-        """A force (3,) in N on `vertex` of `body` for the step to come: after `compute_forces`, before `step`."""
+    def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
+        """`strength` × a force (3,) in N on `vertex` of `body` for the step to come: after `compute_forces`, before `step`."""
         i, arm = self._end(body, vertex)
-        given = finite_array(force, (3,), "push: force")
+        given = finite_array(force, (3,), "push: force") * strength
         self.F[i] += given
         self.tau[i] += cross_matrix(self.R[i] @ arm) @ given
 
@@ -134,7 +134,23 @@ class RigidBodySystem:
         self.U += self.F * self.inverse_mass * dt
         self.Omega = self.angular_velocity()
         self.X += self.U * dt
-        self.R = self.rotation(self.Omega, dt) @ self.R
+        self.R = np.concatenate((self.rotation(self.Omega[:-1], dt) @ self.R[:-1], self.R[-1:]))
+
+    @property
+    def state(self) -> Array:
+        """X, U, L (n, 3), R (n, 3, 3) and Omega (n, 3) of the bodies, without the ground, one after the other: (21 n,)."""
+        return np.concatenate([part[:-1].ravel() for part in (self.X, self.U, self.L, self.R, self.Omega)])
+
+    def load(self, state: Array) -> None:
+        """Put in what `state` gives, for the bodies; Omega is that of L and R where it is left out."""
+        n = len(self.vertices)
+        X, U, L = state[: 9 * n].reshape(3, n, 3)
+        self.X, self.U, self.L = (
+            np.concatenate((part, ground[-1:])) for part, ground in ((X, self.X), (U, self.U), (L, self.L))
+        )
+        self.R = np.concatenate((state[9 * n : 18 * n].reshape(n, 3, 3), self.R[-1:]))
+        rest = state[18 * n :].reshape(-1, 3)
+        self.Omega = np.concatenate((rest, self.Omega[-1:])) if len(rest) else self.angular_velocity()
 
     def joint_mobility(self) -> Array:
         """W (3 n_links, 3 n_links) in 1/kg: acceleration of the gaps by unit forces in the links, at this position.

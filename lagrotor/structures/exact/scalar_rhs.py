@@ -4,13 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rhs import rhs_text
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.structures.coefficients import Coefficients
-from lagrotor.structures.exact import recorded_numbers
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion
-from lagrotor.structures.exact.recorded_numbers import Recorded
 from lagrotor.structures.exact.written_out import accelerations
 
 MOST = 12  # axes and bars beyond which arrays cost less

@@ -1,4 +1,7 @@
-"""Numbers that record what is computed with them, so that a function of numbers of any kind becomes a line of source each."""
+"""Numbers that record what is computed with them, so that a function of numbers of any kind becomes a line of source each.
+
+Arrays of them (dtype object) go through numpy's sums, products and functions, as long as nothing branches on a value.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,8 @@ _LONGEST = 160  # characters of an expression that is not given a name of its ow
 
 @dataclass(eq=False)
 class Recorded:
-    """A sum "+", difference "-", product "*", quotient "/", negative "neg", a function's value, or, without parts, a name.
+    """A sum "+", difference "-", product "*", quotient "/", negative "neg", the value of the function of that name, or, without
+    parts, a name.
 
     tape: every number of one record, in the order in which they were computed.
     """
@@ -38,7 +42,9 @@ class Recorded:
     def __rsub__(self, other: Term) -> Recorded:
         return -self if other == 0 else self._with("-", other, self)
 
-    def __mul__(self, other: Term) -> Recorded:
+    def __mul__(self, other: Term) -> Term:
+        if other == 0:
+            return 0.0
         return self if other == 1 else -self if other == -1 else self._with("*", other, self)
 
     __rmul__ = __mul__
@@ -52,10 +58,24 @@ class Recorded:
     def __neg__(self) -> Recorded:
         return self._with("neg", self)
 
+    def sqrt(self) -> Recorded:
+        """The square root, recorded; as those below, what numpy calls."""
+        return self._with("sqrt", self)
 
-def sqrt(x: Recorded) -> Recorded:
-    """The square root, recorded."""
-    return Recorded(x.tape, "sqrt", (x,))
+    def sin(self) -> Recorded:
+        """The sine, recorded."""
+        return self._with("sin", self)
+
+    def cos(self) -> Recorded:
+        """The cosine, recorded."""
+        return self._with("cos", self)
+
+    def hypot(self, other: Term) -> Recorded:
+        """The root of the sum of two squares, recorded."""
+        return self._with("hypot", self, other)
+
+
+sqrt = Recorded.sqrt
 
 
 def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], list[str]]:
@@ -86,4 +106,4 @@ def _text(x: Recorded, texts: dict[Recorded, str]) -> str:
     parts = [texts[part] if isinstance(part, Recorded) else repr(float(part)) for part in x.parts]
     if x.kind in "+-*/":
         return f"({x.kind.join(parts)})"
-    return f"(-{parts[0]})" if x.kind == "neg" else f"{x.kind}({parts[0]})" if parts else x.kind
+    return f"(-{parts[0]})" if x.kind == "neg" else f"{x.kind}({', '.join(parts)})" if parts else x.kind
