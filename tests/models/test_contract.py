@@ -173,9 +173,14 @@ def check_start(model: Model, name: str) -> None:
     assert np.abs(run.rates[:, 0] - scene.rates).max() < fastest(scene) * e
 
 
+@cache
+def exact_of(name: str, model: str) -> Trajectory:
+    return simulate(scene_of(name), TIMES, model, 1e-13)
+
+
 def check_error(model: Model, name: str) -> None:
     run = run_of(model, name)
-    exact = simulate(run.scene, TIMES, "spheres" if model.name == "minimal" else "minimal", 1e-13)
+    exact = exact_of(name, "spheres" if model.name == "minimal" else "minimal")
     assert np.linalg.norm(run.axes - exact.axes, axis=-1).max() < within(run, exact)
 
 

@@ -1,5 +1,6 @@
 """Ensembles: each trajectory as `simulate` has it, in any executor, and an interrupted sweep goes on."""
 
+import shutil
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -258,13 +259,20 @@ DAMAGES = {
 }
 
 
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """A sweep of two chunks, and the folder that keeps them."""
+    folder = tmp_path_factory.mktemp("swept")
+    return sweep(family(4), T, chunk=2, folder=folder), folder
+
+
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_a_damaged_chunk_is_run_again(tmp_path, damage):
-    scenes = family(4)
-    whole = sweep(scenes, T, chunk=2, folder=tmp_path)
+def test_a_damaged_chunk_is_run_again(swept, tmp_path, damage):
+    whole, folder = swept
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     file, good = tmp_path / "chunk-000001.npz", (tmp_path / "chunk-000001.npz").read_bytes()
     DAMAGES[damage](file)
-    again = sweep(scenes, T, chunk=2, folder=tmp_path)
+    again = sweep(family(4), T, chunk=2, folder=tmp_path)
     for name in ("axes", "rates", "evaluations", "models"):
         np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))
     assert read_arrays(file)[0] == read_arrays(tmp_path / "chunk-000000.npz")[0] | {"chunk": 1}

@@ -25,6 +25,7 @@ from lagrotor.report.page.whole_page import page
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
 WIDTHS = (1200, 390)
+Seen = dict[str, list[dict[str, Any]]]  # what is measured of each page at each width
 
 # Runs before anything else of the page, so that no failure of its scripts is missed.
 LISTENER = """<script>
@@ -59,10 +60,14 @@ window.onload = async () => {
 """.replace("FAMILY", FAMILY)
 
 
-def looked_at(html: str, folder: Path) -> list[dict[str, Any]]:
-    """What the browser finds of a page at each of `WIDTHS`: a frame of that width, measured after it is drawn."""
-    source = escape(html.replace("<head>", "<head>" + LISTENER, 1), quote=True)
-    frames = "".join(f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in WIDTHS)
+def looked_at(pages: dict[str, str], folder: Path) -> Seen:
+    """What the browser finds of each page at each of `WIDTHS`: a frame of that width, measured after it is drawn."""
+    frames = ""
+    for html in pages.values():
+        source = escape(html.replace("<head>", "<head>" + LISTENER, 1), quote=True)
+        frames += "".join(
+            f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in WIDTHS
+        )
     # Without its encoding the browser guesses, sometimes wrong, and then measures other letters.
     sheet = f'<!DOCTYPE html><meta charset="utf-8">{frames}<script>{MEASURE}</script>'
     (folder / "frames.html").write_text(sheet, encoding="utf-8")
@@ -83,7 +88,8 @@ def looked_at(html: str, folder: Path) -> list[dict[str, Any]]:
     done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=False)
     match = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
     assert match, done.stderr[-2000:]
-    return list(json.loads(unescape(match[1])))
+    found = iter(json.loads(unescape(match[1])))
+    return {name: [next(found) for _ in WIDTHS] for name in pages}
 
 
 def sheet(formulas: Iterator[str]) -> str:
@@ -104,34 +110,42 @@ def every_formula() -> Iterator[str]:
             yield from filter(None, map(from_latex, lines))
 
 
-def test_the_page_fits_a_desk_and_a_phone(tmp_path: Path) -> None:
+def wrong() -> str:
+    """A formula too wide for a box that does not scroll, one that does, and a script that fails."""
+    long = "<math><mrow>" + "<mi>α</mi><mo>+</mo>" * 99 + "</mrow></math>"
+    fails = "<script>console.error('said'); undefined_name()</script>"
+    return f"<!DOCTYPE html><html><head></head><p>{long}</p><div style='overflow-x: auto'>{long}</div>{fails}</html>"
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> Seen:
+    """A page, all formulas and what is wrong, looked at together."""
     report = Report(PAPER, tuple(map(decide, PAPER.statements("s5_2a_single_rotor"))), (), ())
-    desk, phone = looked_at(page(report), tmp_path)
-    for found in (desk, phone):
-        assert found["formulas"] > 20
-        assert found["font"]
-        assert found["tooWide"] == []
-        assert found["width"] <= found["room"]
-        assert found["failures"] == []
+    pages = {"page": page(report), "formulas": sheet(every_formula()), "wrong": wrong()}
+    return looked_at(pages, tmp_path_factory.mktemp("browser"))
 
 
-def test_no_formula_scrolls_on_a_desk(tmp_path: Path) -> None:
+def test_the_page_fits_a_desk_and_a_phone(found: Seen) -> None:
+    for seen in found["page"]:
+        assert seen["formulas"] > 20
+        assert seen["font"]
+        assert seen["tooWide"] == []
+        assert seen["width"] <= seen["room"]
+        assert seen["failures"] == []
+
+
+def test_no_formula_scrolls_on_a_desk(found: Seen) -> None:
     pytest.importorskip("latex2mathml", reason="latex2mathml reads the printed formulas")
-    desk, phone = looked_at(sheet(every_formula()), tmp_path)
+    desk, phone = found["formulas"]
     assert desk["formulas"] == phone["formulas"] > 190
     assert desk["scrolled"] == []
     assert phone["width"] <= phone["room"]
     assert desk["font"], "the font inside the page is the one that draws"
 
 
-def test_what_is_wrong_is_found(tmp_path: Path) -> None:
-    """A formula too wide for a box that does not scroll, one that does, and a script that fails."""
-    long = "<math><mrow>" + "<mi>α</mi><mo>+</mo>" * 99 + "</mrow></math>"
-    fails = "<script>console.error('said'); undefined_name()</script>"
-    wrong = f"<!DOCTYPE html><html><head></head><p>{long}</p><div style='overflow-x: auto'>{long}</div>{fails}</html>"
-    desk, phone = looked_at(wrong, tmp_path)
-    for found in (desk, phone):
-        assert len(found["tooWide"]) == len(found["scrolled"]) == 1
-        assert found["width"] > found["room"]
-        assert len(found["failures"]) == 2
-        assert found["failures"][0] == "said"
+def test_what_is_wrong_is_found(found: Seen) -> None:
+    for seen in found["wrong"]:
+        assert len(seen["tooWide"]) == len(seen["scrolled"]) == 1
+        assert seen["width"] > seen["room"]
+        assert len(seen["failures"]) == 2
+        assert seen["failures"][0] == "said"
