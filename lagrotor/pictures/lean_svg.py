@@ -37,7 +37,7 @@ def _rounded(match: re.Match[str]) -> str:
 
 def _short(value: float) -> str:
     text = f"{value:.{_DECIMALS}f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else re.sub(r"^(-?)0\.", r"\1.", text)
+    return "0" if text == "-0" else text.replace("0.", ".", 1) if abs(value) < 1 else text
 
 
 def _relative(path: str) -> str:
