@@ -1,6 +1,5 @@
 """Range of validity of the closed forms, and of any prediction: amplitude, spins not quite opposite, no spin, time."""
 
-import warnings
 from dataclasses import replace
 from functools import lru_cache
 from math import exp, log, pi
@@ -9,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
-from lagrotor.errors import LagrotorWarning
+from lagrotor.models.integrated import integrated
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
-from lagrotor.models.sweeps.ensemble import started
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of
@@ -33,7 +31,7 @@ def series_error(scene: Scene, order: int, r0: float) -> float:
     """Largest distance between the axes of the series and of the exact orbit at equal phases, over a turn."""
     orbit = _orbit(scene, r0)
     times = _PHASES / abs(orbit.frequency)
-    exact = simulate(orbit.scene, times, "minimal", 1e-11).axes
+    exact = integrated(MODEL, orbit.scene, times, 1e-11).seen.axes
     return float(np.linalg.norm(_series(scene, order).axes(r0, _PHASES) - exact, axis=-1).max())
 
 
@@ -79,8 +77,8 @@ def off_opposite(share: float, r0: float = 0.1, turns: float = 1.0) -> float:
     orbit = _orbit(PAIR, r0)
     first = PAIR.spins[0]
     times = turns * _PHASES[1:] / abs(orbit.frequency)
-    exact = simulate(orbit.scene, times, "minimal", 1e-12).axes
-    moved = simulate(replace(orbit.scene, spins=(first, -first * (1 - share))), times, "minimal", 1e-12).axes
+    scenes = orbit.scene, replace(orbit.scene, spins=(first, -first * (1 - share)))
+    exact, moved = (integrated(MODEL, scene, times, 1e-12).seen.axes for scene in scenes)
     return float(np.linalg.norm(moved - exact, axis=-1).max())
 
 
@@ -88,7 +86,7 @@ def off_equal(share: float, r0: float) -> float:
     """How far apart the axes of a parallel pair twist within a turn when spin 2 is (1 − share) times spin 1."""
     start = parallel_scene(Scene((10.0, 10.0)), r0)
     times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
-    axes = simulate(replace(start, spins=(10.0, 10.0 * (1 - share))), times, "minimal", 1e-12).axes
+    axes = integrated(MODEL, replace(start, spins=(10.0, 10.0 * (1 - share))), times, 1e-12).seen.axes
     return float(np.linalg.norm(axes[1] - axes[0], axis=-1).max())
 
 
@@ -154,9 +152,7 @@ def horizon_limits(quick: bool) -> list[Limit]:
 
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
-    state = MODEL.start(scene)
-    with warnings.catch_warnings():  # past the horizon on purpose: how soon neighbours part is what is measured
-        warnings.simplefilter("ignore", LagrotorWarning)
-        one, other = (simulate(s, times, "minimal", 1e-12).axes for s in started(scene, [state, state + apart]))
+    start = MODEL.start(scene)
+    one, other = (integrated(MODEL, scene, times, 1e-12, start=state).seen.axes for state in (start, start + apart))
     away = np.linalg.norm(one - other, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")
