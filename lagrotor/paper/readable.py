@@ -1,6 +1,7 @@
 """Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
 
 import re
+from collections.abc import Callable
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
@@ -19,12 +20,11 @@ _SIGNS = {
 }
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-_END = "[\\w)\u0307\u0308]"  # of what is before an operator
-_NAME = re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])")
-_NUMBER = re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w|\.\d)")
-# A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.
-_PRIMED = re.compile(r"(?<![A-Za-z])((?:[A-Za-zͰ-Ͽϑϕ][₀-₉\u0307]*)|\))('{1,2})(?![A-Za-zͰ-Ͽ'])")
-_ARROWS = {"->": "→", ">=": "≥", "<=": "≤", "||": "‖"}
+_ARROWS = {" -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
+# A minus sign, none of the hyphens between words or in a range.
+_MINUS = re.compile(
+    r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()"
+)
 
 
 def readable(text: str) -> str:
@@ -32,22 +32,11 @@ def readable(text: str) -> str:
 
     An index that is not a number stays as typed, F_y; so does a power that is not a whole number, r^1.96.
     """
-    text = _NUMBER.sub(_in_powers_of_ten, text)
-    text = _NAME.sub(_letter, text)
-    text = _PRIMED.sub(lambda match: match[1] + "′" * len(match[2]), text)
-    text = re.sub(rf"(?<={_END})(?:\*\*|\^)(\d+)(?![\d.])", lambda match: match[1].translate(_HIGH), text)
-    text = re.sub(r"(?<=[\w)|])\^(?:(\d+)|(T))(?![\w.])", lambda match: (match[1] or "ᵀ").translate(_HIGH), text)
-    text = re.sub(rf"(?<={_END})\*\*(?=[\w(])", "^", text)
-    text = re.sub(rf"(?<={_END})\*(?=[\w(])", "·", text)
-    text = re.sub(r"(?<=\b[A-Za-z]) x (?=[A-Za-z]\b)", " × ", text)
-    text = re.sub(r"\bsqrt\(", "√(", text)
-    for typed, sign in _ARROWS.items():
-        text = text.replace(f" {typed} ", f" {sign} ") if typed != "||" else text.replace(typed, sign)
-    return re.sub(
-        r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()",
-        "−",
-        text,
-    )
+    for typed, read in _RULES:
+        text = typed.sub(read, text)
+    for arrow, sign in _ARROWS.items():
+        text = text.replace(arrow, sign)
+    return _MINUS.sub("−", text)
 
 
 def _in_powers_of_ten(match: re.Match[str]) -> str:
@@ -114,3 +103,22 @@ def _letter(match: re.Match[str]) -> str:
         return match[0]
     low = index[1:].translate(_LOW) if index[1:].isdigit() else index
     return _LETTERS.get(name, name) + _ABOVE[dots] + low
+
+
+_END = "[\\w)\u0307\u0308]"  # of what is before an operator
+# What is typed, and what is read in its place, one after the other.
+_RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w|\.\d)"), _in_powers_of_ten),
+    (re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])"), _letter),
+    # A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.
+    (
+        re.compile(r"(?<![A-Za-z])((?:[A-Za-zͰ-Ͽϑϕ][₀-₉\u0307]*)|\))('{1,2})(?![A-Za-zͰ-Ͽ'])"),
+        lambda match: match[1] + "′" * len(match[2]),
+    ),
+    (re.compile(rf"(?<={_END})(?:\*\*|\^)(\d+)(?![\d.])"), lambda match: match[1].translate(_HIGH)),
+    (re.compile(r"(?<=[\w)|])\^(?:(\d+)|(T))(?![\w.])"), lambda match: (match[1] or "ᵀ").translate(_HIGH)),
+    (re.compile(rf"(?<={_END})\*\*(?=[\w(])"), "^"),
+    (re.compile(rf"(?<={_END})\*(?=[\w(])"), "·"),
+    (re.compile(r"(?<=\b[A-Za-z]) x (?=[A-Za-z]\b)"), " × "),
+    (re.compile(r"\bsqrt\("), "√("),
+)

@@ -8,7 +8,6 @@ import warnings
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from lagrotor.errors import LagrotorWarning
 from lagrotor.mechanics.lagrangian import t
@@ -24,6 +23,8 @@ def warn_of_dependence(run: Motion) -> None:
     rows = run.system.rows
     if len(run.t) < 2 or not rows.free_symbols & {*run.system.c.q, t}:
         return
+    from scipy.interpolate import CubicHermiteSpline
+
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
     q = CubicHermiteSpline(run.t, run.q, run.v)(fine)
     G = _rows(replace(run, t=fine, q=q, v=0 * q))

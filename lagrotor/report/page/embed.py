@@ -4,13 +4,16 @@ import re
 
 from lagrotor.pictures.figures import Picture
 
-# A data address ends at #, and % begins an escape in it; the rest is what an attribute cannot hold.
-_ESCAPED = str.maketrans({"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"})
+# A data address ends at #, and % begins an escape in it; the rest is what an attribute cannot hold. % comes first.
+_ESCAPED = {"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"}
 
 
 def embedded(picture: Picture) -> str:
     """The `data:` address of a picture."""
-    return f"data:image/svg+xml,{picture.svg.read_text(encoding='utf-8').translate(_ESCAPED)}"
+    source = picture.svg.read_text(encoding="utf-8")
+    for character, escaped in _ESCAPED.items():
+        source = source.replace(character, escaped)
+    return f"data:image/svg+xml,{source}"
 
 
 def size(picture: Picture) -> tuple[int, int]:
