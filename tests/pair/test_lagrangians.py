@@ -65,7 +65,7 @@ VALUES |= {s: float(e.subs(VALUES)) for s, e in INERTIAS.items()}
 
 
 def evaluate(expressions: Any, state: dict[sp.Symbol, float]) -> np.ndarray:
-    return np.array(sp.Matrix([expressions]).subs(state).tolist(), dtype=float)
+    return np.array(sp.Matrix([expressions]).xreplace({s: sp.Float(v) for s, v in state.items()}).tolist(), dtype=float)
 
 
 def value(expression: sp.Expr, state: dict[sp.Symbol, float]) -> float:
