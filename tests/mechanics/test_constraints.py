@@ -54,7 +54,8 @@ GALLERY = [rod_pendulum, two_rods, geared_pendulums]
 
 
 def numbers(expressions: sp.Matrix, state: dict[sp.Symbol, float]) -> np.ndarray:
-    return np.array(expressions.subs(state).tolist(), dtype=float).reshape(expressions.shape)
+    given = {symbol: sp.Float(number) for symbol, number in state.items()}
+    return np.array(expressions.xreplace(given).tolist(), dtype=float).reshape(expressions.shape)
 
 
 def consistent_state(system: System, seed: int) -> dict[sp.Symbol, float]:

@@ -58,7 +58,7 @@ def difference(one: sp.Expr | sp.MatrixBase, other: sp.Expr | sp.MatrixBase, poi
     """Largest difference of two sides at a point."""
     gap = one - other
     entries = list(gap) if isinstance(gap, sp.MatrixBase) else [gap]
-    return max(abs(complex(entry.subs(point).evalf(30))) for entry in entries)
+    return max(abs(complex(entry.xreplace(point).evalf(30))) for entry in entries)
 
 
 def is_another(relation: Relation, twin: Relation, seed: int) -> bool:
