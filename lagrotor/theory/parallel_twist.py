@@ -20,6 +20,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
@@ -50,7 +51,7 @@ def twist_coefficients() -> tuple[sp.Expr, sp.Expr]:
     Delta_v, Delta_a = TWISTED.v[1], TWISTED.a[1]
     equation = euler_lagrange(twisted_lagrangian().subs({G_1: G, G_2: G}), TWISTED)[1]
     straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
-    return equation.diff(Delta_a).subs(straight), equation.diff(Delta).subs(straight)
+    return derivative(equation, Delta_a).subs(straight), derivative(equation, Delta).subs(straight)
 
 
 @cache
