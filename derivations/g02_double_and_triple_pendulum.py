@@ -68,10 +68,8 @@ values, times = {m: 1.0, l: 0.7, g: 9.81}, np.linspace(0, 4, 101)
 twin = {l: 0.701}
 
 
-def textbook(_: float, y: np.ndarray) -> np.ndarray:
-    theta, rate = np.split(y, 2)
-    n = len(theta)
-    below = n - np.maximum.outer(np.arange(n), np.arange(n))
+def textbook(_: float, y: np.ndarray, below: np.ndarray) -> np.ndarray:
+    theta, rate = y.reshape(2, -1)
     apart = theta[:, None] - theta[None, :]
     force = -(below * np.sin(apart)) @ rate**2 - np.diag(below) * 9.81 / 0.7 * np.sin(theta)
     return np.concatenate([rate, np.linalg.solve(below * np.cos(apart), force)])
@@ -83,7 +81,9 @@ def difference(given: dict) -> float:
     for system, start in ((double, (0.5, 0.3)), (triple, (0.5, 0.3, -0.2))):
         run = system.simulate(given, start, np.zeros(len(start)), times, tol=1e-12)
         y = np.concatenate([np.cumsum(start), np.zeros(len(start))])
-        other = solve_ivp(textbook, (0, 4), y, "DOP853", times, rtol=1e-13, atol=1e-13).y.T
+        n = np.arange(len(start))
+        below = len(n) - np.maximum.outer(n, n)
+        other = solve_ivp(textbook, (0, 4), y, "DOP853", times, args=(below,), rtol=1e-13, atol=1e-13).y.T
         found.append(np.abs(np.cumsum(run.q, axis=1) - other[:, : len(start)]).max())
     return float(max(found))
 

@@ -66,13 +66,14 @@ prove(threshold, p**2 - 4 * J * m * g * l, "the sleeping top's threshold", names
 # %%
 values = {I1: 0.2, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}
 times, twin = np.linspace(0, 4, 401), {I3: 0.501}
+inertia = np.array([0.56, 0.56, 0.5])
 
 
 def euler(_: float, y: np.ndarray) -> np.ndarray:
-    Q, w, inertia = y[:9].reshape(3, 3), y[9:], np.array([0.56, 0.56, 0.5])
-    torque = np.cross([0, 0, 0.6], -9.81 * Q[2])
+    Q, w = y[:9].reshape(3, 3), y[9:]
+    torque = 0.6 * 9.81 * np.array([Q[2, 1], -Q[2, 0], 0])  # of the weight, on the arm along the axis
     spun = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
-    return np.concatenate([(Q @ spun).ravel(), (torque - np.cross(w, inertia * w)) / inertia])
+    return np.concatenate([(Q @ spun).ravel(), (torque - spun @ (inertia * w)) / inertia])
 
 
 def difference(given: dict) -> float:

@@ -70,12 +70,11 @@ prove(spin, I3 * (pair.c.v[5] + tip.angular_velocity[2]), "the axial momentum of
 
 # %%
 values, times, twin = {m: 1.0, l: 0.5, g: 9.81}, np.linspace(0, 2, 81), {l: 0.5001}
+below = 6 - np.maximum.outer(np.arange(6), np.arange(6))
 
 
 def textbook(_: float, y: np.ndarray) -> np.ndarray:
-    theta, rate = np.split(y, 2)
-    n = len(theta)
-    below = n - np.maximum.outer(np.arange(n), np.arange(n))
+    theta, rate = y.reshape(2, -1)
     apart = theta[:, None] - theta[None, :]
     force = -(below * np.sin(apart)) @ rate**2 - np.diag(below) * 9.81 / 0.5 * np.sin(theta)
     return np.concatenate([rate, np.linalg.solve(below * np.cos(apart), force)])
