@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
+    from lagrotor.algebra.differentiation import along as along
     from lagrotor.algebra.differentiation import derivative as derivative
     from lagrotor.algebra.differentiation import hessian as hessian
     from lagrotor.algebra.identity import Decision as Decision

@@ -3,7 +3,7 @@
 sympy looks at the derivative of every part for whether its assumptions make it zero, which takes more than half of its time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
@@ -16,6 +16,13 @@ _FUNCTIONS = (
 def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """∂e/∂s of an expression e by a symbol s."""
     return _derivative(sp.sympify(expression), symbol, {})
+
+
+def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:
+    """Σ r ∂e/∂s, the rate of e where each symbol s changes at the rate r."""
+    given = [(s, r) for s, r in zip(symbols, rates, strict=True) if r != 0]
+    slopes = [(derivative(expression, s), r) for s, r in given]
+    return sp.Add(*(slope * r for slope, r in slopes if slope is not sp.S.Zero))
 
 
 def hessian(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
@@ -35,7 +42,8 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
         slopes = [_derivative(part, s, known) for part in e.args]
         found = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
     elif e.is_Pow and e.exp.is_Number:
-        found = e * (_derivative(e.base, s, known) * e.exp / e.base)
+        d = _derivative(e.base, s, known)
+        found = d if d is sp.S.Zero else e * (d * e.exp / e.base)
     elif isinstance(e, _FUNCTIONS) and len(e.args) == 1:
         d = _derivative(e.args[0], s, known)
         found = d if d is sp.S.Zero else e.fdiff(1) * d

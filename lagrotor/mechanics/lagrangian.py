@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from lagrotor.algebra import decide_zero, derivative
+from lagrotor.algebra import along, decide_zero, derivative
 from lagrotor.errors import InputError, SingularError
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
@@ -69,8 +69,7 @@ def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:
     """df/dt = Σ v ∂f/∂q + a ∂f/∂v + ∂f/∂t, along any motion, of an expression f(q, v, t)."""
-    drift = gradient(expression, c.q).dot(c.v) + derivative(expression, t)
-    return drift + gradient(expression, c.v).dot(c.a)
+    return along(expression, (*c.q, t, *c.v), (*c.v, 1, *c.a))
 
 
 def momenta(L: sp.Expr, c: Coordinates) -> sp.Matrix:
@@ -85,8 +84,8 @@ def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
     """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1): centrifugal, gyroscopic and driving terms, −(potential forces)."""
-    p = momenta(L, c)
-    return jacobian(p, c.q) * sp.Matrix(c.v) + jacobian(p, [t]) - gradient(L, c.q)
+    drift = momenta(L, c).applyfunc(lambda p: along(p, (*c.q, t), (*c.v, 1)))
+    return drift - gradient(L, c.q)
 
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:

@@ -18,7 +18,7 @@ from typing import TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
+from lagrotor.algebra import Decision, along, decide_equal, decide_zero, derivative
 from lagrotor.errors import DomainError, InputError, NotASymmetryError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
 from lagrotor.mechanics.expressions import expression, shortest
@@ -58,8 +58,8 @@ def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
     Raises InputError when ξ does not have n components or contains an acceleration.
     """
     c, field = system.c, _field(system, xi)
-    carried = field.applyfunc(lambda component: total_derivative(component, c))
-    return gradient(system.L, c.q).dot(field) + gradient(system.L, c.v).dot(carried)
+    carried = (total_derivative(component, c) for component in field)
+    return along(system.L, (*c.q, *c.v), (*field, *carried))
 
 
 def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:

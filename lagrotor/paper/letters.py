@@ -7,7 +7,7 @@ from typing import Any
 import sympy as sp
 from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
-from lagrotor.algebra import derivative
+from lagrotor.algebra import along
 from lagrotor.errors import InputError
 
 
@@ -48,10 +48,10 @@ def norm(u: sp.Matrix) -> sp.Expr:
 
 def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> Any:
     """d/dt of an expression or a matrix: `moving` are symbols or vectors, `velocities` their rates in the same order."""
-    flow = list(zip(components(moving), components(velocities), strict=True))
+    flow = components(moving), components(velocities)
     if isinstance(expression, sp.MatrixBase):
-        return expression.applyfunc(lambda entry: sum(derivative(entry, x) * v for x, v in flow))
-    return sum(derivative(expression, x) * v for x, v in flow)
+        return expression.applyfunc(lambda entry: along(entry, *flow))
+    return along(expression, *flow)
 
 
 def components(row: Iterable[Any]) -> list[Any]:

@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from lagrotor.algebra import derivative, hessian
+from lagrotor.algebra import along, derivative, hessian
 
 x, y = sp.symbols("x y", real=True)
 m = sp.Symbol("m", positive=True)
@@ -25,6 +25,12 @@ def test_it_is_what_sympy_gives(expression: sp.Expr) -> None:
     for symbol in (x, y, m):
         assert derivative(expression, symbol) == sp.diff(expression, symbol)
     assert derivative(expression * x, x) != derivative(expression * x, m)  # twin
+
+
+def test_a_rate_is_the_sum_over_what_moves() -> None:
+    expected = y * sp.diff(EXPRESSIONS[0], x) + m**2 * sp.diff(EXPRESSIONS[0], y)
+    assert along(EXPRESSIONS[0], (x, y, m), (y, m**2, 0)) == expected
+    assert along(EXPRESSIONS[0], (x, y, m), (y, m**2, 1)) != expected  # twin
 
 
 def test_a_second_derivative_does_not_depend_on_the_order() -> None:
