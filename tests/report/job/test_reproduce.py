@@ -20,9 +20,14 @@ ROOT = Path(lagrotor.__file__).parent.parent
 LARGEST = 5_000_000  # bytes of the page
 # Where a run begins, and what makes the job a part of itself: one section, the claims of another, two figures.
 IMPORTS = """
-import json, os, sys, traceback
+import contextlib, json, os, sys, traceback
 from pathlib import Path
-import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, scipy.integrate
+import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, matplotlib.figure, matplotlib.style, scipy.integrate
+import PIL.Image, lagrotor.drawing.run_figure, lagrotor.mechanics.running.simulation, lagrotor.models.spring_link.run
+import lagrotor.paper.rotor_pair.claims.parallel_pair, lagrotor.paper.rotor_pair.shared_premises, lagrotor.pictures.diagram
+from lagrotor import *
+with contextlib.suppress(ImportError):  # of the extra report
+    import latex2mathml.converter, mdit_py_plugins.dollarmath
 from lagrotor.commands import terminal
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import Scripts
