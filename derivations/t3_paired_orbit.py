@@ -276,7 +276,7 @@ put |= dict(zip(AXES.v, (frequency * e.diff(Phi) for e in (*one, *other)), stric
 carried = joint_line_momentum().subs(opposite).subs({a: own * sp.sqrt(sigma), b: shared * sp.sqrt(sigma), G: 1})
 second = sigma / k
 prove(
-    sp.expand(sp.expand_trig(sp.expand(carried.subs(put, simultaneous=True)))),
+    carried.xreplace(put),
     second * r0**2,
     "the momentum, in units of G",
     small=r0,

@@ -112,9 +112,9 @@ prove(
 
 # %%
 along = {U: U_t, Delta: Delta_t, U_v: natural * U_t.diff(Phi), Delta_v: natural * Delta_t.diff(Phi)}
-by_hand = sp.expand((swinging - (P - G * Delta**2 / (2 * k)) ** 2 / (4 * (a + b))).subs(along, simultaneous=True))
+by_hand = (swinging - (P - G * Delta**2 / (2 * k)) ** 2 / (4 * (a + b))).xreplace(along)
 cosine, sine = sp.symbols("c s")
-polynomial = sp.Poly(by_hand.subs({sp.cos(Phi): cosine, sp.sin(Phi): sine}), cosine, sine)
+polynomial = sp.Poly(by_hand.xreplace({sp.cos(Phi): cosine, sp.sin(Phi): sine}), cosine, sine)
 mean = sum(
     (
         coefficient * sp.factorial2(m - 1) * sp.factorial2(n - 1) / sp.factorial2(m + n)

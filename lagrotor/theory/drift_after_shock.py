@@ -16,6 +16,7 @@ from math import pi, sqrt
 
 import sympy as sp
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import InputError
 from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
 from lagrotor.pair.notation import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
@@ -37,7 +38,7 @@ def second_order_momentum() -> sp.Expr:
     apart = sp.Symbol("x_12")  # x_1 − x_2, second order
     bar = link_constraint(sp.Matrix(AXES.q[:3]), sp.Matrix(AXES.q[3:])).subs(upright).subs(x1, x2 + eps**2 * apart)
     bar = bar.subs({y1: eps * y1, y2: eps * y2, x2: eps * x2}, simultaneous=True)
-    lean = sp.solve(bar.diff(eps, 2).subs(eps, 0), apart)[0]
+    lean = sp.solve(derivative(derivative(bar, eps), eps).subs(eps, 0), apart)[0]
     still = {AXES.v[2]: 0, AXES.v[5]: 0, z1: 1, z2: 1, G_1: G, G_2: -G}
     momentum = joint_line_momentum().subs(still)
     return sp.expand(momentum.subs(x1, x2 + lean))
@@ -69,7 +70,7 @@ def shock_toppling() -> ClosedForm:
     averaged = momentum.subs({turning: -mean_rate, twisting: -mean_rate})
     averaged = sp.expand(averaged).subs({y1: y2 + sp.Symbol("d")}).expand()
     averaged = averaged.subs(sp.Symbol("d") ** 2, mean_square_twist())
-    rate = sp.solve(sp.expand(averaged) + p_y, mean_rate)[0]
+    rate = sp.solve(sp.expand(averaged) + p_y, mean_rate, simplify=False)[0]
     return _form("shock_toppling", "alpha'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 2)
 
 
