@@ -115,7 +115,7 @@ def _swarm(kind: Kind, scenes: list[Scene], columns: list[Array], start: Array) 
         return into
 
     fastest = np.array([_fastest(scene) for scene in scenes])
-    return Swarm(rates, start, fastest, 20_000 + 500 * fastest, at, width)
+    return Swarm(rates, start, fastest, at, width)
 
 
 def _fastest(scene: Scene) -> float:
