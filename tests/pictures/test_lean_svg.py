@@ -11,7 +11,7 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures, lean_svg
 from lagrotor.pictures.figures import draw
 
-DRAWN = ("3", "14", "16", "18")
+DRAWN = ("3", "18")  # a diagram with arrows, curves on axes
 STEP = re.compile(r"([MLQCzmlqc])([^MLQCzmlqc]*)")
 
 
