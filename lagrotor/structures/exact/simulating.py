@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.numerics.integrate import Engine, Problem, Solution, check_engine, check_tolerance, integrate
-from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.segment import RightHandSide, StopError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact import compiled_motion
@@ -86,7 +86,8 @@ def _integrated(
     try:
         if engine == "fast" and compiled_motion.runs_by_series(motion):
             return compiled_motion.integrate_series(s, motion, start, rate * times, tols)
-        return [_by_right_hand_side(s, motion, start, rate * times, engine, tol) for tol in tols]
+        rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
+        return [_by_right_hand_side(motion, rhs, start, rate * times, tol) for tol in tols]
     except StopError as stopped:  # at a time without unit
         for drive in (motion.force, motion.ground):
             if isinstance(drive, _Checked) and drive.refused:
@@ -94,10 +95,7 @@ def _integrated(
         raise StopError(stopped.at / rate, stopped.reason) from None
 
 
-def _by_right_hand_side(
-    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, tol: float
-) -> Solution:
-    rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
+def _by_right_hand_side(motion: ExactMotion, rhs: RightHandSide, start: Array, times: Array, tol: float) -> Solution:
     watch, most = LineWatch(motion), 50_000 + 2_000 * float(times[-1])
     problem: Any = Problem(watch.watched(rhs), start, most, project=motion.projected, typical_rate=1.0)
     found = integrate(problem, times, tol)
