@@ -1,7 +1,5 @@
 """Running spring-linked bodies: the paper's fixed step, and a stiff solver beside it."""
 
-from collections.abc import Callable
-from copy import copy
 from dataclasses import dataclass
 from math import exp, hypot, inf, isfinite, nan
 from typing import Any
@@ -12,12 +10,11 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models.simulate import check_times
 from lagrotor.models.spring_link.paper_bodies import TIP
-from lagrotor.models.spring_link.recorded_step import step_function
+from lagrotor.models.spring_link.recorded_step import rate_function, step_function
 from lagrotor.models.spring_link.rigid_body import Array
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.numerics.integrate import check_tolerance
 from lagrotor.numerics.pulse import segments
-from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
 from lagrotor.pair.scene import Shock
 
@@ -114,7 +111,7 @@ def run_solver(
     times, error = check_times(t), check_tolerance(tol) / 20
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
-    rhs = _right_hand_side(system)
+    rate = rate_function(system, shock)
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     since_peak = times - at
     begin, end = -at, float(since_peak[-1])
@@ -128,8 +125,8 @@ def run_solver(
         inside = (since_peak > left) & (since_peak <= right)
         t_eval, acting = np.union1d(since_peak[inside], [right]), shock if pulsed else None
         found = solve_ivp(
-            rhs, (left, right), y, method=method, args=(acting,), t_eval=t_eval,
-            rtol=max(error, 2.3e-14), atol=error, **options,
+            lambda s, y, acting: rate(y.tolist(), _strength(acting, s)), (left, right), y, method=method, args=(acting,),
+            t_eval=t_eval, rtol=max(error, 2.3e-14), atol=error, **options,
         )  # fmt: skip
         if not found.success or not np.isfinite(found.y).all():
             raise IntegrationError(
@@ -139,22 +136,6 @@ def run_solver(
         states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
         evaluations += found.nfev
     return _read(system, times, states, evaluations)
-
-
-def _right_hand_side(system: RigidBodySystem) -> Callable[..., Array]:
-    """(s, y, shock) → y' of the state y (18 n,) of X, U, L, R of n bodies, at s after the peak of the shock."""
-    moving = copy(system)
-
-    def rhs(s: float, y: Array, acting: Shock | None) -> Array:
-        moving.load(y)
-        moving.compute_forces()
-        if acting is not None:
-            moving.push(acting.body, TIP, acting.force, _strength(acting, s))
-        turning = cross_matrix(moving.Omega) @ moving.R
-        changes = moving.U, moving.F * moving.inverse_mass, moving.tau, turning
-        return np.concatenate([change[:-1].ravel() for change in changes])
-
-    return rhs
 
 
 def _strength(shock: Shock | None, s: float) -> float:
