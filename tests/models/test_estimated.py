@@ -66,11 +66,11 @@ def test_the_estimate_bounds_the_error_and_the_run_keeps_tol() -> None:
 
 def test_a_tolerance_out_of_reach_is_named_with_what_was_reached() -> None:
     with pytest.warns(LagrotorWarning, match=r"does not keep tol = 1e-13: the estimated error is .* t = [\d.]+ s"):
-        run = simulate(SHOCKED, [10.0, 20.0], tol=1e-13)
-    assert run.error > 1e-13 and 0 < run.horizon < 20
+        run = simulate(SHOCKED, [5.0, 10.0], tol=1e-13)
+    assert run.error > 1e-13 and 0 < run.horizon < 10
     with warnings.catch_warnings():  # twin: a tolerance within reach is kept, and nothing is said
         warnings.simplefilter("error")
-        assert simulate(SHOCKED, [10.0, 20.0], tol=1e-8).horizon == np.inf
+        assert simulate(SHOCKED, [5.0, 10.0], tol=1e-8).horizon == np.inf
 
 
 def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

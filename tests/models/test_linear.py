@@ -157,7 +157,7 @@ def estimates_and_errors(seed: int, count: int) -> list[tuple[float, float]]:
     return found
 
 
-@pytest.mark.parametrize("count", [40, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [20, pytest.param(2000, marks=pytest.mark.slow)])
 def test_the_linear_error_is_bounded(count: int) -> None:
     found = estimates_and_errors(23, count)
     assert all(error <= estimate for estimate, error in found)

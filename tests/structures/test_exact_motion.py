@@ -122,7 +122,7 @@ def kept(turns: int) -> None:
 
 
 def test_nine_rotors_keep_energy_and_bars() -> None:
-    kept(20)
+    kept(10)
 
 
 @pytest.mark.slow
