@@ -6,8 +6,10 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -618,23 +620,26 @@ def test_a_second_run_into_the_same_folder_is_refused(work: Path, capsys: pytest
         pass
 
 
-def test_a_terminated_run_leaves_nothing_behind(work: Path) -> None:
-    program = (
-        "import sys, time\nfrom pathlib import Path\nfrom lagrotor.commands.command_line import main\n"
-        "from lagrotor.report.job import reproduce\n"
-        "def wait(*a, **k):\n    print('running', flush=True)\n    time.sleep(60)\n"
-        "reproduce._make = wait\nsys.exit(main(['reproduce', '--jobs', '1']))"
-    )
-    running = subprocess.Popen(
-        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
-    assert running.stdout
-    assert running.stdout.readline() == "running\n"
+def test_a_terminated_run_leaves_nothing_behind(work: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    context, said = get_context("fork"), work.parent / "said"
+    begun = context.Event()
+
+    def wait(*_: object) -> None:
+        begun.set()
+        time.sleep(60)
+
+    def program() -> None:
+        with said.open("w") as sys.stderr:
+            sys.exit(main(["reproduce", "--jobs", "1"]))
+
+    monkeypatch.setattr(reproduce, "_make", wait)
+    running = context.Process(target=program)
+    running.start()
+    assert begun.wait(60)
     running.terminate()
-    _, err = running.communicate()
-    assert running.returncode == 143
-    assert err == "lagrotor: terminated\n"
+    running.join()
+    assert running.exitcode == 143
+    assert said.read_text() == "lagrotor: terminated\n"
     assert not list(work.iterdir())
 
 
