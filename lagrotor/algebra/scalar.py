@@ -1,5 +1,6 @@
 """Checks of what is handed to this room: scalar expressions, with the symbols that are zero by assumption replaced."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import sympy as sp
@@ -23,23 +24,29 @@ def scalar(given: Any, name: str) -> sp.Expr:
     expression = sympified(given, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {given!r} is not a scalar expression: give a sympy expression or a number")
-    _check_size(expression)
-    zeros = {symbol: sp.S.Zero for symbol in expression.free_symbols if symbol.is_zero}
+    zeros = {part: sp.S.Zero for part in _parts(expression) if part.is_Symbol and part.is_zero}
     return expression.xreplace(zeros) if zeros else expression
 
 
-def _check_size(expression: sp.Basic) -> None:
+def _parts(expression: sp.Basic) -> Iterable[sp.Basic]:
+    """Every different part of an expression that is neither too large nor too deep."""
     sizes: dict[sp.Basic, tuple[int, int]] = {}  # nodes of the tree and its depth
     left = [(expression, False)]
     while left:
         node, ready = left.pop()
-        if ready:
-            parts = [sizes[part] for part in node.args]
-            sizes[node] = 1 + sum(n for n, _ in parts), 1 + max((depth for _, depth in parts), default=0)
-        elif node not in sizes:
-            left += [(node, True), *((part, False) for part in node.args)]
+        if node in sizes:
+            continue
+        if not node.args:
+            sizes[node] = 1, 1
+        elif ready:
+            below, depths = zip(*(sizes[part] for part in node.args), strict=True)
+            sizes[node] = 1 + sum(below), 1 + max(depths)
+        else:
+            left.append((node, True))
+            left += [(part, False) for part in node.args if part not in sizes]
     nodes, depth = sizes[expression]
     if depth > _MOST_DEPTH:
         raise NotExactError(f"The expression is nested more than {_MOST_DEPTH} deep.")
     if nodes > _MOST_NODES:
         raise NotExactError(f"The expression has more than {_MOST_NODES:,} parts.")
+    return sizes

@@ -90,7 +90,7 @@ def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:
     """The Jacobi integral E = v·∂L/∂v − L, with dE/dt = Q·v − ∂L/∂t along a motion. Goldstein §2.7."""
-    return momenta(L, c).dot(c.v) - L
+    return along(L, c.v, c.v) - L
 
 
 def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:

@@ -27,7 +27,6 @@ from lagrotor.mechanics.lagrangian import (
     gradient,
     jacobian,
     linear_solve,
-    momenta,
     t,
     total_derivative,
 )
@@ -91,7 +90,7 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
             f"δL = {variation(system, xi)} and the gauge function {gauge}; give gauge=F with δL = dF/dt, or see how "
             "p · ξ changes: noether_rate"
         )
-    found = momenta(system.L, system.c).dot(list(xi)) - sp.sympify(gauge)
+    found = along(system.L, system.c.v, xi) - sp.sympify(gauge)
     return FirstIntegral(shortest(found), decision.domain)
 
 

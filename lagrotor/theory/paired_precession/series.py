@@ -161,7 +161,7 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
     exact = {M: scene.rotor.mass, R: scene.rotor.length, I1: scene.rotor.I1}
     exact |= {ell: scene.link.length, m: scene.link.mass, K: scene.link.inertia}
     values = {symbol: sp.Rational(repr(value)) for symbol, value in exact.items()}
-    both = {symbol: INERTIAS[symbol].subs(J, J_OF).subs(values) for symbol in (a, b)}
+    both = {symbol: INERTIAS[symbol].xreplace({J: J_OF}).xreplace(values) for symbol in (a, b)}
     return (both[a] + both[b]) / (both[a] - both[b]), values[ell] / values[R]
 
 
