@@ -162,7 +162,7 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
         value = function.subs(z, u0) / sp.factorial(m)
         if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
             raise NotExactError(f"{function} is singular at {z} = {u0}")
-        total = _plus(total, _Series(0, tuple(value * term for term in power.terms)))
+        total = _plus(total, _Series(0, tuple(_product(value, term) for term in power.terms)))
         power = _times(power, v)
         function = derivative(function, z)
     return total
@@ -202,11 +202,13 @@ def _plus(a: _Series, b: _Series) -> _Series:
 
 
 def _times(a: _Series, b: _Series) -> _Series:
-    length = min(len(a.terms), len(b.terms))
-    return _Series(
-        a.start + b.start,
-        tuple(sp.Add(*(a.terms[j] * b.terms[k - j] for j in range(k + 1))) for k in range(length)),
-    )
+    terms = (sp.Add(*map(_product, a.terms[: k + 1], b.terms[k::-1])) for k in range(min(len(a.terms), len(b.terms))))
+    return _Series(a.start + b.start, tuple(terms))
+
+
+def _product(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """a b; of what is multiplied by zero sympy looks whether it is finite, which takes long."""
+    return sp.S.Zero if a is sp.S.Zero or b is sp.S.Zero else a * b
 
 
 def _power(base: _Series, times: int) -> _Series:

@@ -77,7 +77,6 @@ class Scripts:
         """Run one script, once. Raises ScriptError with the file and the line where it fails."""
         path = self.path(kind, stem)
         if path not in self.ran:
-            _tree(path)
             with self._within(path):
                 self.ran[path] = run_file(path)
         return self.ran[path]
@@ -171,6 +170,7 @@ def run_file(path: Path) -> Script:
     source = path.read_text(encoding="utf-8")
     defined: dict[str, Any] = {"__name__": path.stem, "__file__": str(path)}
     starts = [match.start() for match in _CELL.finditer(source)] or [0]
+    statements = ast.parse(source).body
     cells = []
     for start, end in zip(starts, [*starts[1:], len(source)], strict=True):
         text = source[start:end]
@@ -178,22 +178,20 @@ def run_file(path: Path) -> Script:
         if "[markdown]" in head:
             cells.append(Cell("prose", re.sub(r"^# ?", "", body, flags=re.MULTILINE).strip()))
         else:
-            shown = _execute(body, source.count("\n", 0, start) + bool(head), path, defined)
+            first, last = (1 + source.count("\n", 0, place) for place in (start, end))
+            here = (statement for statement in statements if first <= statement.lineno <= last)
+            shown = (value for statement in here for value in _execute(statement, path, defined))
             cells.append(Cell("code", body.strip(), tuple(shown)))
     return Script(tuple(cells), defined)
 
 
-def _execute(body: str, before: int, path: Path, defined: dict[str, Any]) -> list[Any]:
-    """Execute a cell's statements in order; the values of its bare expressions."""
-    shown = []
-    for node in ast.increment_lineno(ast.parse(body), before).body:
-        if isinstance(node, ast.Expr):
-            value = eval(compile(ast.Expression(node.value), str(path), "eval"), defined)
-            if value is not None and not isinstance(node.value, ast.Constant):
-                shown.append(value)
-        else:
-            exec(compile(ast.Module([node], []), str(path), "exec"), defined)
-    return shown
+def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[Any]:
+    """Execute a statement; its value if it is a bare expression and has one."""
+    if not isinstance(statement, ast.Expr):
+        exec(compile(ast.Module([statement], []), str(path), "exec"), defined)
+        return []
+    value = eval(compile(ast.Expression(statement.value), str(path), "eval"), defined)
+    return [] if value is None or isinstance(statement.value, ast.Constant) else [value]
 
 
 @contextmanager
