@@ -35,14 +35,15 @@ tip_force = sp.Matrix([F[0], F[1], 0, 0, 0, 0]) * R
 balance = euler_lagrange(system.L, AXES) - system.push - system.rows.T * pull - tip_force
 
 x1, y1, z1, x2, y2, z2 = AXES.q
-upright = {z1: 1, z2: 1, **dict.fromkeys((AXES.v[2], AXES.v[5], AXES.a[2], AXES.a[5]), 0)}
+still = (AXES.v[2], AXES.v[5], AXES.a[2], AXES.a[5])
+upright = dict.fromkeys((z1, z2), sp.S.One) | dict.fromkeys(still, sp.S.Zero)
 tilts = [s for row in (AXES.q, AXES.v, AXES.a) for s in row if s not in upright]
 scaled = upright | {s: eps * s for s in [*tilts, *pull, F[0], F[1]]}
 
 
 def linearised(expression):
     """The part of first order in the tilts and the forces."""
-    return expression.subs(scaled, simultaneous=True).diff(eps).xreplace({eps: sp.S.Zero})
+    return expression.xreplace(scaled).diff(eps).xreplace({eps: sp.S.Zero})
 
 
 linear = linearised(balance)

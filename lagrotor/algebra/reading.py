@@ -63,6 +63,8 @@ class Roots(NamedTuple):
 
 def find_roots(survey: Survey) -> Roots:
     """Divide the roots of the survey into independent and dependent ones."""
+    if not survey.radicands:
+        return Roots(Ring(()), [], [])
     plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
     ordered = sorted(survey.radicands, key=lambda base: (bool(base.free_symbols), base.sort_key()))
     given = [(base, plain.quotient(base)) for base in ordered]
