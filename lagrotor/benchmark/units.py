@@ -2,7 +2,8 @@
 
 Each command runs in processes of its own, five times, and the median counts; the unit is measured between them, so that a
 machine that is busy slows both. `--whole` adds the long commands: the whole audit, the main job and the tests, once each; of
-these only the wall-clock counts, since the processor time of their worker processes is not seen here.
+these only the wall-clock counts, since the processor time of their worker processes is not seen here. What is compiled is kept,
+as by default, even where the environment forbids it: the unit's modules were compiled when they were installed.
 """
 
 import os
@@ -98,7 +99,8 @@ def measured(arguments: Sequence[str], folder: Path) -> Used:
     process = subprocess.Popen(
         [sys.executable, *arguments],
         cwd=folder,
-        env=os.environ | {"PYTHONPATH": str(folder)},
+        env={name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        | {"PYTHONPATH": str(folder)},
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
@@ -114,11 +116,12 @@ def measured(arguments: Sequence[str], folder: Path) -> Used:
 
 
 def measure(command: Command, folder: Path) -> Row:
-    """The medians of a command's runs, each beside a run of the unit."""
+    """The medians of a command's runs, each beside a run of the unit; of the unit never fewer than REPEATS."""
     if command.prepare:
         command.prepare(folder)
     pairs = [(measured(UNIT, folder), measured(command.arguments, folder)) for _ in range(command.repeats)]
     units, runs = [unit for unit, _ in pairs], [run for _, run in pairs]
+    units += [measured(UNIT, folder) for _ in range(len(units), REPEATS)]
     return Row(
         command,
         median(run.wall for run in runs) / median(unit.wall for unit in units),
