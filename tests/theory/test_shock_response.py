@@ -56,23 +56,27 @@ def test_error_falls_as_square(scene):
     assert errors[0] < 1e-10 or measured_order(factors, errors) > 1.9
 
 
-@settings(max_examples=10, deadline=None)
-@given(scenes(3e-3))
-def test_spectrum_of_the_exact_model_at_small_amplitude(scene):
-    """The exact swing in the velocities, less its mean, is one wave of the natural frequency: no term t sin is left."""
-    Omega = natural_rate(scene)
-    times = 1.5 + np.linspace(0, 2 * np.pi / Omega, 129)
+def off_rate(scene, factor, rate):
+    """How far, as a share of it, the exact swing of tip 1 after `factor` times the shock is off a wave of that rate."""
+    times = 1.5 + np.linspace(0, 2 * np.pi / rate, 129)
     # What is even in the shock (second order, growing with time) drops out of the half difference.
-    there, back = (simulate(resized(scene, sign), times, "spheres", 1e-13) for sign in (1, -1))
+    there, back = (simulate(resized(scene, sign * factor), times, "spheres", 1e-13) for sign in (1, -1))
     x = (there.rates[0, :, 0] - back.rates[0, :, 0]) / 2
-    reach = np.abs(there.axes[..., :2]).max()
-
-    waves = np.column_stack([np.cos(Omega * times), np.sin(Omega * times), np.ones_like(times)])
+    waves = np.column_stack([np.cos(rate * times), np.sin(rate * times), np.ones_like(times)])
     coefficients = np.linalg.lstsq(waves, x, rcond=None)[0]
     slope = times * (coefficients[1] * waves[:, 0] - coefficients[0] * waves[:, 1])
-    full = np.column_stack([waves, slope])
-    shift = np.linalg.lstsq(full, x, rcond=None)[0][3]
-    assert abs(shift) / Omega < 1e-8 + reach**2  # what is left is of third order, where the pair drifts off upright
+    return np.linalg.lstsq(np.column_stack([waves, slope]), x, rcond=None)[0][3] / rate
+
+
+@settings(max_examples=5, deadline=None)
+@given(scenes(3e-3))
+def test_small_swings_of_the_exact_model_have_the_natural_frequency(scene):
+    """What is left at a small shock is of third order, where the pair drifts off upright: it falls fourfold with half of it."""
+    Omega = natural_rate(scene)
+    whole, half = (off_rate(scene, factor, Omega) for factor in (1.0, 0.5))
+    assert abs(4 * half - whole) / 3 < 1e-9
+    whole, half = (off_rate(scene, factor, Omega * (1 + 1e-7)) for factor in (1.0, 0.5))  # twin
+    assert abs(4 * half - whole) / 3 > 5e-8
 
 
 @settings(max_examples=20, deadline=None)
