@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import IntegrationError
 from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.batch_dop853 import Index, Rates, Swarm, march
+from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
