@@ -86,7 +86,7 @@ def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
 
 @contextmanager
 def _no_interrupts() -> Iterator[None]:
-    """A process that is started here never hears of an interrupt, which is its parent's to handle."""
+    """An interrupt does not reach a process that is started here: its parent handles it."""
     try:
         before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     except ValueError:  # not in the main thread: the caller keeps its signals

@@ -58,7 +58,7 @@ def test_a_debugger_has_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cores() == 1
 
 
-def test_what_loads_at_the_side_serves_the_results_and_hears_of_no_interrupt() -> None:
+def test_what_loads_at_the_side_serves_the_results_and_no_interrupt_reaches_it() -> None:
     before = signal.getsignal(signal.SIGINT)
     load_at_the_side([])
     assert signal.getsignal(signal.SIGINT) is before
