@@ -52,7 +52,7 @@ def corner(first: sp.Expr, second: sp.Expr, G_A: sp.Expr, G_B: sp.Expr) -> sp.Ex
     """det(K − ω² M − i ω C) at K."""
     own = [sp.Matrix([[m, -i * omega * g], [i * omega * g, m]]) for m, g in ((first, G_A), (second, G_B))]
     below = joined.applyfunc(sp.conjugate).T
-    return sp.Matrix(sp.BlockMatrix([[own[0], joined], [below, own[1]]])).det()
+    return sp.Matrix(sp.BlockMatrix([[own[0], joined], [below, own[1]]])).det(method="laplace")
 
 
 quarter = sp.Rational(9, 4) * k**2

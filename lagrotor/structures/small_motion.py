@@ -78,13 +78,39 @@ class SmallMotion:
     @cached_property
     def roots(self) -> Complex:
         """All 2n roots s of det(M s² + C s + K), nearly zero ones set to zero."""
+        if self._definite:
+            return self._in_seconds(-1j * np.linalg.eigvalsh(self._hermitian[0]))
         return self._in_seconds(np.linalg.eigvals(self._first_order))
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
         """The roots and their vectors (n, 2n)."""
+        if self._definite:
+            H, over_L = self._hermitian
+            rates, vectors = np.linalg.eigh(H)
+            return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.freedoms :, :]
         s, vectors = np.linalg.eig(self._first_order)
         return self._in_seconds(s), vectors[..., : self.freedoms, :] + 0j
+
+    @cached_property
+    def _definite(self) -> bool:
+        """Whether the rest is one of least energy and nothing damps: all roots are imaginary."""
+        if self.damping.any() or not self.freedoms:
+            return False
+        sizes = np.linalg.eigvalsh(self.stiffness)
+        return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
+
+    @property
+    def _hermitian(self) -> tuple[Complex, Matrix]:
+        """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
+        |x|² is twice the energy; 1/L."""
+        n = self.freedoms
+        L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
+        over_L = np.linalg.inv(L)
+        found = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
+        found[..., n:, :n] = over_L @ R
+        found[..., n:, n:] = over_L @ (self.gyroscopic / self.rate) @ _dagger(over_L)
+        return -1j * found, over_L
 
     @property
     def _first_order(self) -> Matrix:
@@ -129,23 +155,28 @@ def small_motion(s: Assembly) -> SmallMotion:
             "axes; simulate it"
         )
     c = coefficients(s)
-    return on_freedoms(matrices(c), bar_rows(c), c.rate)
+    rank, vectors = left_by(bar_rows(c))
+    return on_freedoms(matrices(c), vectors[:, int(rank) :], c.rate)
 
 
-def on_freedoms(parts: Matrix, rows: Matrix, rate: float) -> SmallMotion:
-    """The system of `matrices`, (…, 4, n, n), on what rows u = 0 leaves, rows (…, B, n) of one rank; all may be complex."""
-    Z: Matrix = np.eye(rows.shape[-1])
-    if rows.shape[-2]:
-        _, sizes, vectors = np.linalg.svd(rows)
-        Z = vectors[..., int(rank_of(sizes).max()) :, :].conj().swapaxes(-1, -2)
-        parts = Z.conj().swapaxes(-1, -2)[..., None, :, :] @ parts @ Z[..., None, :, :]
+def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
+    """Rank (…,) of the bars' rows (…, B, n) by their singular values, and vectors (…, n, n): those from the rank on are a basis
+    of what the bars leave."""
+    _, sizes, vectors = np.linalg.svd(rows)
+    ranks = np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
+    return ranks, _dagger(vectors)
+
+
+def on_freedoms(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
+    """The system of `matrices`, (…, 4, n, n), on the vectors of a basis (…, n, f); all may be complex."""
+    if basis.shape[-1] < basis.shape[-2]:
+        parts = _dagger(basis)[..., None, :, :] @ parts @ basis[..., None, :, :]
     mass, damping, gyroscopic, stiffness = np.moveaxis(parts, -3, 0)
-    return SmallMotion(mass, damping, gyroscopic, stiffness, Z, rate)
+    return SmallMotion(mass, damping, gyroscopic, stiffness, basis, rate)
 
 
-def rank_of(sizes: Array) -> NDArray[np.intp]:
-    """Rank of the bars' rows by their singular values (…, k): (…,)."""
-    return np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
+def _dagger(x: Matrix) -> Matrix:
+    return x.conj().swapaxes(-1, -2)
 
 
 def matrices(c: Coefficients) -> Array:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from lagrotor import Rotor
 from lagrotor.errors import InputError
 from lagrotor.structures import (
     bloch,
@@ -77,6 +78,21 @@ def energy_chern(pattern, grid: int) -> tuple[int, ...]:
 )
 def test_the_product_of_energy_gives_the_same_numbers(pattern) -> None:
     assert energy_chern(pattern, 12) == chern_numbers(pattern, 12).numbers
+
+
+@pytest.mark.parametrize("spins", [30.0, (30.0, -30.0)], ids=["equal", "opposite"])
+def test_the_least_distance_of_bands_is_found_between_the_wave_numbers_of_the_grid(spins) -> None:
+    """At the corner of the zone, which a grid of ten lacks: roots of a ω² + G ω = κ + 3/2 k and of det D(K) for equal spins;
+    with opposite spins they are one."""
+    a, G, k, kappa = Rotor().J, 30 * Rotor().I3, SPRINGS["spring"], SPRINGS["hinge"]
+    single = max(np.roots([a, G, -kappa - 1.5 * k]))
+    coupled = np.roots([a * a, 0, -2 * a * (kappa + 1.5 * k) - G * G, 0, (kappa + 1.5 * k) ** 2 - (1.5 * k) ** 2])
+    found = chern_numbers(honeycomb(**SPRINGS, spins=spins), 10)
+    if spins == 30.0:
+        assert np.isclose(found.apart[0], single - min(coupled[coupled > 0]), rtol=1e-11)
+        assert np.isclose(found.apart[2], max(coupled) - max(np.roots([a, -G, -kappa - 1.5 * k])), rtol=1e-11)
+    else:
+        assert found.groups == ((0, 1), (2, 3))
 
 
 def test_unequal_hinges_end_the_phase_of_equal_spins() -> None:

@@ -151,19 +151,27 @@ def test_a_piece_and_its_pattern_agree_with_springs_and_several_rotors() -> None
     assert np.all(np.any(inside, axis=1))
 
 
-def test_many_wave_numbers_at_once_give_what_each_gives_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At q = 0 the rigid honeycomb has a freedom more: wave numbers of both kinds, in no order, in blocks."""
+@pytest.mark.parametrize(
+    "more", [{"hinge": 200.0}, {"gravity": 9.81, "friction": 0.3, "load": 1.0}], ids=["stands", "falls"]
+)
+def test_many_wave_numbers_at_once_give_what_each_gives_alone(more, monkeypatch: pytest.MonkeyPatch) -> None:
+    """At q = 0 the rigid honeycomb has a freedom more: wave numbers of both kinds and their opposites, in no order, in blocks."""
+    turn = 2 * np.pi
     pattern, q = (
-        honeycomb(spins=(30.0, 10.0), hinge=200.0),
-        np.array([[0.3, 0.2], [0, 0], [1.0, 2.0], [0, 0], [2.5, 0.4]]),
+        honeycomb(spins=(30.0, 10.0), **more),
+        np.array(
+            [[0.3, 0.2], [0, 0], [1, 2], [0, 0], [-0.3, -0.2], [2.5, 0.4], [turn - 1, turn - 2], [turn, 0], [1, -2]]
+        ),
     )
     monkeypatch.setattr(dispersion_module, "_TOGETHER", 2)
     together = dispersion(pattern, q)
-    assert together.freedoms.tolist() == [1, 2, 1, 2, 1] and together.zero_bands == 0
+    assert together.freedoms.tolist() == [1, 2, 1, 2, 1, 1, 1, 2, 1] and together.zero_bands == 0
+    assert together.falls == ("gravity" in more)
     for k, point in enumerate(q):
         alone = dispersion(pattern, point[None])
         f = alone.rates.shape[1]
         assert np.isnan(together.rates[k, f:]).all() and np.allclose(together.rates[k, :f], alone.rates[0], rtol=1e-13)
+        assert np.allclose(together.growth[k, :f], alone.growth[0], rtol=1e-12, atol=1e-12)
         # A shape is known but for its phase.
         product = np.abs((together.shapes[k, :f].conj() * alone.shapes[0]).sum((-2, -1)))
         assert np.allclose(product, 1, atol=1e-13)

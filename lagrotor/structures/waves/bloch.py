@@ -1,65 +1,61 @@
 """Small motion of a pattern at one wave number: the cell's matrices with the phases of its neighbours.
 
-A joint j in the cell n steps away moves as exp(i q . n) times joint j of the cell, turned by n turns. With u' = P(q) u the
-cell and its neighbours, Mass, damping, gyroscopic and stiffness matrices are P† … P, the bars' rows are A(q) = rows P, and
-the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
+A joint j in the cell n steps away moves as exp(i q . n) times joint j of the cell, turned by n turns. Mass, damping,
+gyroscopic and stiffness matrices are sums of exp(i q . n) X_n over cells n steps apart, the bars' rows are A(q), a sum alike,
+and the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product
+from math import cos, sin
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.coefficients import Array, Complex, coefficients
-from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, matrices, on_freedoms, rank_of
-from lagrotor.structures.waves.cell import Cell
+from lagrotor.structures.coefficients import Array, coefficients
+from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_freedoms
+from lagrotor.structures.waves.cell import Cell, Shift, Site
 
 _ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
 
 
 @dataclass(frozen=True, eq=False)
 class Bloch:
-    """parts: mass, damping, gyroscopic, stiffness of the cell with its neighbours, (4, 2 n, 2 n); rows (B, 2 n) of its bars;
-    copies (2 n, 2 N): the neighbours as turned copies of the cell's joints; shifts (2 n, d): how many steps away."""
+    """parts (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells that are apart (k, d) steps from each other;
+    rows (m, B, 2 N): those of the cell's bars on the cells that are away (m, d) steps."""
 
     parts: Array
+    apart: Array
     rows: Array
-    copies: Array
-    shifts: Array
+    away: Array
     rate: float
-
-    def phases(self, q: Array) -> Complex:
-        """P(q), (…, 2 n, 2 N), of wave numbers (…, d)."""
-        return np.asarray(np.exp(1j * q @ self.shifts.T)[..., None] * self.copies)
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
         """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d)."""
-        P = self.phases(q)
-        return _between(P, self.parts, P), self.rows @ P
+        return _waved(q, self.apart, self.parts), _waved(q, self.away, self.rows)
 
     def slopes(self, q: Array, k: int) -> tuple[Matrix, Matrix]:
         """Their derivatives by q_k."""
-        P = self.phases(q)
-        dP = 1j * self.shifts[:, k, None] * P
-        return _between(dP, self.parts, P) + _between(P, self.parts, dP), self.rows @ dP
+        return _waved(q, self.apart, self.parts, k), _waved(q, self.away, self.rows, k)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
         """Of the wave numbers q (n_q, d) those at which the bars leave equally many freedoms, by their places in q, and the
         linear systems there."""
         parts, rows = self.at(q)
         rows = np.where(np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0), 0, rows)
-        ranks = rank_of(np.linalg.svd(rows, compute_uv=False)) if rows.shape[-2] else np.zeros(len(q), dtype=np.intp)
+        ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
-            yield places, on_freedoms(parts[places], rows[places], self.rate)
+            yield places, on_freedoms(parts[places], vectors[places, :, rank:], self.rate)
 
 
-def _between(left: Complex, parts: Array, right: Complex) -> Complex:
-    """left† part right of each of four parts, (…, 4, 2 N, 2 N)."""
-    return np.asarray(left.conj().swapaxes(-1, -2)[..., None, :, :] @ parts @ right[..., None, :, :])
+def _waved(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:
+    """The sum of exp(i q . n) X_n, or its derivative by q_k."""
+    phases = np.exp(1j * q @ steps.T)
+    return np.asarray(np.tensordot(phases if k is None else 1j * steps[:, k] * phases, parts, 1))
 
 
 def bloch(p: Cell) -> Bloch:
@@ -90,10 +86,28 @@ def bloch(p: Cell) -> Bloch:
     A = c.A - copied * [rotor.J for rotor in cell.rotor]
     S = c.S - copied * [rotor.mass * rotor.length / 2 for rotor in cell.rotor]
     c = replace(c, A=A, S=S)
-    shifts = np.array([*[(0,) * len(p.steps)] * N, *(shift for _, shift in away)], dtype=float)
-    copies = np.zeros((len(whose), 2, N, 2))
-    angles = shifts[:, 0] * p.turn
-    turns = np.array([[np.cos(angles), -np.sin(angles)], [np.sin(angles), np.cos(angles)]])
-    copies[np.arange(len(whose)), :, whose] = turns.transpose(2, 0, 1)
-    rate = coefficients(cell).rate
-    return Bloch(matrices(c), bar_rows(c), copies.reshape(2 * len(whose), 2 * N), np.repeat(shifts, 2, 0), rate)
+    places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
+    of = {place: _copies(p, away, place) for place in places}
+    whole, rows = matrices(c), bar_rows(c)
+    parts = dict[tuple[int, ...], Array]()
+    for (one, left), (other, right) in product(of.items(), repeat=2):
+        apart = tuple(b - a for a, b in zip(one, other, strict=True))
+        parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
+    return Bloch(
+        np.array([*parts.values()]),
+        np.array([*parts], dtype=float),
+        np.array([rows @ copies for copies in of.values()]),
+        np.array([*of], dtype=float),
+        coefficients(cell).rate,
+    )
+
+
+def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
+    """The joints of the cell at one place as turned copies of the pattern's, (2 n, 2 N), the others zero."""
+    N = len(p.joints)
+    copies = np.zeros((N + len(away), 2, N, 2))
+    c, s = cos(place[0] * p.turn), sin(place[0] * p.turn)
+    for k, (j, shift) in enumerate([*((j, (0,) * len(p.steps)) for j in range(N)), *away]):
+        if shift == place:
+            copies[k, :, j] = [[c, -s], [s, c]]
+    return copies.reshape(2 * len(copies), 2 * N)

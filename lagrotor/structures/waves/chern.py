@@ -8,17 +8,22 @@ rate about a stable rest positive (Shindou et al., Phys. Rev. B 87, 174427 (2013
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.structures.coefficients import Array, Complex
-from lagrotor.structures.waves.bloch import bloch
+from lagrotor.structures.waves.bloch import Bloch, bloch
 from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import Dispersion, dispersion
 
 _APART = 1e-6  # of the highest rate: bands nearer to each other at some wave number belong to one group
 _STARTS = 4  # local minima of a grid that are followed
+_ROUNDS = 12  # of ever closer points about a minimum; eight reached it where four bars or three springs were tried
+_NINE = np.array([(0, 0), *(at for at in product((-1, 0, 1), repeat=2) if any(at))])
+_PARABOLA = np.linalg.pinv(np.array([(1, x, y, x * x, x * y, y * y) for x, y in _NINE]))
 
 
 @dataclass(frozen=True)
@@ -46,7 +51,7 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     d = dispersion(p, q)
     _check(d)
     n = d.rates.shape[1]
-    between = np.array([_least_distance(d, k, grid) for k in range(n - 1)])
+    between = _least_distances(d, grid)
     ends = [k for k in range(n) if k == n - 1 or between[k] > _APART * d.rates.max()]
     groups = tuple(zip([0, *(k + 1 for k in ends[:-1])], ends, strict=True))
     sums = np.array([_flux(d, first, last, grid).sum() / (2 * np.pi) for first, last in groups])
@@ -57,23 +62,57 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     )
 
 
-def _least_distance(d: Dispersion, k: int, grid: int) -> float:
-    """The least distance of band k to the next at one wave number, rad/s, from the grid's local minima on, the least four."""
-    from scipy.optimize import minimize
+def _least_distances(d: Dispersion, grid: int) -> Array:
+    """The least distance of each band but the last to the next at one wave number, rad/s, from the grid's local minima on, the
+    least four of each band.
 
+    Its square is smooth also where two bands touch. A parabola is fitted to nine points about each minimum, and they go on
+    to its lowest point or to the lowest of themselves; where they stay they come closer.
+    """
+    apart = np.diff(d.rates, axis=1).T
+    lowest = [_local_minima(each.reshape(grid, grid)) for each in apart]
+    band = np.repeat(np.arange(len(apart)), [len(each) for each in lowest])
+    q, least, side = d.q[np.concatenate(lowest)], np.full(len(band), np.inf), np.full(len(band), 2 * np.pi / grid)
     b = bloch(d.pattern)
+    for _ in range(_ROUNDS):
+        around = q[:, None] + side[:, None, None] * _NINE
+        squares = _distances(b, around, band, d) ** 2
+        leap = _lowest(squares @ _PARABOLA.T)
+        reached = q + side[:, None] * leap
+        square = _distances(b, reached[:, None], band, d)[:, 0] ** 2
+        best = squares.argmin(1)
+        leaps = square <= squares.min(1)
+        q = np.where(leaps[:, None], reached, np.take_along_axis(around, best[:, None, None], 1)[:, 0])
+        least = np.minimum(least, np.minimum(square, squares.min(1)))
+        side = side / np.where(leaps & (np.abs(leap) < 1).all(1), 8, np.where(best, 1, 2))
+    return np.sqrt([least[band == k].min() for k in range(len(apart))])
 
-    def distance(q: Array) -> float:
-        ((_, motion),) = b.motions(q[None])
-        rates = np.sort(-motion.roots[0].imag)[motion.freedoms :]
-        return float(rates[k + 1] - rates[k]) if len(rates) == d.rates.shape[1] else np.inf
 
-    apart = (d.rates[:, k + 1] - d.rates[:, k]).reshape(grid, grid)
+def _local_minima(apart: Array) -> NDArray[np.intp]:
     beside = [np.roll(apart, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
     lowest = np.flatnonzero(apart <= np.min(beside, axis=0))
-    starts = lowest[np.argsort(apart.ravel()[lowest], kind="stable")][:_STARTS]
-    options = {"xatol": 1e-9, "fatol": 1e-12 * d.rates.max(), "maxiter": 200}
-    return float(min(minimize(distance, d.q[m], method="Nelder-Mead", options=options).fun for m in starts))
+    return lowest[np.argsort(apart.ravel()[lowest], kind="stable")][:_STARTS]
+
+
+def _distances(b: Bloch, q: Array, band: NDArray[np.intp], d: Dispersion) -> Array:
+    """From each of the bands to the next at wave numbers q (m, p, 2), (m, p); the highest rate where the
+    bars leave another number of freedoms."""
+    found, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
+    n = d.rates.shape[1]
+    for places, motion in b.motions(q.reshape(-1, 2)):
+        if motion.freedoms == n:
+            rates = np.sort(-motion.roots.imag, axis=-1)[:, n:]
+            found[places] = np.take_along_axis(np.diff(rates), bands[places, None], -1)[:, 0]
+    return found.reshape(q.shape[:2])
+
+
+def _lowest(parabola: Array) -> Array:
+    """Where each of c_0 + c_1 x + c_2 y + c_3 x² + c_4 xy + c_5 y², (m, 6), is least, at most 8 away, (m, 2); zero if none."""
+    _, x, y, xx, xy, yy = parabola.T
+    curved = 4 * xx * yy - xy**2
+    upward = (curved > 0) & (xx > 0)
+    least = np.stack([xy * y - 2 * yy * x, xy * x - 2 * xx * y], -1) / np.where(upward, curved, 1)[:, None]
+    return np.where(upward[:, None], least.clip(-8, 8), 0)
 
 
 def _check(d: Dispersion) -> None:

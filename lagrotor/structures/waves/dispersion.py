@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.shown import Shown
@@ -14,6 +14,7 @@ from lagrotor.structures.waves.cell import Cell
 
 _SAME = 1e-9  # of the largest rate: a difference below it is none
 _TOGETHER = 64  # wave numbers whose matrices are held at once
+_TURN = 10**14  # parts of a full turn: wave numbers as near as one are the same
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -66,7 +67,7 @@ class Dispersion(Shown):
         b, steps = bloch(self.pattern), np.array(self.pattern.steps)
         found = np.full((*self.rates.shape, 2), np.nan)
         for q, f, rates, shapes, row in zip(self.q, self.freedoms, self.rates, self.shapes, found, strict=True):
-            u = shapes[:f].reshape(f, -1)
+            u = shapes[:f].reshape(f, 2 * len(self.pattern.joints))
             row[:f] = np.stack([_slopes(b, q, k, rates[:f], u) for k in range(len(q))], axis=1) @ steps
         return found
 
@@ -91,12 +92,19 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     rates, growth = np.full((2, len(points), most), np.nan)
     shapes = np.full((len(points), most, most), np.nan, dtype=complex)
     freedoms, still = np.zeros(len(points), dtype=int), dict[int, int]()
-    for first in range(0, len(points), _TOGETHER):
-        for places, motion in b.motions(points[first : first + _TOGETHER]):
-            here, f = first + places, motion.freedoms
+    solved, opposite = _up_to_sign(points)
+    for first in range(0, len(solved), _TOGETHER):
+        together = solved[first : first + _TOGETHER]
+        for places, motion in b.motions(points[together]):
+            here, f = together[places], motion.freedoms
             freedoms[here], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
-                rates[here, :f], growth[here, :f], shapes[here, :f] = _waves(motion)
+                s, u = _waves(motion)
+                rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
+                known = opposite[here] >= 0
+                there = opposite[here][known]
+                freedoms[there] = f
+                rates[there, :f], growth[there, :f], shapes[there, :f] = _faster(s[known].conj(), u[known].conj())
     n = int(freedoms.max())
     found = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
     return Dispersion(p, points, rates[:, :n], growth[:, :n], found, freedoms, still[min(still)])
@@ -113,13 +121,31 @@ def _still(motion: SmallMotion) -> int:
     return int(motion.freedoms - np.linalg.matrix_rank(acting, tol=least).max())
 
 
-def _waves(motion: SmallMotion) -> tuple[Array, Array, Complex]:
-    """Rates, growth (n_q, f), shapes (n_q, f, 2 N)."""
+def _up_to_sign(points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which wave numbers are solved, and of each of all the one that is its opposite up to full turns and is not, or −1."""
+    turns = np.rint(points / (2 * np.pi) % 1 * _TURN).astype(np.int64)
+    opposite, waiting = np.full(len(points), -1), dict[tuple[int, ...], int]()
+    for here, (at, back) in enumerate(zip(turns % _TURN, -turns % _TURN, strict=True)):
+        of = waiting.pop(tuple(back.tolist()), None)
+        if of is None:
+            waiting[tuple(at.tolist())] = here
+        else:
+            opposite[of] = here
+    return np.setdiff1d(np.arange(len(points)), opposite), opposite
+
+
+def _waves(motion: SmallMotion) -> tuple[Complex, Complex]:
+    """All roots (n_q, 2 f) and shapes (n_q, 2 f, 2 N)."""
     s, vectors = motion.waves
-    kept = np.lexsort((s.real, -s.imag), axis=-1)[:, motion.freedoms :]
-    s, vectors = np.take_along_axis(s, kept, -1), np.take_along_axis(vectors, kept[:, None, :], -1)
     shapes = (motion.basis @ vectors).swapaxes(-1, -2)
-    return 0.0 - s.imag, s.real, shapes / np.linalg.norm(shapes, axis=-1, keepdims=True)
+    return s, shapes / np.linalg.norm(shapes, axis=-1, keepdims=True)
+
+
+def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
+    """Rates, growth (n_q, f), shapes (n_q, f, 2 N) of the half with the larger rates, in rising order."""
+    kept = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
+    s = np.take_along_axis(s, kept, -1)
+    return 0.0 - s.imag, s.real, np.take_along_axis(shapes, kept[..., None], -2)
 
 
 def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
