@@ -6,6 +6,7 @@ import pytest
 from lagrotor import Link, Scene, floquet, orbit_family, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit, trace_family
+from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
 
 
@@ -33,6 +34,17 @@ def test_multipliers(link, kind, amplitude):
     assert np.prod(found.multipliers).real == pytest.approx(1, abs=1e-10)
     assert np.linalg.det(found.monodromy) == pytest.approx(1, abs=1e-8)
     assert found.error < 1e-11 and found.exponent_error < 1e-3 * (found.growth + found.turning)
+
+
+@pytest.mark.parametrize(("link", "amplitude"), [(Link(0.7, 0.5, 0.1), 0.2), (Link(1, 0, 0), 0.7)])
+def test_a_quarter_of_a_turn_gives_the_whole(link, amplitude):
+    scene = Scene(spins=(-6, 6), link=link)
+    found, orbit = floquet(scene, amplitude), exact_orbit(scene, amplitude)
+    turn = 2 * np.pi / abs(orbit.frequency)
+    whole, shorter = (flow(orbit.scene)(MODEL.start(orbit.scene), time).slope for time in (turn, 0.999 * turn))
+    assert abs(np.trace(whole) - 4 - found.pair_sum) < found.error
+    assert np.abs(whole - found.monodromy).max() < 1e-11 * np.abs(whole).max()
+    assert np.abs(shorter - found.monodromy).max() > 1e-4  # twin: another time
 
 
 def test_family_agrees_with_shooting():

@@ -3,6 +3,10 @@
 Of the six multipliers four are 1: the energy with the shift of time, the momentum with the turning about the joint
 line. The other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the trace of
 the monodromy less four. The orbit is elliptic where |mu + 1/mu| < 2, hyperbolic where mu is real.
+
+A quarter of a turn gives all of it. At Phi = 0 the motion is its own image with time reversed under A = diag(1, −1, −1,
+−1, 1, 1), at Phi = pi/2 under B = diag(−1, 1, −1, 1, −1, 1), in (U, chi, alpha, rates). With Q the quarter's derivative by
+the start, that of half a turn, brought back by A B, is A Q⁻¹ B Q, and the monodromy is its square.
 """
 
 from dataclasses import dataclass
@@ -19,8 +23,10 @@ from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 
 Array = NDArray[np.float64]
-# Bound of the trace's error, relative to the size of the monodromy; held by tests/models/test_orbit_errors.py.
+# Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
 _INTEGRATED = 1e-13
+# What reversed time does to the state, about the start and about the end of a quarter of a turn.
+_A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,10 +77,11 @@ def floquet(scene: Scene, r0: float) -> Floquet:
 
 def floquet_of(orbit: ExactOrbit) -> Floquet:
     """The multipliers of an orbit already found."""
-    period = 2 * pi / abs(orbit.frequency)
-    slope = flow(orbit.scene)(MODEL.start(orbit.scene), period).slope
+    quarter = flow(orbit.scene)(MODEL.start(orbit.scene), pi / 2 / abs(orbit.frequency)).slope
+    half = _A * np.linalg.solve(quarter, _B * quarter)
+    slope = half @ half
     total = float(np.trace(slope)) - 4
-    excess, error = total - 2, _error(slope, total)
+    excess, error = total - 2, _INTEGRATED * max(1.0, float(np.linalg.norm(slope)))
     growth = turning = 0.0
     if abs(excess) < error:
         kind: Literal["elliptic", "hyperbolic", "unresolved"] = "unresolved"
@@ -85,9 +92,3 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
     return Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope)
-
-
-def _error(monodromy: Array, total: float) -> float:
-    """From integration, and from how far the sum of the multipliers' products by pairs is off 4 (mu + 1/mu) + 7."""
-    pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
-    return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))
