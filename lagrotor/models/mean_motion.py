@@ -76,7 +76,7 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
 
     def turning(force: float) -> float:
         moved = replace(shock, force=(shock.force[0], force, 0.0))
-        return turning_rate(run_after(replace(scene, shock=moved), turns))
+        return turning_rate(run_after(replace(scene, shock=moved), turns, 1e-10))
 
     try:
         return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))

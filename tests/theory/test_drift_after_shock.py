@@ -105,7 +105,7 @@ def test_the_papers_cancelling_force_lies_within_its_error_for_every_window():
 
 def test_a_cancelling_force_that_is_not_found_is_said_so(monkeypatch):
     """With a turning that no force changes, the secant goes nowhere."""
-    monkeypatch.setattr("lagrotor.models.mean_motion.run_after", lambda scene, turns: scene.shock.force[1])
+    monkeypatch.setattr("lagrotor.models.mean_motion.run_after", lambda scene, turns, tol: scene.shock.force[1])
     monkeypatch.setattr("lagrotor.models.mean_motion.turning_rate", lambda force: 1 + force**2)
     with pytest.raises(DomainError, match=r"no force near -\S+ N.*a weaker shock"):
         exact_cancelling_force(scene(10))

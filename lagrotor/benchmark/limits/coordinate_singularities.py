@@ -59,9 +59,9 @@ def euler_limits(quick: bool) -> list[Limit]:
     cost = spent[near] + (spent[near] - spent[far]) * np.log(near / nearest) / np.log(far / near)
 
     def lost(miss: float) -> bool:
-        return max(past_the_pole(miss * share, tol)[0] for share in (1.0, 1.1, 1.2)) > wanted
+        return any(past_the_pole(miss * share, tol)[0] > wanted for share in (1.0, 1.1, 1.2))
 
-    found = threshold(lost, _EPS / wanted / 100, 100 * _EPS / wanted, 0.3 if quick else 0.03)
+    found = threshold(lost, _EPS / wanted / 30, 30 * _EPS / wanted, 0.3 if quick else 0.03)
     tool = "euler refuses a start within 1e-3 rad; auto never takes it"
     regular = past_the_pole(nearest, tol, minimal.MODEL)[1]
     return [

@@ -74,12 +74,17 @@ def amplitude_limits(quick: bool) -> list[Limit]:
 
 def off_opposite(share: float, r0: float = 0.1, turns: float = 1.0) -> float:
     """Distance from the periodic orbit after `turns` when spin 2 is −(1 − share) times spin 1."""
+    first, *_ = PAIR.spins
+    apart = _within_turns((first, -first * (1 - share)), r0, turns) - _within_turns(PAIR.spins, r0, turns)
+    return float(np.linalg.norm(apart, axis=-1).max())
+
+
+@lru_cache(maxsize=8)
+def _within_turns(spins: tuple[float, float], r0: float, turns: float) -> Array:
+    """The axes (2, 24, 3) within `turns` of the periodic orbit of r0, started on it with these spins."""
     orbit = _orbit(PAIR, r0)
-    first = PAIR.spins[0]
     times = turns * _PHASES[1:] / abs(orbit.frequency)
-    scenes = orbit.scene, replace(orbit.scene, spins=(first, -first * (1 - share)))
-    exact, moved = (integrated(MODEL, scene, times, 1e-12).seen.axes for scene in scenes)
-    return float(np.linalg.norm(moved - exact, axis=-1).max())
+    return integrated(MODEL, replace(orbit.scene, spins=spins), times, 1e-12).seen.axes
 
 
 def off_equal(share: float, r0: float) -> float:
@@ -131,8 +136,8 @@ def spin_limits(quick: bool) -> list[Limit]:
 
 
 def horizon_limits(quick: bool) -> list[Limit]:
-    """When two solutions 1e-11 apart have nothing left in common but the energy."""
-    apart, lost, rows = 1e-11, 1e-2, []
+    """When two solutions 1e-9 apart have nothing left in common but the energy."""
+    apart, lost, rows = 1e-9, 1e-2, []
     for r0 in (0.6,) if quick else (0.6, 0.5):
         orbit = _orbit(PAIR, r0)
         predicted = log(lost / apart) / floquet_of(orbit).growth
@@ -153,6 +158,6 @@ def horizon_limits(quick: bool) -> list[Limit]:
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
     start = MODEL.start(scene)
-    one, other = (integrated(MODEL, scene, times, 1e-12, start=state).seen.axes for state in (start, start + apart))
+    one, other = (integrated(MODEL, scene, times, apart / 10, start=state).seen.axes for state in (start, start + apart))
     away = np.linalg.norm(one - other, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")
