@@ -50,7 +50,7 @@ def renew_speed() -> None:
 
     from lagrotor.benchmark.compiled_solvers import CANDIDATES
     from lagrotor.benchmark.peers import PEERS
-    from lagrotor.benchmark.runner import benchmark, seconds_at
+    from lagrotor.benchmark.runner import benchmark, work_at
     from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, OURS
     from lagrotor.benchmark.throughput import throughput
 
@@ -63,7 +63,7 @@ def renew_speed() -> None:
     data = {
         "machine": machine(),
         "versions": versions(),
-        "at_error": {f"{e:g}": {name: seconds_at(points, e) for name, points in best.items()} for e in _ERRORS},
+        "at_error": {f"{e:g}": {name: work_at(points, e) for name, points in best.items()} for e in _ERRORS},
         "least_error": {name: min((p.error for p in points), default=None) for name, points in best.items()},
         "set_up": found.setup,
         "failures": list(map(str, found.failures)),

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.models.simulate import simulate
+from lagrotor.benchmark.method import tips
+from lagrotor.models import minimal, spheres
+from lagrotor.models.integrated import integrated
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
@@ -25,5 +27,6 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
 
     tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
     """
-    one, other = (simulate(scene, t_eval, model, TIGHTEST).tips for model in ("minimal", "spheres"))
+    models = minimal.MODEL, spheres.MODEL
+    one, other = (tips(scene, integrated(model, scene, t_eval, TIGHTEST).seen.axes) for model in models)
     return Reference(one, float(np.linalg.norm(one - other, axis=-1).max()))

@@ -212,10 +212,11 @@ def front(points: Iterable[Point], work: Work = "seconds") -> list[Point]:
     return kept
 
 
-def seconds_at(points: Iterable[Point], error: float) -> float | None:
-    """Seconds for an error (m), between the neighbours of the front on logarithmic scales; None where none reaches it."""
-    best = front(points)
+def work_at(points: Iterable[Point], error: float, work: Work = "seconds") -> float | None:
+    """Work for an error (m), between the neighbours of the front on logarithmic scales; None where none reaches it."""
+    best = front(points, work)
     if not best or best[-1].error > error:
         return None
-    errors, spent = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", "seconds"))
+    with np.errstate(divide="ignore"):  # the closed form takes no evaluation
+        errors, spent = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", work))
     return float(np.exp(np.interp(np.log(error), errors, spent)))

@@ -12,7 +12,7 @@ from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
 from lagrotor.benchmark.compiled_solvers import CANDIDATES
 from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare, Runner
 from lagrotor.benchmark.peers import PEERS
-from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, seconds_at
+from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, work_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
@@ -161,10 +161,10 @@ def ratios(found: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12
     others = {name: [p for p in found.points if p.method == name] for name in (*CANDIDATES, *PEERS)}
     table = {}
     for error in errors:
-        ours = {name: seconds_at(points, error) for name, points in by.items()}
+        ours = {name: work_at(points, error) for name, points in by.items()}
         row: dict[str, Any] = ours | {"core / fast": _over(ours["core"], ours["fast"])}
         for name, points in others.items():
-            theirs = seconds_at(points, error)
+            theirs = work_at(points, error)
             row |= {f"{name} / {best}": _over(theirs, seconds) for best, seconds in ours.items()}
         table[f"{error:g}"] = row
     return table

@@ -3,6 +3,7 @@
 import json
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
 from lagrotor.benchmark.chart_constants import SAMPLE
 from lagrotor.benchmark.method import Case, Method
-from lagrotor.benchmark.runner import Failure, Point, benchmark, front, listed, seconds_at
+from lagrotor.benchmark.runner import Failure, Point, benchmark, front, listed, work_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.commands.benchmark_commands import as_data, in_words
 from lagrotor.errors import LagrotorError
@@ -124,7 +125,8 @@ def test_the_front_keeps_what_nothing_beats() -> None:
     assert [p.error for p in front(points)] == [1, 0.1, 0.01]
     assert [p.error for p in front(points, "nfev")] == [0.1, 0.01]
     assert front([*points, point("trap", 1e-3, 1, 0.1, "trap")]) == front(points)
-    assert seconds_at(points, 0.1) == pytest.approx(2)
-    assert seconds_at(points, 0.1 / 10**0.5) == pytest.approx(8**0.5)
-    assert seconds_at(points, 1e-3) is None
-    assert seconds_at([], 1) is None
+    assert work_at(points, 0.1) == pytest.approx(2)
+    assert work_at(points, 0.1 / 10**0.5) == pytest.approx(8**0.5)
+    assert work_at(points, 1e-3) is None
+    assert work_at([], 1) is None
+    assert work_at([replace(p, nfev=0) for p in points], 0.1, "nfev") == 0

@@ -34,7 +34,7 @@ def test_nothing_failed_and_no_table_has_seconds(made):
 
 def test_it_is_the_same_twice(made):
     again = benchmark(
-        "displaced", made["displaced"], {name: METHODS[name] for name in ("minimal", "euler")}, (1e-6, 1e-13)
+        "displaced", made["displaced"], {name: METHODS[name] for name in ("minimal", "euler")}, (1e-7, 1e-13)
     )
     for p in again.points:
         (before,) = (q for q in made["found"].points if (q.method, q.setting) == (p.method, p.setting))
@@ -45,7 +45,7 @@ def test_the_conclusion_is_what_the_points_say(made):
     points = [p for p in made["found"].points if p.nfev]
     assert best(made, "closed form") == pytest.approx(3e-11, rel=0.2)
     for error in (1e-7, 1e-8, 1e-9):
-        spent = {p.method: p.nfev for p in sorted(points, key=lambda p: -p.nfev) if p.error <= error}
+        spent = {name: nfev for name in {p.method for p in points} if (nfev := made["least"](name, error)) is not None}
         assert min(spent, key=spent.get) == "minimal, Adams"
     floor = made["found"].floor
     # To the error of the reference, which is itself known to a factor of two.
@@ -54,7 +54,7 @@ def test_the_conclusion_is_what_the_points_say(made):
     assert best(made, "minimal, DOP853") > 5 * floor
     again = [p.nfev for p in points if p.method == "ode, DOP853" and p.setting > 1e-12]
     assert max(again) - min(again) <= 0.01 * min(again)
-    assert made["ratio"] > 6
+    assert made["ratio"] > 4
 
 
 def test_a_plain_call_misses_the_whole_shock(made):

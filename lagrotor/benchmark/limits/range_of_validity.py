@@ -158,6 +158,8 @@ def horizon_limits(quick: bool) -> list[Limit]:
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
     start = MODEL.start(scene)
-    one, other = (integrated(MODEL, scene, times, apart / 10, start=state).seen.axes for state in (start, start + apart))
+    one, other = (
+        integrated(MODEL, scene, times, apart / 10, start=state).seen.axes for state in (start, start + apart)
+    )
     away = np.linalg.norm(one - other, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")
