@@ -229,7 +229,7 @@ prove(
 
 # %%
 w_2 = sp.Symbol("w_2", real=True)
-wider = sp.QQ.frac_field(*FIELD.symbols, w_2)
+wider = sp.ZZ.frac_field(*FIELD.symbols, w_2)
 rate = constant(wider.one, 3) + constant(wider.from_sympy(w_2), 3, 2)
 in_x, in_Y = (left(2, rate, wider)[i].harmonics(3) for i in range(2))
 condition = wider.to_sympy(in_x[1]) + sigma * wider.to_sympy(in_Y[-1])

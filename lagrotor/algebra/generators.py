@@ -64,14 +64,17 @@ class Survey:
 
 def survey(expression: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
     """Collect what the expression is made of; raise NotExactError outside the class."""
-    if floats := expression.atoms(sp.Float):
-        raise NotExactError(f"The floating-point number {min(floats)} is not exact.")
     found, seen, left = Survey(largest), set[sp.Expr](), [expression]
-    while left:
-        node = left.pop()
-        if node not in seen:
-            seen.add(node)
-            left += _enter(node, found)
+    try:
+        while left:
+            node = left.pop()
+            if node not in seen:
+                seen.add(node)
+                left += _enter(node, found)
+    except NotExactError:
+        if floats := expression.atoms(sp.Float):
+            raise NotExactError(f"The floating-point number {min(floats)} is not exact.") from None
+        raise
     if any(not hyperbolic and found.compact((hyperbolic, m)) for hyperbolic, m in found.angles):
         found.radicands[sp.S.NegativeOne] = None
     return found

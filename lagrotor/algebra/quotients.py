@@ -8,7 +8,7 @@ product that would exceed the bound is not begun.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from functools import reduce
+from functools import cache, reduce
 from typing import Any, NamedTuple
 
 import sympy as sp
@@ -36,8 +36,7 @@ class Ring:
 
     def __init__(self, names: Iterable[sp.Expr]) -> None:
         self.names = tuple(names) or (sp.Dummy(),)
-        # Fixed letters: the names of the generators themselves may coincide.
-        self.polynomials = PolyRing(sp.symbols(f"g:{len(self.names)}"), sp.QQ)
+        self.polynomials = _polynomials(len(self.names))
         self.one = self.polynomials.one
         self.generators: dict[sp.Expr, PolyElement] = dict(zip(self.names, self.polynomials.gens, strict=True))
         self.squares: dict[int, PolyElement] = {}
@@ -86,7 +85,7 @@ class Ring:
 
     def reduced(self, polynomial: PolyElement) -> PolyElement:
         """Replace g**(2*k + r) by square**k * g**r, r = 0 or 1, for every generator g with a known square."""
-        degrees = tuple(map(max, zip(*polynomial.itermonoms(), strict=True)))
+        degrees = tuple(map(max, zip(*polynomial.itermonoms(), strict=True))) if self.squares else ()
         for index, square in self.squares.items():
             # A square holds no generator with a rule: the degrees in the others that have one do not change.
             if not degrees or degrees[index] < 2:
@@ -143,6 +142,12 @@ class Ring:
         else:
             self.divisors[polynomial.monic()] = name
         return Quotient(self.one * (1 / polynomial.LC), factors)
+
+
+@cache
+def _polynomials(generators: int) -> PolyRing:
+    """The polynomials in so many fixed letters: the names of the generators themselves may coincide."""
+    return PolyRing(sp.symbols(f"g:{generators}"), sp.QQ)
 
 
 def _length(polynomial: PolyElement) -> int:

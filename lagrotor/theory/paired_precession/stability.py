@@ -26,15 +26,19 @@ _SINES = (False, True, False, False, False)  # x, Y, z and the two multipliers a
 _X, _TWIST = 0, 1  # the unknowns whose displacement changes nothing at rest
 
 
-@lru_cache(maxsize=16)
 def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
     """A and B through r_0**order for sigma = `shape`, k = `ratio`, rational numbers or symbols; `exact` as `paired_series`."""
-    orbit = paired_series(order, shape, ratio, exact)
+    return _along(paired_series(order, shape, ratio, exact), exact)
+
+
+@lru_cache(maxsize=16)
+def _along(orbit: PairedSeries, exact: bool) -> ExponentSeries:
+    """A and B as far as the orbit's own series goes."""
     residual = equations(orbit.shape, orbit.ratio, orbit.field)
     numeric = None if exact else equations(orbit.shape, orbit.ratio)
     # The exchange of the rotors, half a period later, gives a shift in x and a twist the opposite sign.
     return characteristic_exponents(
-        residual, orbit.solution, _SINES, (_X, _TWIST), order, orbit.field, exchange=-1, numeric=numeric
+        residual, orbit.solution, _SINES, (_X, _TWIST), orbit.order, orbit.field, exchange=-1, numeric=numeric
     )
 
 
