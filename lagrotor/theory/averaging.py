@@ -35,25 +35,30 @@ def quartic_lagrangian() -> tuple[sp.Expr, sp.Expr]:
 @cache
 def quartic_routhian() -> sp.Expr:
     """L_4 − P alpha' with alpha' = (P − G Delta²/(2k)) / (2 (a + b)) put in: in U, Delta and their rates."""
-    alpha_v = TWISTED.v[2]
+    (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
     quartic = quartic_lagrangian()[1]
     rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v)[0]
-    return sp.expand((quartic - P * alpha_v).subs(alpha_v, rate))
+    return sp.Poly((quartic - P * alpha_v).subs(alpha_v, rate), U, Delta, U_v, Delta_v).as_expr()
 
 
 @cache
 def averaged_routhian() -> sp.Expr:
     """<R_4> over the swing of amplitude d in Delta: a polynomial in X, Delta_s, d, P."""
     (U, Delta, _), (U_v, Delta_v, _) = TWISTED.q, TWISTED.v
-    A, D = a + b, a - b
-    root = sp.sqrt(A * D)
-    rate = G / root
-    share = SWING * root / (2 * A)  # 2 A U'' = −G Delta': the swing's share in U
-    c, s = sp.symbols("c s")
-    moving = {U: X + share * c, U_v: -share * rate * s, Delta: TWIST + SWING * s, Delta_v: SWING * rate * c}
+    c, s, share, rate = sp.symbols("c s share rate")
+    moving = {U: X + SWING * share * c, Delta: TWIST + SWING * s}
+    moving |= {U_v: -SWING * share * rate * s, Delta_v: SWING * rate * c}
     polynomial = sp.Poly(quartic_routhian().subs(moving), c, s)
     mean = sum((coefficient * _mean(m, n) for (m, n), coefficient in polynomial.terms()), sp.Integer(0))
-    return sp.expand(mean)
+    root = sp.sqrt((a + b) * (a - b))
+    swing = {share: root / (2 * (a + b)), rate: G / root}  # 2 (a + b) U'' = −G Delta'
+    terms = sp.Poly(mean, X, TWIST, SWING, P).as_dict(native=False)
+    return sp.Add(
+        *(
+            sp.factor(coefficient.subs(swing)) * sp.Mul(*map(sp.Pow, (X, TWIST, SWING, P), powers))
+            for powers, coefficient in terms.items()
+        )
+    )
 
 
 def _mean(m: int, n: int) -> sp.Rational:
