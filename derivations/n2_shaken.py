@@ -151,7 +151,7 @@ def mean_square(numerator: sp.Expr, denominator: sp.Expr) -> sp.Expr:
     A = sp.Matrix([[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1], [-e for e in d[:4]]])
     Pi = sp.Matrix(4, 4, lambda i, j: sp.Symbol(f"p{min(i, j)}{max(i, j)}"))
     equations = list(A * Pi + Pi * A.T + sp.diag(0, 0, 0, 1))
-    solved = sp.solve(equations, sorted(Pi.free_symbols, key=str), dict=True)[0]
+    solved = sp.solve(equations, sorted(Pi.free_symbols, key=str), dict=True, simplify=False)[0]
     row = sp.Matrix([n])
     return sp.cancel((row * Pi.subs(solved) * row.T)[0])
 

@@ -87,7 +87,7 @@ prove(twisting, (G_1 - G_2) * X_v + R * F[1], "what must vanish for the axes to 
 # %%
 X_0, X_1 = sp.symbols("X_0 X_1", real=True)
 once = {y1_a: y1_v, y2_a: y2_v, X_v: X_0 + X_1 * t, F[1]: F[1] * t}
-turning = sp.solve([e.subs(once, simultaneous=True) for e in reduced[1:]], [y1_v, y2_v], dict=True)[0]
+turning = sp.solve([e.xreplace(once) for e in reduced[1:]], [y1_v, y2_v], dict=True, simplify=False)[0]
 y_rates = sp.Matrix([turning[y1_v], turning[y2_v]])
 inertia, G = sp.Matrix([[a, b], [b, a]]), sp.Matrix([G_1, G_2])
 prove(
@@ -102,7 +102,7 @@ prove(
 
 # %%
 along_bar = sp.Poly(sp.together(reduced[0].subs(X_a, 0).subs(turning)).as_numer_denom()[0], t).all_coeffs()
-drift = sp.solve(along_bar, [X_0, X_1], dict=True)[0]
+drift = sp.solve(along_bar, [X_0, X_1], dict=True, simplify=False)[0]
 y_drift = y_rates.subs(drift).applyfunc(sp.cancel)
 D = a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
 prove(drift[X_1], -R * (a * G_1 - b * G_2) * F[1] / D, "the common drift along the bar", names="X_1")

@@ -92,7 +92,7 @@ verdict(
 # %%
 centre = vector("X_cm")
 moment = summed(m * (X - centre) for m, X in zip(masses, places, strict=True))
-X_cm = centre.subs(sp.solve(list(moment), list(centre), dict=True)[0])
+X_cm = centre.subs(sp.solve(list(moment), list(centre), dict=True, simplify=False)[0])
 Formula(X_cm, r"\vec X_{cm}")
 
 # %%

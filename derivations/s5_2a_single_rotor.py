@@ -127,7 +127,7 @@ verdict(
 # The two integrals, $p_\phi = M_z$ and $p_\psi = M_3$, are two linear equations for $\dot\phi$ and $\dot\psi$.
 
 # %%
-rate = sp.solve([p_phi - M_z, p_psi - M_3], [phi_v, psi_v], dict=True)[0][phi_v]
+rate = sp.solve([p_phi - M_z, p_psi - M_3], [phi_v, psi_v], dict=True, simplify=False)[0][phi_v]
 Formula(sp.factor(rate), r"\dot\phi")
 
 # %%

@@ -34,8 +34,9 @@ S = sp.cos(theta_1) + sp.cos(theta_2)
 # inertias:
 
 # %%
-integral_A, integral_B = ansatz_integrals()
-rate = sp.solve([integral_A - A, integral_B - B], [phi_v, psi_v], dict=True)[0][phi_v]
+integrals = sp.Matrix(ansatz_integrals())
+coefficients = integrals.jacobian([phi_v, psi_v])
+rate = sp.factor((coefficients.adjugate() * sp.Matrix([A, B]))[0] / coefficients.det())
 tilting = J * (sp.sin(theta_1) ** 2 + sp.sin(theta_2) ** 2) + I3 * (sp.cos(theta_1) ** 2 + sp.cos(theta_2) ** 2)
 prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two integrals", names=r"\dot\phi")
 

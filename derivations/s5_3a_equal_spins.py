@@ -34,7 +34,7 @@ balance = euler_lagrange(rotor_lagrangian(), ROTOR)[0].subs(steadily)
 prove(balance, sp.sin(theta) * phi_v * (I3 * omega - J * sp.cos(theta) * phi_v), "the equation of θ, θ constant")
 
 # %%
-(single,) = (root for root in sp.solve(balance, phi_v) if root != 0)
+(single,) = (root for root in sp.solve(balance, phi_v, simplify=False) if root != 0)
 prove(single, I3 * omega / (J * sp.cos(theta)), "the rate of one free rotor", names=r"\dot\phi")
 
 # %% [markdown]
@@ -88,7 +88,7 @@ mu = sp.Symbol("mu", real=True)
 exact = euler_lagrange(system.L, AXES) - system.push.subs({G_1: G, G_2: G}) - system.rows.T * sp.Matrix([mu, mu, 0])
 together = exact.subs(parallel)
 turning = {Omega: G / ((a + b) * sp.cos(theta))}
-(lift,) = sp.solve(together[2], mu)
+(lift,) = sp.solve(together[2], mu, simplify=False)
 prove(
     together.subs(mu, lift).subs(turning),
     sp.zeros(6, 1),

@@ -86,7 +86,7 @@ rates
 # %%
 product = 10 * sp.Rational(4, 5) * sp.Rational(7125, 10000)
 own_rate = PAPERS_ROTOR.on(opposite_rate).subs(omega, 10)
-(inertia_of_product,) = sp.solve(own_rate**2 - product**2, K)
+(inertia_of_product,) = sp.solve(own_rate**2 - product**2, K, simplify=False)
 Formula(sp.factor(inertia_of_product), "K")
 
 # %%
@@ -164,8 +164,8 @@ prove(ratio, through_third, "the rate of the periodic orbit over the natural fre
 
 # %%
 curvature = sp.factor(sp.Poly(ratio, r0).coeff_monomial(r0**2))
-(flip_sigma,) = sp.solve(sp.cancel(curvature / sigma), sigma)
-flip_k = next(root for root in sp.solve(flip_sigma - 1, k) if root.is_positive)
+(flip_sigma,) = sp.solve(sp.cancel(curvature / sigma), sigma, simplify=False)
+flip_k = next(root for root in sp.solve(flip_sigma - 1, k, simplify=False) if root.is_positive)
 prove((flip_sigma, flip_k), (3 - 3 / k**2, sp.sqrt(sp.Rational(3, 2))), "where the change of the rate turns its sign")
 
 # %%

@@ -100,7 +100,7 @@ prove(C, linear.jacobian([x_v, v1, v2]), "the gyroscopic matrix, antisymmetric",
 # The last two equations integrate once. With constants that shift the origin of $x$ they give the velocities
 
 # %%
-velocities = sp.solve([a * v1 + b * v2 - G_1 * x, b * v1 + a * v2 - G_2 * x], [v1, v2], dict=True)[0]
+velocities = sp.solve([a * v1 + b * v2 - G_1 * x, b * v1 + a * v2 - G_2 * x], [v1, v2], dict=True, simplify=False)[0]
 prove(
     (velocities[v1], velocities[v2]),
     ((a * G_1 - b * G_2) * x / (a**2 - b**2), (a * G_2 - b * G_1) * x / (a**2 - b**2)),

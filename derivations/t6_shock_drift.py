@@ -105,7 +105,7 @@ prove(
 # %%
 mean_rate = sp.Symbol("alpha_mean")
 balance = 2 * (a + b) * mean_rate + G * mean_twist / (2 * k) + p_y
-rate = sp.solve(balance, mean_rate)[0]
+rate = sp.factor(sp.solve(balance, mean_rate, simplify=False)[0])
 prove(
     rate,
     -(p_y + ((2 + att**2) * P_X**2 + att**2 * sigma * p_y**2) / (4 * k * G)) / (2 * (a + b)),
@@ -209,7 +209,7 @@ Remark(
 lean, taken, nu = sp.symbols("X S nu", real=True)
 leaning = (1 - lean**2) * ((a + b) * nu**2 + taken * nu)
 energy = (P - (1 - lean**2) * taken) ** 2 / (4 * (a + b) * (1 - lean**2))
-at_P = sp.solve(leaning.diff(nu) - P, nu)[0]
+at_P = sp.solve(leaning.diff(nu) - P, nu, simplify=False)[0]
 prove((P * nu - leaning).subs(nu, at_P), energy, "the energy of turning of a pair that leans by X", names="E")
 
 # %% [markdown]

@@ -157,7 +157,7 @@ prove(
 # $$\frac{|G|}{a+b}\sqrt{-\beta}\;\rho\,\Big(1+\big(\tfrac34+\tfrac\beta{16}\big)\rho^2+\dots\Big).$$
 
 # %%
-third = sp.solve(mean(4).subs(p, -beta / 4).subs(beta, -(mu_1**2)), mu_3)[0]
+third = sp.solve(mean(4).subs(p, -beta / 4).subs(beta, -(mu_1**2)), mu_3, simplify=False)[0]
 prove(third, mu_1 * (sp.Rational(1, 4) - mu_1**2 / 16), "the exponent's third order, with β = −μ_1²", names=r"\mu_3")
 
 # %%

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -55,6 +56,7 @@ def light(source: str) -> str:
     return _OF_A_LETTER.sub(r"\1 \2", source)
 
 
+@cache
 def letter_latex(symbol: sp.Symbol) -> str:
     r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1."""
     dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", symbol.name)

@@ -146,7 +146,9 @@ def _relations(
     if line.scene:
         derived = written_out(derived, stands_for)
     for member in line.members:
-        yield Relation(member.subs(meanings), derived, line.small, line.order, line.within, line.quantity, line.scene)
+        yield Relation(
+            member.xreplace(meanings), derived, line.small, line.order, line.within, line.quantity, line.scene
+        )
 
 
 def _corrected(

@@ -26,7 +26,7 @@ def quartic_lagrangian() -> tuple[sp.Expr, sp.Expr]:
     """(L_2, L_4) of opposite spins in U, Delta ~ eps, alpha' ~ eps²: no odd term."""
     (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
     scaled = {s: _EPS * s for s in (U, Delta, U_v, Delta_v)} | {alpha_v: _EPS**2 * alpha_v, G_1: G, G_2: -G}
-    series = sp.expand(truncated_series(twisted_lagrangian().subs(scaled, simultaneous=True), _EPS, 4))
+    series = sp.expand(truncated_series(twisted_lagrangian().xreplace(scaled), _EPS, 4))
     if series.coeff(_EPS, 1) != 0 or series.coeff(_EPS, 3) != 0:
         raise ArithmeticError("quartic_lagrangian: an odd order is left")
     return series.coeff(_EPS, 2), series.coeff(_EPS, 4)
@@ -37,7 +37,7 @@ def quartic_routhian() -> sp.Expr:
     """L_4 − P alpha' with alpha' = (P − G Delta²/(2k)) / (2 (a + b)) put in: in U, Delta and their rates."""
     (U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
     quartic = quartic_lagrangian()[1]
-    rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v)[0]
+    rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v, simplify=False)[0]
     return sp.Poly((quartic - P * alpha_v).subs(alpha_v, rate), U, Delta, U_v, Delta_v).as_expr()
 
 

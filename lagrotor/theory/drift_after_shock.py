@@ -38,7 +38,7 @@ def second_order_momentum() -> sp.Expr:
     apart = sp.Symbol("x_12")  # x_1 − x_2, second order
     bar = link_constraint(sp.Matrix(AXES.q[:3]), sp.Matrix(AXES.q[3:])).subs(upright).subs(x1, x2 + eps**2 * apart)
     bar = bar.subs({y1: eps * y1, y2: eps * y2, x2: eps * x2}, simultaneous=True)
-    lean = sp.solve(derivative(derivative(bar, eps), eps).subs(eps, 0), apart)[0]
+    lean = sp.solve(derivative(derivative(bar, eps), eps).subs(eps, 0), apart, simplify=False)[0]
     still = {AXES.v[2]: 0, AXES.v[5]: 0, z1: 1, z2: 1, G_1: G, G_2: -G}
     momentum = joint_line_momentum().subs(still)
     return sp.expand(momentum.subs(x1, x2 + lean))

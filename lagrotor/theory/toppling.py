@@ -37,7 +37,7 @@ def twisted_lagrangian() -> sp.Expr:
         v: sum((where[q].diff(p) * p_v for p, p_v in zip(TWISTED.q, TWISTED.v, strict=True)), sp.Integer(0))
         for q, v in zip(MERCATOR.q, MERCATOR.v, strict=True)
     }
-    return mercator_lagrangian().subs(rates).subs(where)
+    return mercator_lagrangian().xreplace(rates).xreplace(where)
 
 
 def turning(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
@@ -100,7 +100,7 @@ def toppling_growth() -> ClosedForm:
 def toppling_threshold() -> ClosedForm:
     """nu* = G / (k b): beyond it the sense of turning changes its stability. b > 0: nu in (0, nu*) is unstable (G > 0);
     b < 0: nu > 0 and nu < nu* are; b = 0 has no threshold."""
-    edge = sp.solve(sp.cancel(toppling_polynomial()[2] / nu**3), nu)
+    edge = sp.solve(sp.cancel(toppling_polynomial()[2] / nu**3), nu, simplify=False)
     return ClosedForm(
         "toppling_threshold",
         ("nu",),

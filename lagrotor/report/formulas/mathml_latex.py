@@ -3,6 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Iterator
+from functools import cache
 from html import unescape
 from importlib.metadata import PackageNotFoundError, version
 from xml.etree.ElementTree import Element, tostring
@@ -48,9 +49,15 @@ def from_latex(source: str, display: bool = True) -> str | None:
     What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
     """
     try:
-        from latex2mathml.converter import Converter
+        return _made(source, display)
     except ModuleNotFoundError:
         return None
+
+
+@cache
+def _made(source: str, display: bool) -> str:
+    from latex2mathml.converter import Converter
+
     made = []
     for line in _lines(source) if display else [source]:
         plain = _STYLE.sub(r"\\\1{\2}", line.replace("{aligned}", "{align*}"))
