@@ -41,7 +41,8 @@ def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> 
         found = np.empty((len(form.outputs), values[0].size))
         for place in np.unique(places, axis=1).T:
             here = (places == place[:, None]).all(0)
-            series = paired_series(order, *map(sp.Rational, place[1:]), exact=False)
+            shape, ratio = map(sp.Rational, place[1:])
+            series = paired_series(order, shape, ratio, exact=False)
             part = {symbol: array[here] for symbol, array in given.items()}
             exact, left = reference(series, part), _rest(form.name, series, rest, float(place[0]))
             mine = np.reshape(form(*(part[s] for s in form.arguments)), exact.shape)
