@@ -7,6 +7,7 @@ from typing import Any
 import matplotlib as mpl
 from cycler import cycler
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
@@ -76,15 +77,19 @@ def paper_style() -> Iterator[None]:
 
 
 @contextmanager
-def laid_out(figure: Figure) -> Iterator[Figure]:
+def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Figure]:
     """The figure with its panels placed, once for all files that are written of it inside the `with` block.
 
+    dpi: pixels an inch. What is placed and what is saved at the same density on the same canvas measures its letters once.
     Where an engine for the layout is left, even an idle one, matplotlib draws each file twice.
     """
+    FigureCanvasAgg(figure)
+    figure.set_dpi(dpi)
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
-    with mpl.rc_context({"figure.constrained_layout.use": False, "figure.autolayout": False}):
+    placed = {"figure.constrained_layout.use": False, "figure.autolayout": False, "savefig.dpi": dpi}
+    with mpl.rc_context(placed):
         figure.set_layout_engine(None)
         yield figure
 

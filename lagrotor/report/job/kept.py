@@ -72,6 +72,10 @@ class Kept:
         with suppress(OSError, ValueError, TypeError):  # no last report, or a damaged one: everything is made anew
             self._last = dict(json.loads((self.old / MADE).read_text(encoding="utf-8")))
 
+    def __contains__(self, name: str) -> bool:
+        """Whether the last report has a product of that name, up to date or not."""
+        return name in self._last
+
     def last(self, name: str, made_from: str) -> Any:
         """A product of the last report; None unless it was made from the same and is undamaged."""
         try:

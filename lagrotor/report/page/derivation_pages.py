@@ -88,9 +88,8 @@ def _png(figure: "RunFigure") -> str:
     from lagrotor.drawing.style import laid_out
 
     with BytesIO() as file, BytesIO() as small:
-        figure.set_dpi(72)
-        with laid_out(figure):
-            figure.savefig(file, format="png", dpi=72)
+        with laid_out(figure, dpi=72):
+            figure.savefig(file, format="png")
         Image.open(file).convert("RGB").quantize(64).save(small, format="png", optimize=True)
         return "data:image/png;base64," + b64encode(small.getvalue()).decode()
 
