@@ -11,13 +11,10 @@
 # angle about the joint line, $y=-\alpha$ for small ones; $P$ the momentum about it; $k=\ell/R$.
 
 # %%
-import warnings
-
 import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Scene, Structure, paired_scene, simulate
-from lagrotor.errors import LagrotorWarning
 from lagrotor.paper import Remark, prove
 
 a, b, c, c_s, G_1, G_2, G, I3, k, t = sp.symbols("a b c c_s G_1 G_2 G I_3 k t", positive=True)
@@ -158,25 +155,25 @@ prove(mean, G * r_0**2 * (a + b) / (k * (a - b)), "the momentum of the paired pr
 
 
 # %%
-def turned(link: Link, friction: float, r0: float = 0.1, spin: float = 10.0) -> tuple[float, float, float]:
-    """(angle about the joint line at rest, ΔP/2c, the closed form) of a paired precession that friction stops."""
+def begun(link: Link, r0: float = 0.1, spin: float = 10.0) -> tuple[Scene, float, float]:
+    """A paired precession, its momentum about the joint line, and G r0² A/D."""
     start = paired_scene(Scene(spins=(spin, -spin), link=link), r0)
-    P = float(simulate(start, [0.0], tol=1e-9).joint_line_momentum[0])
     A, B = start.inertias
-    s = Structure([(0, 0), (1, 0)], [(0, 1)], [spin, -spin], link=link, friction=friction)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", LagrotorWarning)
-        run = s.simulate(np.linspace(0, 15 * (A + B) / friction, 100), start.axes, start.rates, tol=1e-6)
+    return start, float(simulate(start, [0.0], tol=1e-9).joint_line_momentum[0]), spin * r0**2 * (A + B) / (A - B)
+
+
+def turned(start: Scene, P: float, mean: float, friction: float) -> tuple[float, float, float]:
+    """(angle about the joint line at rest, ΔP/2c, the closed form) of a paired precession that friction stops."""
+    spin, until = start.spins[0], 10 * sum(start.inertias) / friction
+    s = Structure([(0, 0), (1, 0)], [(0, 1)], start.spins, link=start.link, friction=friction)
+    run = s.simulate(np.linspace(0, until, 70), start.axes, start.rates, tol=1e-6)
     angle = np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2]).mean(0))
     left = spin * float(run.axes[0, -1, 0] - run.axes[1, -1, 0])  # what a twist at rest keeps of P
-    return float(angle[-1]), (P - left) / (2 * friction), spin * r0**2 * (A + B) / (2 * friction * (A - B))
+    return float(angle[-1]), (P - left) / (2 * friction), mean / (2 * friction)
 
 
-toppled = {
-    (link.mass, friction): turned(link, friction)
-    for link in (Link(1, 0, 0), Link(1, 1, 0.5))
-    for friction in (0.2, 0.4, 0.8)
-}
+starts = {link.mass: begun(link) for link in (Link(1, 0, 0), Link(1, 1, 0.5))}
+toppled = {(mass, friction): turned(*starts[mass], friction) for mass in starts for friction in (0.4, 0.8)}
 assert all(
     abs(found / whole - 1) < 2e-3 and abs(found / closed - 1) < 0.02 for found, whole, closed in toppled.values()
 )

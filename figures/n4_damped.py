@@ -14,8 +14,8 @@ from lagrotor import Link, Scene, Structure, paired_scene
 from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
 
 SPIN, TILT = 10.0, 0.1
-FRICTIONS = (0.2, 0.4, 0.8)  # N m s/rad
-FAST, SMALL, WEAR = 40.0, 0.02, 0.05
+FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
+FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 
 TITLE = "What friction does to the paired precession"
 ALT = (
@@ -31,7 +31,7 @@ def decaying(friction: float) -> tuple[np.ndarray, np.ndarray]:
     """Times over a/c, and the mean angle about the joint line (rad), of a paired precession that friction stops."""
     start = paired_scene(Scene(spins=(SPIN, -SPIN), link=Link(1, 0, 0)), TILT)
     s = Structure([(0, 0), (1, 0)], [(0, 1)], [SPIN, -SPIN], friction=friction)
-    t = np.linspace(0, 6 * 1.25 / friction, 600)
+    t = np.linspace(0, 6 * 1.25 / friction, 400)
     run = s.simulate(t, start.axes, start.rates, tol=1e-6)
     return t * friction / 1.25, np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2]).mean(0))
 
@@ -40,7 +40,7 @@ def radius(on_spins: float) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) and the tilt along the bar over its first amplitude, friction WEAR on the axes and `on_spins` on the spins."""
     start = paired_scene(Scene(spins=(FAST, -FAST), link=Link(1, 0, 0)), SMALL)
     s = Structure([(0, 0), (1, 0)], [(0, 1)], [FAST, -FAST], friction=WEAR, spin_friction=on_spins)
-    t = np.linspace(0, 12, 2401)
+    t = np.linspace(0, LONG, 1201)
     run = s.simulate(t, start.axes, start.rates, tol=1e-6)
     return t, run.axes[..., 0].mean(0) / SMALL
 
@@ -66,11 +66,11 @@ def measure() -> dict[str, float]:
         f"angle at rest over the law, c = {c:g}": angle[-1] / (SPIN * TILT**2 / (2 * c))
         for c, angle in zip(FRICTIONS, d["angles"], strict=True)
     }
-    late = d["t"] > 11.5
+    late = d["t"] > LONG - 0.5
     for name, x, rate in zip(
         ("friction on the spins too", "spins kept up"), d["tilts"], (WEAR * (1 - 0.8), -WEAR * 0.8), strict=True
     ):
-        found[f"radius over the law, {name}"] = np.ptp(x[late]) / 2 / np.exp(rate * 11.75)
+        found[f"radius over the law, {name}"] = np.ptp(x[late]) / 2 / np.exp(rate * (LONG - 0.25))
     return found
 
 
@@ -81,7 +81,7 @@ CAPTION = (
     f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: "
     f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the friction acts on the spins "
     "too, as exp(−c t/a) "
-    f"where they are kept up, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after 11.75 s."
+    f"where they are kept up, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after {LONG - 0.25:g} s."
 )
 
 
