@@ -50,7 +50,7 @@ freedom
 
 # %%
 size = np.array([0.4, 0.9, 0.7])
-mass, times, twin = 2 * size, np.linspace(0, 4, 161), {b: 0.9001}
+mass, times, twin = 2 * size, np.linspace(0, 2, 81), {b: 0.9001}
 lever = np.array([mass[i + 1 :].sum() + mass[i] / 2 for i in range(3)])
 beyond = lever[np.maximum.outer(np.arange(3), np.arange(3))] - np.diag(mass / 6)
 weight = np.outer(size, size) * beyond
@@ -71,7 +71,7 @@ def difference(given: dict) -> float:
     start = linkage.consistent(given, q0, v0)
     run = linkage.simulate(given, *start, times, tol=1e-12)
     begin = np.concatenate([np.cumsum(q0), np.cumsum(v0)])
-    other = solve_ivp(by_hand, (0, 4), begin, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
+    other = solve_ivp(by_hand, (0, 2), begin, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
     return float(np.abs(np.cumsum(run.q, axis=1) - other).max())
 
 

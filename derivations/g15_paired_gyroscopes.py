@@ -49,7 +49,7 @@ prove(spin, I3 * (c.v[2] + c.v[0] * sp.sin(c.q[1])), "the axial momentum", names
 
 # %%
 values = {M: 1.0, R: 1.0, I1: 1.0, I3: 1.0, ell: 1.0, m: 0.01, K: 0.1}
-times, twin = np.linspace(0, 3, 91), {K: 0.11}
+times, twin = np.linspace(0, 2, 61), {K: 0.11}
 axes = ((0.1, 0.15, 0.98), (0.12, -0.1, 0.98))
 scene: Scene = consistent_scene((10.0, -10.0), axes, ((0.3, 0, 0), (0.3, 0.2, 0)), Rotor(), Link(1, 0.01, 0.1))
 

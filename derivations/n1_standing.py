@@ -261,7 +261,7 @@ def held(spins: list[float], **more: object) -> tuple[float, float, float]:
     """(factor, measured growth 3 % under over the linear one less 1, distance from the linear motion 3 % over)."""
     factor = Structure(spins=spins, **more).critical_spin()
     under, over = (Structure(spins=[x * factor * f for f in spins], **more) for x in (0.97, 1.03))
-    return factor, measured_growth(under) / under.stands().growth - 1, bounded_motion(over)[1]
+    return factor, measured_growth(under) / under.stands().growth - 1, bounded_motion(over, turns=8)[1]
 
 
 cases = {

@@ -214,7 +214,7 @@ whole = Scene(spins=(spin, -spin), link=Link(1, 0, 0))
 start = paired_scene(whole, r0)
 s_pair = Structure([(0, 0), (1, 0)], [(0, 1)], [spin, -spin], friction=friction, spin_friction=friction)
 late = np.linspace(until, until + 2 * np.pi * 1.25 / (spin * np.exp(-friction * until)), 65)[:-1]
-run = s_pair.simulate(np.concatenate([[0.0], late]), start.axes, start.rates, tol=1e-9)
+run = s_pair.simulate(np.concatenate([[0.0], late]), start.axes, start.rates, tol=1e-7)
 swing = run.axes[:, 1:, 0].mean(0)
 found_radius = float(np.ptp(swing) / 2 / r0)
 middle = until + float(late[-1] - late[0]) / 2

@@ -129,11 +129,11 @@ Remark(
 
 # %%
 def packet(spins: float) -> tuple[tuple[int, ...], float, float]:
-    """Chern numbers, and how far a packet of 0.01 has come round in 6 s, rad, with the run's error."""
+    """Chern numbers, and how far a packet of 0.01 has come round in 5 s, rad, with the run's error."""
     pattern = honeycomb(spring=100.0, spins=spins, hinge=100.0)
     gap = pattern.dispersion(2 * np.pi * np.stack(np.meshgrid(*[np.arange(24) / 24] * 2), -1).reshape(-1, 2)).gaps[1]
     piece, tilt, rates = border_packet(pattern, 4, gap)
-    run = piece.simulate(np.linspace(0, 6, 121), tilt, rates, tol=1e-6)
+    run = piece.simulate(np.linspace(0, 5, 101), tilt, rates, tol=1e-6)
     return chern_numbers(pattern, 12).numbers, float(np.diff(way_round(run)[[0, -1]])[0]), run.error
 
 
@@ -142,7 +142,7 @@ assert clockwise[0] == -1 and against[0] == 1 and gone < -np.pi < np.pi < back
 Remark(
     "Where the packet goes",
     f"32 rotors, springs of 100 N/m, hinges of 100 N m/rad. With spins of 20 rad/s, Chern numbers "
-    f"{', '.join(map(str, clockwise))}, the packet has come round by {gone:.2f} rad after 6 s; with reversed spins by "
+    f"{', '.join(map(str, clockwise))}, the packet has come round by {gone:.2f} rad after 5 s; with reversed spins by "
     f"+{back:.2f} rad. The error of the run is {off:.0e}.",
 )
 

@@ -68,7 +68,7 @@ def generated(
 ) -> Generated:
     """A program of the system's state and parameters, its symbols renamed where a language would not take their names.
 
-    moving: t' = 1 is its last output where time enters.
+    moving: it is evaluated so often that common parts are worth the search, and t' = 1 is its last output where time enters.
     """
     own = {name for name, _ in stages}
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
@@ -94,7 +94,7 @@ def generated(
         tuple(rename.get(s, s) for s in (*states, *parameters)),
         tuple((name, named(e)) for name, e in stages),
         tuple(named(e) for e in outputs),
-        shared=len(stages) > MANY,
+        shared=not moving or len(stages) > MANY,
     )
     return Generated(program, states, parameters)
 
