@@ -88,8 +88,7 @@ def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Fig
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
-    placed = {"figure.constrained_layout.use": False, "figure.autolayout": False, "savefig.dpi": dpi}
-    with mpl.rc_context(placed):
+    with mpl.rc_context({"figure.constrained_layout.use": False, "figure.autolayout": False, "savefig.dpi": dpi}):
         figure.set_layout_engine(None)
         yield figure
 

@@ -88,7 +88,8 @@ def reproduce(paper: Paper, target: Path, progress: Progress, jobs: int | None =
 
 def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tuple[dict[str, Any], dict[str, float]]:
     """Every step's product by name, in the order of the steps, and how long each that was made took, in s."""
-    products = {step.name: kept.take(step.name, step.made_from) if step.name in kept else None for step in wanted}
+    products: dict[str, Any] = dict.fromkeys(step.name for step in wanted)
+    products |= {step.name: kept.take(step.name, step.made_from) for step in wanted if step.name in kept}
     left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(kept.old))
     seconds: dict[str, float] = {}
 
