@@ -89,8 +89,9 @@ def _png(figure: "RunFigure") -> str:
 
     with BytesIO() as file, BytesIO() as small:
         with laid_out(figure, dpi=72):
-            figure.savefig(file, format="png")
-        Image.open(file).convert("RGB").quantize(64).save(small, format="png", optimize=True)
+            figure.savefig(file, format="rgba")
+            drawn = Image.frombytes("RGBA", figure.canvas.get_width_height(), file.getvalue())
+        drawn.convert("RGB").quantize(64).save(small, format="png")
         return "data:image/png;base64," + b64encode(small.getvalue()).decode()
 
 
