@@ -121,7 +121,7 @@ def _timed(step: Step, given: dict[str, dict[str, Any]], folder: Path) -> tuple[
 
 
 def _longest_first(old: Path) -> Callable[[Step], float]:
-    """The steps in falling order of what they took last; figures and claims before the rest where nothing is known."""
+    """The steps in falling order of what they took last; in their own order where nothing is known."""
     try:
         took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
     except (OSError, ValueError, KeyError, TypeError):
