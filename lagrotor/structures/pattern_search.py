@@ -12,6 +12,7 @@ from lagrotor.structures.small_motion import small_motion
 from lagrotor.structures.standing import threshold
 
 _MOST = 12  # rotors
+_SAME = 1e-9  # relative: spins as near as that are one
 
 
 @dataclass(frozen=True)
@@ -40,5 +41,6 @@ def sign_patterns(s: Assembly) -> Patterns:
     for rest in product((1, -1), repeat=N - 1):
         signs = (1, *rest)
         needed[signs] = threshold(linear.with_momenta(I3 * np.array(signs)))
-    best = min(needed, key=lambda signs: needed[signs])
-    return Patterns(len(needed), sum(v < inf for v in needed.values()), needed[best], best)
+    least = min(needed.values())
+    best = next(signs for signs, spin in needed.items() if spin <= least * (1 + _SAME))
+    return Patterns(len(needed), sum(v < inf for v in needed.values()), least, best)

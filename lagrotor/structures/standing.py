@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
@@ -129,16 +130,20 @@ def _by_branches(linear: SmallMotion) -> float:
     if np.sort(np.abs(np.linalg.eigvalsh(H)))[0] <= 1e-9 * size:
         return inf
 
-    def least(log_rate: float) -> float:
-        w = np.exp(log_rate)
-        return float(eigh(H, w * M + K / w, eigvals_only=True)[half])
+    squares, shapes = eigh(K, M)
+    turned = shapes.T @ H @ shapes  # as M is one and K diagonal there, so is ω M + K/ω
 
-    own = np.sqrt(eigh(K, M, eigvals_only=True))
-    grid = np.linspace(np.log(own[0]) - 0.5, np.log(own[-1]) + 0.5, 101)
-    values = [least(w) for w in grid]
+    def least(log_rates: ArrayLike) -> Array:
+        w = np.exp(log_rates)[..., None]
+        over = 1 / np.sqrt(w + squares / w)
+        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * turned * over[..., None, :])[..., half])
+
+    own = np.log(squares) / 2
+    grid = np.linspace(own[0] - 0.5, own[-1] + 0.5, 101)
+    values = least(grid)
     best = int(np.argmax(values))
     around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
-    found = minimize_scalar(lambda w: -least(w), bounds=around, method="bounded", options={"xatol": 1e-10})
+    found = minimize_scalar(lambda at: -least(at), bounds=around, method="bounded", options={"xatol": 1e-10})
     return float(1 / max(-found.fun, values[best]))
 
 
