@@ -133,7 +133,7 @@ def packet(spins: float) -> tuple[tuple[int, ...], float, float]:
     pattern = honeycomb(spring=100.0, spins=spins, hinge=100.0)
     gap = pattern.dispersion(2 * np.pi * np.stack(np.meshgrid(*[np.arange(24) / 24] * 2), -1).reshape(-1, 2)).gaps[1]
     piece, tilt, rates = border_packet(pattern, 4, gap)
-    run = piece.simulate(np.linspace(0, 5, 101), tilt, rates, tol=1e-6)
+    run = piece.simulate(np.linspace(0, 5, 101), tilt, rates, tol=1e-5)
     return chern_numbers(pattern, 12).numbers, float(np.diff(way_round(run)[[0, -1]])[0]), run.error
 
 
