@@ -98,7 +98,27 @@ def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Sy
 def operations(program: Program) -> int:
     """Arithmetic operations and function calls of one evaluation, after common subexpressions."""
     stages, outputs = reduce_common(program)
-    return sum(int(sp.count_ops(e)) for _, e in stages) + sum(int(sp.count_ops(e)) for e in outputs)
+    return sum(_count(e) for e in (*(e for _, e in stages), *outputs))
+
+
+def _count(expression: sp.Expr) -> int:
+    """What `sympy.count_ops` counts, which for each product looks for a fraction: only where it may be one."""
+    left, found = [expression], 0
+    while left:
+        e = left.pop()
+        factors = e.args[1:] if e.is_Mul and e.args[0] is sp.S.NegativeOne else e.args
+        if e.is_Symbol:
+            continue
+        if e.is_Mul and not any(f.is_Pow or f.is_Number or isinstance(f, sp.exp) for f in factors):
+            found += len(e.args) - 1  # a sign, too, is one
+            left += factors
+        elif e.is_Add and not any(f.is_Number for f in e.args):
+            signs = [f.is_Mul and f.args[0].is_Number and bool(f.args[0] < 0) for f in e.args]
+            found += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
+            left += e.args
+        else:
+            found += int(sp.count_ops(e))
+    return found
 
 
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:

@@ -82,6 +82,27 @@ def test_reducing_drops_what_no_output_needs_and_shares_the_rest() -> None:
     assert operations(program) < sum(sp.count_ops(e) for e in unshared)
 
 
+@pytest.mark.parametrize(
+    "e",
+    [
+        -x - y,
+        x - 2 * y,
+        y - x,
+        -x,
+        2 - x,
+        -x * y / 3,
+        x / y,
+        -2 * x * y * (z - x),
+        (x + y) * sp.sin(-x * z),
+        1 / (x - y),
+    ]
+    + [sp.sqrt(x) * y, sp.exp(-x) * y, x**-2, -x * sp.Rational(3, 4) - y * sp.Rational(1, 2), sp.Integer(-2), x**2 * y],
+    ids=str,
+)
+def test_operations_are_those_that_sympy_counts(e: sp.Expr) -> None:
+    assert operations(Program((x, y, z), (), (e,), shared=True)) == sp.count_ops(e)
+
+
 def test_every_stage_stands_before_its_use() -> None:
     stages, outputs = reduce_common(staged())
     known = {x, y}
