@@ -11,14 +11,14 @@ from lagrotor.pictures.stability_figure import stability_figure
 TITLE = "Where the closed forms stop being useful"
 ALT = (
     "Three maps, for orders 1, 3 and 5, of the error of the closed form over amplitude from 0.01 to 0.5 and departure from "
-    "opposite spins from one in a million to one; a line bounds the region at lower left in which the form is useful."
+    "opposite spins from one in a million to three tenths; a line bounds the region at lower left in which the form is useful."
 )
 
 
 @cache
 def data() -> Usefulness:
     """Every scene of the grid over one turn, exact, beside the series of orders 1, 3 and 5."""
-    return usefulness(np.geomspace(0.01, 0.5, 16), np.geomspace(1e-6, 1.0, 24))
+    return usefulness(np.geomspace(0.01, 0.5, 16), np.geomspace(1e-6, 0.3, 24))
 
 
 def _edge(axis: np.ndarray, errors: np.ndarray, allowed: np.ndarray) -> float:

@@ -19,7 +19,7 @@ BARS = {
     "massless, ℓ = 0.6 R": Link(0.6, 0, 0),
     "massless, ℓ = 1.6 R": Link(1.6, 0, 0),
 }
-EXACT_AT = np.array([0.05, *np.arange(0.1, 0.95, 0.05), 0.95])
+EXACT_AT = np.array([0.05, *np.arange(0.1, 0.85, 0.1), 0.85, 0.9, 0.95])
 READ_AT = 0.4
 
 TITLE = "Frequency of the paired precession against its amplitude"
