@@ -26,8 +26,8 @@ tables = [
             (x.regime, x.what, x.formula, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.2f}", x.tool)
             for x in found
         ),
-        "Thresholds measured by bisection or read off runs; over few turns energy and momentum drift more slowly than "
-        "over many, where they grow in proportion to time. Full runs: `lagrotor stability`.",
+        "Thresholds measured by bisection or read off runs; over few turns energy, momentum and phase drift more slowly than "
+        "over many, where they grow in proportion to time, the phase to its square. Full runs: `lagrotor stability`.",
     )
 ]
 tables[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +13,6 @@ from lagrotor.errors import SingularError
 from lagrotor.models.minimal import MODEL, RATIOS, program
 from lagrotor.numerics.generated import generated
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
-from lagrotor.numerics.segment import LOST
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -59,10 +58,11 @@ def tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
 
 @generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
 def _tangents(massive: bool, ratio: Ratio) -> str:
-    from lagrotor.numerics.codegen import program_source
+    """parameters → the accelerations (3,) and their derivatives by the state (3, 6), of the time and the state."""
+    from lagrotor.numerics.rhs import rhs_source
 
-    source = program(massive, ratio, 0)
-    return program_source(tangent_program(source, source.arguments[:6]))
+    whole = program(massive, ratio, 0)
+    return rhs_source(tangent_program(replace(whole, outputs=whole.outputs[3:]), whole.arguments[:6]), 6)
 
 
 @dataclass(frozen=True)
@@ -88,16 +88,13 @@ def flow(scene: Scene) -> Callable[..., Flow]:
     parameters += [inertia_b] if inertia_b != 0 else []
     parameters += [value] if ratio != "equal" else []
     parameters += scene.momenta
-    function = _tangents(inertia_b != 0, ratio)
+    accelerations = _tangents(inertia_b != 0, ratio)(*parameters)
     plain = MODEL.rate(scene, False)
 
     def rate(s: float, y: Array) -> Any:
-        try:
-            velocity = np.array(function(*y[:6].tolist(), *parameters))
-        except LOST:
-            return np.full(42, np.nan)
-        velocity[6:] = (velocity[6:].reshape(6, 6) @ y[6:].reshape(6, 6)).ravel()
-        return velocity
+        found = np.array(accelerations(s, y[:6]))
+        turned = found[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
+        return np.concatenate((y[3:6], found[:3], y[24:], turned))
 
     def through(state: Array, time: float, tol: float = TIGHTEST) -> Flow:
         start = np.concatenate([state, np.eye(6).ravel()])
