@@ -41,7 +41,7 @@ def data() -> dict[str, np.ndarray]:
         waves = edge_waves(pattern, float(gap.mean()), WIDTH, POINTS)
         found |= {"q": waves.strip.q[:, 0], f"{name}_rates": waves.strip.rates, f"{name}_place": waves.place}
         found |= {f"{name}_gap": gap, f"{name}_border": np.array([waves.first, waves.last])}
-        found[f"{name}_numbers"] = np.array(chern_numbers(pattern).numbers[:2])
+        found[f"{name}_numbers"] = np.array(chern_numbers(pattern, 12).numbers[:2])
     return found
 
 

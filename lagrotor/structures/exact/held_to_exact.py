@@ -27,7 +27,7 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
     shape = tilt * found.shapes[0]
-    run = simulate(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-12)
+    run = simulate(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
     roots, left = np.linalg.eig(first_order(linear).T)
     w = left[:, np.argmin(np.abs(roots - root))]
     first, last = (abs(w @ state) for state in _freedoms(linear, run.axes, run.rates).T)
