@@ -159,7 +159,11 @@ def begun(link: Link, r0: float = 0.1, spin: float = 10.0) -> tuple[Scene, float
     """A paired precession, its momentum about the joint line, and G r0² A/D."""
     start = paired_scene(Scene(spins=(spin, -spin), link=link), r0)
     A, B = start.inertias
-    return start, float(simulate(start, [0.0], tol=1e-9).joint_line_momentum[0]), spin * r0**2 * (A + B) / (A - B)
+    return (
+        start,
+        float(simulate(start, [0.0], model="minimal").joint_line_momentum[0]),
+        spin * r0**2 * (A + B) / (A - B),
+    )
 
 
 def turned(start: Scene, P: float, mean: float, friction: float) -> tuple[float, float, float]:
