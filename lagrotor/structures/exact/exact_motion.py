@@ -19,6 +19,7 @@ from lagrotor.structures.exact.saddle import Saddle, saddle
 
 Drive = Callable[[float], Array]
 NEXT, AFTER = [1, 2, 0], [2, 0, 1]  # of a cross product
+_ROWS = 1_000  # of the systems that are solved together
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,11 +129,12 @@ class ExactMotion:
         rates = (first * v[:, c.i]).sum(-1) + (second * v[:, c.j]).sum(-1)
         right = np.zeros((len(states), 4 * N + len(c.i), 2))
         right[:, 3 * N :, 0], right[:, 3 * N : 4 * N, 1], right[:, 4 * N :, 1] = -self.off(r), -(r * v).sum(-1), -rates
+        at_once = max(_ROWS // right.shape[1], 1)
         moved = [
-            self.saddle.solve(*each)[: 3 * N].T.ravel()
-            for each in zip(r, zip(first, second, strict=True), right, strict=True)
+            self.saddle.solve_each(r[part], (first[part], second[part]), right[part])[:, : 3 * N]
+            for part in (slice(k, k + at_once) for k in range(0, len(states), at_once))
         ]
-        return (states + np.reshape(moved, states.shape)).T.reshape(y.shape)
+        return (states + np.concatenate(moved).swapaxes(1, 2).reshape(states.shape)).T.reshape(y.shape)
 
 
 def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:

@@ -35,7 +35,7 @@ class Saddle:
     places: Index
 
     def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """The unknowns (n,) or (n, k) for axes r (N, 3), gradients of the bars by r_i and r_j (B, 3), and the right side.
+        """The unknowns (n,) for axes r (N, 3), gradients of the bars by r_i and r_j (B, 3), and the right side (n,).
 
         A singular system gives NaN.
         """
@@ -44,6 +44,23 @@ class Saddle:
         b[self.order] = right
         x = self._banded(entries, b) if self.band <= _WIDEST else self._sparse(entries, b)
         return x[self.order]
+
+    def solve_each(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
+        """The unknowns (s, n, k) of s states, r (s, N, 3), the gradients (s, B, 3), right sides (s, n, k).
+
+        States of which one has a singular system give NaN.
+        """
+        states, n, k = right.shape
+        entries = np.concatenate([each.reshape(states, -1) for each in (r, *pulls)], axis=1)
+        b = np.empty_like(right)
+        b[:, self.order] = right
+        if self.band > _WIDEST:
+            x = np.array([self._sparse(*each) for each in zip(entries, b, strict=True)]).reshape(right.shape)
+        else:
+            ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
+            ab[:, self.places] = np.concatenate([entries, entries], axis=1)
+            x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k)).reshape(right.shape)
+        return np.asarray(x[:, self.order])
 
     def _banded(self, entries: Array, b: Array) -> Array:
         ab = self.base.copy()
