@@ -56,7 +56,7 @@ def tuned(mu: float, rates: np.ndarray) -> np.ndarray:
 def data() -> dict[str, np.ndarray]:
     """γ and peaks: closed form, of structures (equal, opposite); transfer functions over rates."""
     gamma, tried = np.linspace(0.04, 1.2, 200), np.array([0.06, 0.1, 0.2, 0.4, 0.8])
-    fine, rates = np.linspace(0.2, 2, 20_001), np.linspace(0.6, 1.4, 801)
+    fine, rates = np.linspace(0.2, 2, 4_001), np.linspace(0.6, 1.4, 801)
     return {
         "gamma": gamma,
         "peak": spins_worst_case(gamma).value,
