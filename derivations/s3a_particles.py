@@ -207,7 +207,7 @@ prove(
 opposite = action_and_reaction.on(twisting)
 apart_along_x = dict.fromkeys(opposite.free_symbols, sp.S.Zero)
 apart_along_x |= dict.fromkeys((m1, m2, m3, places[0][0], internal[1, 2][1]), sp.S.One)
-spin_up = opposite.subs(apart_along_x)
+spin_up = opposite.xreplace(apart_along_x)
 Formula(spin_up, r"\dot{\vec L}")
 
 # %%

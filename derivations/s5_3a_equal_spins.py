@@ -86,7 +86,7 @@ for names, order in ((AXES.q, 0), (AXES.v, 1), (AXES.a, 2)):
     parallel |= dict(zip(names, [*motion, *motion], strict=True))
 mu = sp.Symbol("mu", real=True)
 exact = euler_lagrange(system.L, AXES) - system.push.subs({G_1: G, G_2: G}) - system.rows.T * sp.Matrix([mu, mu, 0])
-together = exact.subs(parallel)
+together = exact.xreplace(parallel)
 turning = {Omega: G / ((a + b) * sp.cos(theta))}
 (lift,) = sp.solve(together[2], mu, simplify=False)
 prove(

@@ -66,7 +66,7 @@ x, x_v, x_a = sp.symbols("x x_dot x_ddot", real=True)
 small = sp.Symbol("epsilon")
 motion = euler_lagrange(pair.L, AXES) - pair.push
 still = {q: value + small * q for q, value in upright.items()} | {v: small * v for v in (*AXES.v, *AXES.a)}
-first = motion.subs(still, simultaneous=True).diff(small).subs(small, 0)
+first = motion.xreplace(still).diff(small).subs(small, 0)
 common = {x1: x, x2: x, AXES.v[0]: x_v, AXES.v[3]: x_v, AXES.a[0]: x_a, AXES.a[3]: x_a}
 held = {q: 0 for c in (AXES.v, AXES.a) for q in (c[2], c[5])}
 linear = (allowed.T * first).subs(common | held)

@@ -82,7 +82,7 @@ for names in (AXES.q, AXES.v, AXES.a):
     exchange |= {names[0]: -names[3], names[3]: -names[0]}
     exchange |= {names[1]: names[4], names[4]: names[1], names[2]: names[5], names[5]: names[2]}
 exchange |= {lambda_1: lambda_2, lambda_2: lambda_1}
-exchanged = [e.subs(exchange, simultaneous=True) for e in motion[:3]]
+exchanged = [e.xreplace(exchange) for e in motion[:3]]
 prove(
     exchanged,
     (-motion[3], motion[4], motion[5]),

@@ -45,7 +45,7 @@ Formula(bar, "g")
 # %%
 mirrored = {al1: -al1, al2: -al2, u1_v: -u1_v, u2_v: -u2_v}
 prove(
-    (L.subs(mirrored, simultaneous=True), bar.subs(mirrored, simultaneous=True)),
+    (L.xreplace(mirrored), bar.xreplace(mirrored)),
     (L, bar),
     "Lagrangian and bar with time reversed and y → −y",
     written=("L^* = L", "g^* = g"),
@@ -59,7 +59,7 @@ prove(
 # %%
 exchanged = {u1: -u2, u2: -u1, al1: -al2, al2: -al1, u1_v: u2_v, u2_v: u1_v, al1_v: al2_v, al2_v: al1_v}
 prove(
-    (L.subs(exchanged, simultaneous=True), bar.subs(exchanged, simultaneous=True)),
+    (L.xreplace(exchanged), bar.xreplace(exchanged)),
     (L, bar),
     "Lagrangian and bar with the rotors exchanged and time reversed",
     written=("L^* = L", "g^* = g"),
@@ -73,10 +73,10 @@ prove(
 
 # %%
 U_after, alpha_after = (
-    ((u1 + u2) / 2).subs(exchanged, simultaneous=True),
-    ((al1 + al2) / 2).subs(exchanged, simultaneous=True),
+    ((u1 + u2) / 2).xreplace(exchanged),
+    ((al1 + al2) / 2).xreplace(exchanged),
 )
-twist_after = (al2_v - al1_v).subs(exchanged, simultaneous=True)
+twist_after = (al2_v - al1_v).xreplace(exchanged)
 prove(
     (U_after, alpha_after, twist_after),
     (-(u1 + u2) / 2, -(al1 + al2) / 2, -(al2_v - al1_v)),

@@ -16,6 +16,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, cancelling_force, natural_rate, toppling_after_shock
+from lagrotor.algebra import truncated_series
 from lagrotor.models import exact_cancelling_force, mean_over, run_after, turning_rate
 from lagrotor.numerics import measured_order
 from lagrotor.pair import joint_line_momentum, link_constraint
@@ -54,7 +55,7 @@ eps, apart = sp.symbols("epsilon x_12")
 upright = {z1: sp.sqrt(1 - x1**2 - y1**2), z2: sp.sqrt(1 - x2**2 - y2**2)}
 bar = link_constraint(sp.Matrix([x1, y1, z1]), sp.Matrix([x2, y2, z2])).subs(upright)
 scaled = bar.subs(x1, x2 + eps * apart).subs({x2: eps * x2, y1: eps * y1, y2: eps * y2}, simultaneous=True)
-second = scaled.subs(apart, eps * apart).diff(eps, 2).subs(eps, 0) / 2
+second = truncated_series(scaled.subs(apart, eps * apart), eps, 2).coeff(eps, 2)
 prove(second, -k * apart + (y1 - y2) ** 2 / 2, "the bar's constraint, second order, x_12 = x_1 − x_2")
 
 # %% [markdown]
@@ -228,9 +229,9 @@ prove(
 # Its derivative by $X$ acts on the twist, whose conjugate momentum is $G X$:
 
 # %%
-push = energy.diff(lean)
+push = truncated_series(energy.diff(lean), lean, 1)
 prove(
-    sp.series(push, lean, 0, 2).removeO(),
+    push,
     (P**2 - taken**2) * lean / (2 * (a + b)),
     "what turning does to the twist, first order in X",
     names=r"\partial E/\partial X",
@@ -244,7 +245,7 @@ prove(
 
 # %%
 X_dot, T = sp.symbols("X_dot T", real=True)
-force_on_twist = -push.series(lean, 0, 2).removeO().subs({P: 0, taken: -2 * (a + b) * nu})
+force_on_twist = -push.subs({P: 0, taken: -2 * (a + b) * nu})
 grown = sp.integrate(force_on_twist.subs(lean, X_dot * T) / G, T)
 prove(grown, (a + b) * nu**2 * X_dot * T**2 / G, "the growth of the twist", names=r"\delta\Delta")
 

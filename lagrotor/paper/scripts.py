@@ -207,7 +207,8 @@ def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
         yield
     finally:
         sys.path.remove(str(folder))
-        for name, module in list(sys.modules.items()):
+        for name in (sys.modules.keys() - before.keys()) | (sys.modules.keys() & modules.keys()):
+            module = sys.modules[name]
             if module is not before.get(name) and _lies_in(folder, module):
                 modules[name] = module
                 if name in before:
