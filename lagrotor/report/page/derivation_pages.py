@@ -3,6 +3,7 @@
 import re
 from base64 import b64encode
 from collections.abc import Mapping
+from functools import cache
 from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
@@ -36,17 +37,22 @@ def title(script: Script, stem: str) -> str:
 def written(text: str) -> str:
     """Markdown with formulas between dollars as HTML; unchanged where markdown-it is not installed."""
     try:
-        from markdown_it import MarkdownIt
-        from mdit_py_plugins.dollarmath import dollarmath_plugin
+        renderer = _renderer()
     except ModuleNotFoundError:
         return f"<pre>{escape(text)}</pre>"
     text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
-    renderer = MarkdownIt("commonmark").enable("table")
-    renderer.use(dollarmath_plugin, renderer=_formula, allow_space=False)
     html: str = renderer.render(text)
     for level in (3, 2, 1):  # below a heading of the page
         html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
+
+
+@cache
+def _renderer() -> Any:
+    from markdown_it import MarkdownIt
+    from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+    return MarkdownIt("commonmark").enable("table").use(dollarmath_plugin, renderer=_formula, allow_space=False)
 
 
 def _formula(source: str, options: Mapping[str, Any]) -> str:
