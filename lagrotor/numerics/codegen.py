@@ -7,6 +7,7 @@ one quantity (a matrix element, a pivot) from being multiplied out; common subex
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from operator import attrgetter
 from typing import Any
 
@@ -47,7 +48,8 @@ class Program:
             known |= {name} if name else set()
 
 
-def reduce_common(program: Program) -> tuple[list[Stage], list[sp.Expr]]:
+@lru_cache(maxsize=16)
+def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
     """Stages with their common subexpressions taken out, in an order that can be run, and the reduced outputs."""
     stages, outputs = list(program.stages), list(program.outputs)
     if program.shared:

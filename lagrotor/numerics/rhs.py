@@ -4,7 +4,7 @@ What depends on the parameters alone is worked out once, and squares are product
 `compile_program` and a wrapper around it take.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any
@@ -59,7 +59,7 @@ def _factor(e: sp.Expr, show: _Products) -> str:
     return _quick(e, show) if e.is_Symbol or e.is_Integer else f"({_quick(e, show)})"
 
 
-def _lines(stages: list[Stage], outputs: list[sp.Expr], show: _Products, quick: bool) -> list[str]:
+def _lines(stages: list[Stage], outputs: Sequence[sp.Expr], show: _Products, quick: bool) -> list[str]:
     """The stages as assignments to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
     used_in = [e.free_symbols for _, e in stages]
     last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
