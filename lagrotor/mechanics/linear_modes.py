@@ -109,8 +109,8 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     coordinate on which nothing depends), and a parameter may be given too. Where the equations are 0/0 there, they are
     first reduced.
 
-    Raises SingularError when the point is no equilibrium, or a singular one of these coordinates; InputError when
-    something depends on time.
+    Raises SingularError when the point is no equilibrium, or a singular one of these coordinates, or the constraints are
+    dependent there; InputError when something depends on time.
     """
     c = system.c
     point = by_symbol(at.at if isinstance(at, Equilibrium) else at, {*c.q, *c.v} | system.L.free_symbols)
@@ -144,7 +144,10 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
 def _held_by(force: sp.Matrix, G: sp.Matrix, at: Any) -> sp.Matrix:
     """The multipliers that hold the point: force = Gᵀ λ."""
     normal = G * G.T
-    lam = normal.inv(method="ADJ") * G * force if G.rows else sp.zeros(0, 1)
+    det = normal.det(method="berkowitz")
+    if _is_zero(det):
+        raise SingularError(f"linearise: the constraints are dependent at {at}: leave out what follows from the others")
+    lam = normal.adjugate() * G * force / det if G.rows else sp.zeros(0, 1)
     left = [decide_zero(e).answer for e in force - G.T * lam]
     # What `equilibria` solved is an equilibrium, also where its roots are outside the class that is decided.
     if "nonzero" in left or ("undecided" in left and not isinstance(at, Equilibrium)):

@@ -1,5 +1,7 @@
 """Linear modes, equilibria and conditions of stability of textbook systems."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -33,6 +35,9 @@ def test_linear_modes_in_redundant_coordinates() -> None:
     linear = system.linearise({x: 1, y: 0})
     assert linear.basis.shape == (2, 1)
     assert sp.expand(linear.characteristic(s) / linear.mass[0] - (s**2 + k)) == 0
+    twice = replace(system, constraints=(*system.constraints, 3 * system.constraints[0]))
+    with pytest.raises(SingularError, match="the constraints are dependent at"):
+        twice.linearise({x: 1, y: 0})
 
 
 def test_a_place_that_is_no_equilibrium_is_refused() -> None:
