@@ -80,8 +80,6 @@ rows = (
 systems = (
     ("1e4, 250", "1, 1", paper_system(Scene((10, -10), link=BAR), 1e4, 250)),
     ("1e4, 0", "1, 1", paper_system(Scene((0, 0), link=BAR), 1e4, 0)),
-    ("1e3, 50", "1, 1", paper_system(Scene((10, 10), link=BAR), 1e3, 50)),
-    ("1e4, 10", "0.01, 0.1", paper_system(Scene((10, -10), link=LIGHT), 1e4, 10)),
     ("1e4, 250", "0.01, 0.1", paper_system(Scene((10, -10), link=LIGHT), 1e4, 250)),
     ("1e5, 1", "0.3, 0.02", paper_system(Scene((5, -5), link=Link(1, 0.3, 0.02)), 1e5, 1)),
 )
