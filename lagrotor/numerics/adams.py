@@ -84,8 +84,9 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     if not found:
         return _Piece(q, t, h, states[:1], velocities[:1], nfev, 0.5)
 
-    # What rounding alone leaves of predictor less corrector, over h.
-    noise = 4 * np.finfo(float).eps * (np.abs(A).sum() * np.abs(velocities[:q]).max() / (1 + np.abs(y).max()) + 1 / h)
+    # What rounding alone leaves of predictor less corrector, over h, in the component that moves fastest for its size.
+    fastest = (np.abs(velocities[:q]).max(axis=0) / (1 + np.abs(states[q - 1]))).max()
+    noise = 4 * np.finfo(float).eps * (np.abs(A).sum() * fastest + 1 / h)
     limit = max(limit, noise)
     hA, hB, last, n = h * A, h * B, states[q - 1], q
     while n <= steps:
