@@ -8,13 +8,18 @@ the numbers read off it.
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
 from lagrotor.errors import InputError, near
 from lagrotor.files import write_beside, write_text
 from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures.lean_svg import lean_svg
+
+# The same bytes every time, a tenth more of them than at the usual level, in two thirds of the time.
+_PNG: dict[str, Any] = {"metadata": {"Software": None}, "pil_kwargs": {"compress_level": 2}}
 
 
 @dataclass(frozen=True)
@@ -67,9 +72,7 @@ def draw(key: str, folder: Path, scripts: Scripts) -> Picture:
             drawn = StringIO()
             figure.savefig(drawn, format="svg", metadata={"Date": None})
             svg = write_text(folder / f"{stem}.svg", lean_svg(drawn.getvalue()))
-            png = write_beside(
-                folder / f"{stem}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
-            )
+            png = write_beside(folder / f"{stem}.png", partial(figure.savefig, format="png", **_PNG))
     measured = scripts.called("figures", stem, "measure") if "measure" in script else {}
     return Picture(
         stem=stem,
