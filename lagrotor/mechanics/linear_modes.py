@@ -129,15 +129,12 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     G = _value(system.rows, still, c.q)
     lam = _held_by(force, G, at)
     held = motion - system.rows.T * lam
-    tangent = G.nullspace(iszerofunc=_is_zero)
-    basis = sp.Matrix.hstack(*tangent) if G.rows else sp.eye(len(c.q))
+    basis = sp.Matrix.hstack(*G.nullspace(iszerofunc=_is_zero)) if G.rows else sp.eye(len(c.q))
     mass, gyroscopic, stiffness = (
         (basis.T * _value(jacobian(held, names), still, c.q) * basis).applyfunc(_reduce) for names in (c.a, c.v, c.q)
     )
     if _is_zero(mass.det(method="berkowitz")):
-        raise SingularError(
-            f"linearise: the mass matrix is singular at {point}: use coordinates that are regular there"
-        )
+        raise SingularError(f"linearise: the mass matrix is singular at {point}: use coordinates regular there")
     return LinearSystem(mass, gyroscopic, stiffness, basis)
 
 
