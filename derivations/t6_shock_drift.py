@@ -261,7 +261,7 @@ prove(changed, -P_X / G * nu**2 * X_dot * T**2 / (2 * k), "the change of the rat
 
 # %%
 tested = scene(12)
-short, long = (run_after(tested, turns, 1e-11) for turns in (8, 24))
+short, long = (run_after(tested, turns, 1e-10) for turns in (8, 24))
 law = sp.lambdify(T, changed.subs({a: 1, b: 0,
     P_X: tested.shock.impulse[0], G: 10, k: 1, nu: toppling_after_shock(tested), X_dot: wander_after_shock(tested)
 }), "numpy")  # fmt: skip

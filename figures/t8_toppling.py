@@ -58,7 +58,7 @@ def data() -> dict[str, np.ndarray]:
         "tried": np.array(TRIED),
         "measured": np.array([measured(links[i], rate) for i, rate in TRIED]),
         "t": t,
-        "x": np.array([simulate(shocked(f), t, "spheres", 1e-11).axes[:, :, 0].mean(0) for f in (FORCE, -FORCE)]),
+        "x": np.array([simulate(shocked(f), t, "spheres", 1e-9).axes[:, :, 0].mean(0) for f in (FORCE, -FORCE)]),
     }
 
 
