@@ -74,13 +74,12 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
 
     Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
-    Wanner, III.1). A longer step begins anew: where that saves more evaluations than it takes.
+    Wanner, III.1).
     """
     rhs = segment.rhs
     A, B, _ = adams_weights(q)
     states, velocities, off = np.empty((3, steps + 1, len(y)))
-    begun, found = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
-    nfev = begun
+    nfev, found = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
     if not found:
         return _Piece(q, t, h, states[:1], velocities[:1], nfev, 0.5)
 
@@ -109,8 +108,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
         if segment.project is not None:
             states[n] = last = segment.project(last)
         n += 1
-        saved = 2 * (segment.right - t - n * h) / h * (1 - 1 / change)
-        if worst < max(limit / 300, noise) and n <= steps and 1.3 * h < segment.longest and saved > begun:
+        if worst < max(limit / 300, noise) and n <= steps and 1.3 * h < segment.longest:
             return _Piece(q, t, h, states[:n], velocities[:n], nfev, change)
     return _Piece(q, t, h, states, velocities, nfev, 1.0)
 
