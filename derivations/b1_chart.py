@@ -40,9 +40,9 @@ def least(method: str, error: float) -> float | None:
 
 
 def needed(method: str, error: float) -> str:
-    """The same as text; — where the error is not reached."""
+    """The same to two digits, since it is read between two tolerances; — where the error is not reached."""
     nfev = least(method, error)
-    return "—" if nfev is None else f"{nfev:,.0f}"
+    return "—" if nfev is None else f"{float(f'{nfev:.2g}'):,.0f}"
 
 
 displaced.scene
@@ -65,9 +65,9 @@ ratio = least("solve_ivp, RK45", 1e-9) / least("minimal, Adams", 1e-9)
 Remark(
     "Speed against accuracy",
     f"On its own orbit the closed form needs no evaluation; its error is {best.error:.0e} m. Among integrations the order of the "
-    f"method decides: for 1e-9 m Adams in equal steps needs {needed('minimal, Adams', 1e-9)} evaluations, Runge–Kutta of order 5 "
-    f"{ratio:.1f} times as many. scipy's solvers, at a tolerance of 1e-13, stay above the error of the reference, but for DOP853 "
-    "in `ode`, which starts anew at every output time and so needs about the same number for every tolerance.",
+    f"method decides: for 1e-9 m Adams in equal steps needs about {needed('minimal, Adams', 1e-9)} evaluations, Runge–Kutta of "
+    f"order 5 {ratio:.0f} times as many. scipy's solvers, at a tolerance of 1e-13, stay above the error of the reference, but "
+    "for DOP853 in `ode`, which starts anew at every output time and so needs about the same number for every tolerance.",
 )
 
 # %%
@@ -82,7 +82,7 @@ tables = [
         "Speed against accuracy: evaluations for an error of the tips (m)",
         ("method", "1e-6", "1e-9", "1e-12"),
         tuple((name, *(needed(name, error) for error in (1e-6, 1e-9, 1e-12))) for name in (*OURS, *SCIPY)),
-        "Between the two tolerances about the error, on logarithmic scales.",
+        "To two digits: between the two tolerances about the error, on logarithmic scales.",
     ),
     Table(
         "Speed against accuracy: solvers called once over the shock of 5.2.1",

@@ -27,7 +27,8 @@ tables = [
             for x in found
         ),
         "Thresholds measured by bisection or read off runs; over few turns energy, momentum and phase drift more slowly than "
-        "over many, where they grow in proportion to time, the phase to its square. Full runs: `lagrotor stability`.",
+        "over many, where energy and momentum grow in proportion to time, the phase as v t + c t². "
+        "Full runs: `lagrotor stability`.",
     )
 ]
 tables[0]

@@ -224,7 +224,7 @@ def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
     return [*found, *_factors(tuple(ring.names[i] for i in used), terms)]
 
 
-# Of twenty divisors in a paper's audit nineteen come again in another identity.
+# Most divisors of a paper's audit come again in another identity.
 @lru_cache(maxsize=1024)
 def _factors(names: tuple[sp.Expr, ...], terms: frozenset[tuple[tuple[int, ...], Any]]) -> tuple[sp.Expr, ...]:
     """The irreducible factors of a polynomial in these names, each once."""

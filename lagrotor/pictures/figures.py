@@ -18,7 +18,7 @@ from lagrotor.files import write_beside, write_text
 from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures.lean_svg import lean_svg
 
-# The same bytes every time, a tenth more of them than at the usual level, in two thirds of the time.
+# The same bytes every time; pixels compressed a little less, and faster, than by default.
 _PNG: dict[str, Any] = {"metadata": {"Software": None}, "pil_kwargs": {"compress_level": 2}}
 
 

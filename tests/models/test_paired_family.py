@@ -47,6 +47,16 @@ def test_a_quarter_of_a_turn_gives_the_whole(link, amplitude):
     assert np.abs(shorter - found.monodromy).max() > 1e-4  # twin: another time
 
 
+def test_the_error_of_large_multipliers_holds_what_rounding_leaves():
+    """A short bar, far out: starts that differ in the last digit part by less; twin: by more than what integration adds."""
+    scene, r0 = Scene(spins=(10, -10), link=Link(0.37, 0, 0)), 0.9
+    found = floquet(scene, r0)
+    beside = (floquet(scene, r0 + n * np.spacing(r0)).pair_sum for n in range(1, 7))
+    moved = max(abs(pair_sum - found.pair_sum) for pair_sum in beside)
+    assert moved < found.error < 1e-8 * found.pair_sum
+    assert moved > 1e-13 * np.linalg.norm(found.monodromy)
+
+
 def test_family_agrees_with_shooting():
     scene = Scene(spins=(10, -10), link=Link(1, 0.01, 0.1))
     family = orbit_family(scene, [0.1, 0.4])

@@ -11,6 +11,7 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
 from lagrotor.errors import InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.structures import exact_motion, right_hand_side
+from lagrotor.structures.exact import simulating
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.oracle import by_lagrange
@@ -157,6 +158,29 @@ def test_a_tolerance_that_is_not_kept_is_said(engine, tol) -> None:
     with pytest.warns(LagrotorWarning, match="not kept"):
         run = s.simulate(np.linspace(0, 12, 13), tilt=[(0, 1e-3)] * 2, rates=[(0.1, 0.3)] * 2, tol=tol, engine=engine)
     assert run.error > tol
+
+
+def test_rounding_that_breaks_a_tolerance_is_named_and_not_run_against(monkeypatch: pytest.MonkeyPatch) -> None:
+    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, -10], hinge=20)
+    given = {"t": [0.0, 8.0], "tilt": [(0.05, 0.02), (0.05, -0.02)], "tol": 1e-9}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        kept = s.simulate(**given)  # twin: as it is, nothing is said
+    monkeypatch.setattr(simulating, "_ROUNDING", 1e-9)
+    with pytest.warns(LagrotorWarning, match="as rounding adds up over its turns"):
+        run = s.simulate(**given)
+    assert run.error > 1e-9 > kept.error and run.nfev == kept.nfev
+
+
+def test_a_singular_state_leaves_those_beside_it_alone() -> None:
+    motion = exact_motion(Structure(joints=[(0, 0), (1, 0), (2, 0)], bars=[(0, 1), (1, 2)], spins=[10, 10, 10]))
+    states = np.random.default_rng(5).normal(size=(18, 6))
+    alone = motion.projected(states)
+    states[:, 2] = np.nan
+    beside = motion.projected(states)
+    kept = [0, 1, 3, 4, 5]
+    assert np.array_equal(beside[:, kept], alone[:, kept]) and np.isfinite(alone).all()
+    assert np.isnan(beside[:, 2]).any()
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
     half = _A * np.linalg.solve(quarter, _B * quarter)
     slope = half @ half
     total = float(np.trace(slope)) - 4
-    excess, error = total - 2, _INTEGRATED * max(1.0, float(np.linalg.norm(slope)))
+    excess, error = total - 2, _error(slope, total)
     growth = turning = 0.0
     if abs(excess) < error:
         kind: Literal["elliptic", "hyperbolic", "unresolved"] = "unresolved"
@@ -92,3 +92,12 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
     return Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope)
+
+
+def _error(monodromy: Array, total: float) -> float:
+    """From integration, and from how far the sum of the multipliers' products by pairs is off 4 (mu + 1/mu) + 7.
+
+    The second part is what rounding leaves of a monodromy whose parts are far larger than its trace shows.
+    """
+    pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
+    return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

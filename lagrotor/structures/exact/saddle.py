@@ -48,7 +48,7 @@ class Saddle:
     def solve_each(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
         """The unknowns (s, n, k) of s states, r (s, N, 3), the gradients (s, B, 3), right sides (s, n, k).
 
-        States of which one has a singular system give NaN.
+        A singular system gives NaN, for its own state only.
         """
         states, n, k = right.shape
         entries = np.concatenate([each.reshape(states, -1) for each in (r, *pulls)], axis=1)
@@ -59,7 +59,9 @@ class Saddle:
         else:
             ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
             ab[:, self.places] = np.concatenate([entries, entries], axis=1)
-            x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k)).reshape(right.shape)
+            x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k).copy()).reshape(right.shape)
+            if not np.isfinite(x).all():  # one of them is singular, and they were solved as one
+                x = np.array([self._banded(*each) for each in zip(entries, b, strict=True)])
         return np.asarray(x[:, self.order])
 
     def _banded(self, entries: Array, b: Array) -> Array:

@@ -60,15 +60,15 @@ def simulate(
     while True:
         off = (fine.states - coarse.states)[:, : 3 * N].reshape(-1, N, 3)
         error = float(np.linalg.norm(off, axis=-1).max()) + unavoidable
-        if error <= wanted or local <= 3e-12:
+        if error <= wanted or local <= 3e-12 or unavoidable > wanted:
             break
         local = max(local / _APART**2, 3e-12)
         coarse, fine = run(local)
         nfev += coarse.nfev + fine.nfev
     if error > wanted:
+        why = "as neighbouring motions part" if 2 * unavoidable < error else "as rounding adds up over its turns"
         warnings.warn(
-            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, as neighbouring motions part; "
-            "shorten the run",
+            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, {why}; shorten the run",
             LagrotorWarning,
             stacklevel=2,
         )

@@ -21,7 +21,7 @@ from lagrotor.structures.waves.dispersion import Dispersion, dispersion
 
 _APART = 1e-6  # of the highest rate: bands nearer to each other at some wave number belong to one group
 _STARTS = 4  # local minima of a grid that are followed
-_ROUNDS = 12  # of ever closer points about a minimum; eight reached it where four bars or three springs were tried
+_ROUNDS = 12  # of ever closer points about a minimum
 _NINE = np.array([(0, 0), *(at for at in product((-1, 0, 1), repeat=2) if any(at))])
 _PARABOLA = np.linalg.pinv(np.array([(1, x, y, x * x, x * y, y * y) for x, y in _NINE]))
 

@@ -168,7 +168,7 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
     free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)
-    return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced four times as fast as of fractions
+    return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced faster than of fractions
 
 
 def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Residual:
