@@ -10,14 +10,14 @@ _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 _REMEMBERED = "20000"
 # New objects between two searches for garbage; searches of the young between two of the middle-aged, and of these between
 # two of all. Expressions refer to each other without circles, so that Python's own 700 finds nothing for a tenth of the time.
-_GARBAGE = (100_000, 10, 10)
+_GARBAGE = 100_000, 10, 10
 
 
-def begin_process() -> None:
+def begin_process(objects: int = _GARBAGE[0]) -> None:
     """One thread of linear algebra and a longer memory of sympy, where they are not imported yet and nobody has chosen;
-    few searches for garbage, none among what is loaded."""
+    few searches for garbage, one for so many new objects, none among what is loaded."""
     for name in _THREADS:
         os.environ.setdefault(name, "1")
     os.environ.setdefault("SYMPY_CACHE_SIZE", _REMEMBERED)
     gc.freeze()
-    gc.set_threshold(*_GARBAGE)
+    gc.set_threshold(objects, *_GARBAGE[1:])

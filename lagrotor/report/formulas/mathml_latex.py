@@ -49,13 +49,13 @@ def from_latex(source: str, display: bool = True) -> str | None:
     What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
     """
     try:
-        return _made(source, display)
+        return _converted(source, display)
     except ModuleNotFoundError:
         return None
 
 
 @cache
-def _made(source: str, display: bool) -> str:
+def _converted(source: str, display: bool) -> str:
     from latex2mathml.converter import Converter
 
     made = []

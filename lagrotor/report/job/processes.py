@@ -1,6 +1,5 @@
 """Steps in several processes: results in the order in which they end, nothing left behind when the run is stopped."""
 
-import gc
 import multiprocessing
 import os
 import pickle
@@ -19,7 +18,7 @@ JUDGING = ("lagrotor.report.job.whole_audit",)
 ALL = ("lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate")
 # New objects before a search for garbage: more than half of a paper's steps leave, most of them expressions that sympy keeps.
 # A process takes half as much memory again, for searches that would find little.
-_NEW = 2_000_000
+_OBJECTS = 2_000_000
 
 
 def cores() -> int:
@@ -104,8 +103,7 @@ def _no_interrupts() -> Iterator[None]:
 
 def _begin() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    begin_process()
-    gc.set_threshold(_NEW)
+    begin_process(_OBJECTS)
 
 
 @contextmanager

@@ -229,11 +229,11 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact:
             f"the series of the paired precession: order = {order} is above {most}, from where it takes minutes and more; "
             "for one pair lagrotor.precession_orbit gives the exact orbit at any amplitude"
         )
-    return _found(order, shape, ratio, exact)
+    return _solved(order, shape, ratio, exact)
 
 
 @lru_cache(maxsize=32)
-def _found(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> PairedSeries:
+def _solved(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> PairedSeries:
     field = field_of(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)

@@ -28,11 +28,11 @@ _X, _TWIST = 0, 1  # the unknowns whose displacement changes nothing at rest
 
 def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
     """A and B through r_0**order for sigma = `shape`, k = `ratio`, rational numbers or symbols; `exact` as `paired_series`."""
-    return _along(paired_series(order, shape, ratio, exact), exact)
+    return _exponents(paired_series(order, shape, ratio, exact), exact)
 
 
 @lru_cache(maxsize=16)
-def _along(orbit: PairedSeries, exact: bool) -> ExponentSeries:
+def _exponents(orbit: PairedSeries, exact: bool) -> ExponentSeries:
     """A and B as far as the orbit's own series goes."""
     residual = equations(orbit.shape, orbit.ratio, orbit.field)
     numeric = None if exact else equations(orbit.shape, orbit.ratio)
