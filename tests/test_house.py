@@ -182,27 +182,7 @@ def test_an_import_past_the_face_would_be_seen(tmp_path: Path) -> None:
     assert past_the_face(tmp_path / "script.py") == ["script.py: prove from lagrotor.paper.proof"]
 
 
-def long_ones(file: Path, lines: int, function: int) -> list[str]:
-    """What of a file is longer than it may be: itself, or a function in it."""
-    text = file.read_text()
-    found = [f"{file.name}: {n} lines"] if (n := len(text.splitlines())) > lines else []
-    functions = [node for node in nodes(file) if isinstance(node, ast.FunctionDef)]
-    spans = [(node.name, (node.end_lineno or 0) - node.lineno + 1) for node in functions]
-    return found + [f"{file.name}: {name}: {span} lines" for name, span in spans if span > function]
-
-
-def test_a_module_has_one_idea_and_a_function_can_be_read_at_once() -> None:
-    assert [found for path in MODULES.values() for found in long_ones(path, 250, 50)] == []
-
-
-def test_what_is_too_long_would_be_seen(tmp_path: Path) -> None:
-    (tmp_path / "long.py").write_text("def f():\n" + "    x = 1\n" * 60)
-    assert long_ones(tmp_path / "long.py", 60, 50) == ["long.py: 61 lines", "long.py: f: 61 lines"]
-
-
-def test_a_folder_can_be_scanned_and_names_of_modules_are_single() -> None:
-    folders = Counter(path.parent for path in MODULES.values())
-    assert {folder.name: count for folder, count in folders.items() if count > 19} == {}
+def test_names_of_modules_are_single() -> None:
     names = Counter(path.stem for path in MODULES.values() if not path.stem.startswith("__"))
     assert [name for name, count in names.items() if count > 1] == []
 
