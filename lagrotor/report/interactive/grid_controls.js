@@ -47,7 +47,7 @@ function showGrid(root) {
     const toggle = (bars) => () => { if (!bars().delete(i)) bars().add(i); };
     add(`rotor ${i}`, "grid-rotor", column, row, () => { kinds[i] = KINDS[(KINDS.indexOf(kinds[i]) + 1) % KINDS.length]; });
     if (i % SIDE < SIDE - 1) add(`right ${i}`, "grid-bar", column + 1, row, toggle(() => right));
-    if (i < SIDE * (SIDE - 1)) add(`up ${i}`, "grid-bar up", column, row - 1, toggle(() => up));
+    if (i < SIDE * (SIDE - 1)) add(`up ${i}`, "grid-bar grid-across", column, row - 1, toggle(() => up));
   }
 
   const name = (i) => `row ${Math.floor(i / SIDE) + 1} from below, place ${i % SIDE + 1}`;

@@ -9,6 +9,7 @@ function show(root) {
   const longest = Number(controls.time.max); // s
   const eye = { azimuth: -1.25, elevation: 0.3 };
   let now = 0, playing = false, frame = 0, last = null, setting = null, run = null;
+  let shocks = []; // that the run shown began after: [time of the run before it, along x, along y]
 
   const number = (name) => Number(controls[name].value);
   const shown = (layer) => part(`show-${layer}`).checked && (layer === "exact" || run.paired);
@@ -24,7 +25,7 @@ function show(root) {
     };
     if (JSON.stringify(next) !== JSON.stringify(setting)) {
       setting = next;
-      run = motion(next);
+      begin();
     }
     const unit = (name, digits, of) => { part(`${name}-value`).textContent = `${fixed(number(name), digits)}${of}`; };
     unit("r0", 3, "");
@@ -38,6 +39,19 @@ function show(root) {
     controls.order.disabled = controls.rate.disabled = !run.paired;
     for (const layer of ["series", "paper"]) part(`show-${layer}`).disabled = !run.paired;
     redraw();
+  }
+
+  // The choice's run, without a shock.
+  function begin() {
+    [run, shocks] = [motion(setting), []];
+  }
+
+  // The run after an impulse on tip 1 at a time of the run shown, from there on; none where that has ended before.
+  function strike(time, x, y) {
+    const next = [time, x, y].every(Number.isFinite) && time >= 0 ? run.after(time, [x, y, 0]) : null;
+    if (!next) return;
+    [run, now] = [next, 0];
+    shocks.push([time, x, y]);
   }
 
   // Written only where it changes, so that a screen reader stays quiet while the pair moves.
@@ -58,7 +72,9 @@ function show(root) {
     } else {
       if (!run.periodic) said.push("No periodic orbit was found: the exact run starts as the series does.");
       if (run.undecided > 0.01) {
-        said.push(`The series converges slowly here: its last two orders still move a tip by ${fixed(run.undecided, 2)} m.`);
+        const moved = `its last two orders still move a tip by ${fixed(run.undecided, 2)} m`;
+        said.push(run.diverges ? `The series diverges here: ${moved}, more than the two before them.`
+          : `The series converges slowly here: ${moved}.`);
       }
       if (setting.ell !== 1 || setting.mass > 0) said.push("The paper's formula is for a massless bar as long as an axis.");
     }
@@ -137,20 +153,32 @@ function show(root) {
     navigator.clipboard?.writeText(text).then(() => show(words), () => {});
   }
 
-  // The run shown, as code for lagrotor.
+  // The run shown, as code for lagrotor: from its start on and, as a scene has one shock, from the shock before the last on.
+  // A shock's pulse lies whole within the run.
   function asPython() {
     const { mass, inertia, ell, spins, r0 } = setting;
-    const link = `Link(length=${ell}, mass=${mass}, inertia=${inertia})`;
-    const head = "import numpy as np\n";
-    const times = `t=np.linspace(0, ${longest}, 2001)`;
-    if (run.paired && run.periodic && r0 > 0) {
-      return `${head}from lagrotor import Link, Scene, paired_scene, simulate\n\n`
-        + `scene = paired_scene(Scene(spins=(${spins}), link=${link}), ${r0})\nrun = simulate(scene, ${times})\nrun.plot()`;
+    const [time, x, y] = shocks.at(-1) ?? [0, 0, 0], at = Math.max(Number(time.toPrecision(6)), 0.01), earlier = shocks.slice(0, -1);
+    const before = shocks.length ? run.before : run, paired = before.paired && before.periodic && r0 > 0;
+    const names = ["Link", ...(paired ? ["Scene"] : []), ...(shocks.length ? ["Shock"] : []), paired ? "paired_scene" : "consistent_scene"];
+    const lines = ["import numpy as np", `from lagrotor import ${[...names, "simulate"].join(", ")}`];
+    const bar = `link=Link(length=${ell}, mass=${mass}, inertia=${inertia})`;
+    const shock = shocks.length ? ", shock=shock" : "";
+    lines.push("");
+    if (shocks.length) {
+      const per = "(width * np.sqrt(np.pi))";
+      lines.push("width = 1e-3  # s: the page's shock lasts no time", `shock = Shock(force=(${x} / ${per}, ${y} / ${per}, 0), at=${at}, width=width)`);
     }
-    const start = run.exact.states[0], pairs = (v) => `((${v.slice(0, 3)}), (${v.slice(3)}))`;
-    return `${head}from lagrotor import Link, Scene, simulate\n\nscene = Scene(\n    spins=(${spins}),\n    link=${link},\n`
-      + `    axes=${pairs(run.exact.axes[0])},\n    rates=${pairs(run.ratesOf(start))},\n)\n`
-      + `run = simulate(scene, ${times})\nrun.plot()`;
+    if (paired) {
+      lines.push(`scene = paired_scene(Scene(spins=(${spins}), ${bar}${shock}), ${r0})`);
+    } else {
+      // Six digits, which consistent_scene brings onto the bar.
+      const pairs = (v) => `((${[0, 1].map((i) => v.slice(3 * i, 3 * i + 3).map((u) => Number(u.toPrecision(6))).join(", ")).join("), (")}))`;
+      if (earlier.length) lines.push(`# t = 0 is the time of shock ${earlier.length} of ${shocks.length}`);
+      lines.push("scene = consistent_scene(", `    spins=(${spins}), ${bar}${shock},`, `    axes=${pairs(before.exact.axes[0])},`,
+        `    rates=${pairs(before.ratesOf(before.exact.states[0]))},`, ")");
+    }
+    lines.push(`run = simulate(scene, t=np.linspace(0, ${at + longest}, 2001))`, "run.plot()");
+    return lines.join("\n");
   }
 
   // What a control does not know leaves it as it is.
@@ -168,6 +196,8 @@ function show(root) {
       if (controls[name].type === "checkbox") controls[name].checked = given.get(name) === "1";
       else setTo(controls[name], given.get(name));
     }
+    choose();
+    for (const shock of given.getAll("shock")) strike(...shock.split(",").map(Number));
     root.scrollIntoView();
   }
 
@@ -204,18 +234,17 @@ function show(root) {
   });
   part("play").addEventListener("click", () => play(!playing));
   part("strike").addEventListener("click", () => {
-    const impulse = [number("push-x"), number("push-y"), 0];
-    const next = impulse.every(Number.isFinite) ? run.after(now, impulse) : null;
-    if (!next) return;
-    [run, now] = [next, 0];
+    strike(now, number("push-x"), number("push-y"));
     redraw();
   });
   part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
   part("link").addEventListener("click", () => {
-    history.replaceState(null, "", `#model?${new URLSearchParams(settings.map((name) => [name, chosen(name)]))}`);
+    const struck = shocks.map((shock) => ["shock", shock.map((x) => Number(x.toPrecision(6))).join(",")]);
+    history.replaceState(null, "", `#model?${new URLSearchParams([...settings.map((name) => [name, chosen(name)]), ...struck])}`);
     copied(location.href, "The link is on the clipboard:");
   });
   part("again").addEventListener("click", () => {
+    begin();
     now = 0;
     redraw();
   });

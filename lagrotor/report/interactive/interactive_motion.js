@@ -144,9 +144,11 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
     const along = (phase, of) => orbit(Math.cos(phase), Math.sin(phase), ...of);
     found.seriesRate = seriesRate;
     found.series = (t) => along(seriesRate * t, coefficients);
-    const less = through(ORDER - 2).slice(0, -1);
-    const last = (phase) => [0, 1].map((i) => apart(along(phase, best), along(phase, less), i));
-    found.undecided = Math.max(...Array.from({ length: 24 }, (_, n) => last(n * Math.PI / 12)).flat());
+    // How far a tip moves where the last two orders are added, and whether that is more than the two before them did.
+    const moved = (of, less) => Math.max(...Array.from({ length: 24 }, (_, n) => n * Math.PI / 12).flatMap((phase) =>
+      [0, 1].map((i) => apart(along(phase, sums(of)[0]), along(phase, sums(less)[0]), i))));
+    found.undecided = moved(ORDER, ORDER - 2);
+    found.diverges = found.undecided >= moved(ORDER - 2, ORDER - 4);
     // y_1', y_2' where the axes are parallel: s' = 1, c = 1 there.
     const y = best.slice(ORDER + 1, 2 * ORDER + 2), odd = (i) => i % 2;
     const sum = (keep) => y.reduce((total, v, i) => total + (keep(i) ? v : 0), 0);
@@ -166,11 +168,14 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
   const run = (from) => exactRun(rate, axesOf, from, fastest > 0 ? 2 * Math.PI / (STEPS * fastest) : 0.1, spins);
   found.exact = run(start);
   // The motion from a time on, after an impulse on tip 1: only the exact model has it.
-  found.after = (time, impulse) => {
-    const state = found.exact.stateAt(time);
+  const after = (before) => (time, impulse) => {
+    const state = before.exact.stateAt(time);
     if (!state) return null;
-    return { ...found, paired: false, periodic: false, impulse, exact: run(shocked(slopes, state, a, b, k, impulse)) };
+    const exact = run(shocked(slopes, state, a, b, k, impulse));
+    const next = { ...before, before, paired: false, periodic: false, impulse, exact };
+    return { ...next, after: after(next) };
   };
+  found.after = after(found);
   return found;
 }
 

@@ -71,7 +71,7 @@ def page(report: Report) -> str:
             f"<ul>{entries}</ul></details></nav>",
             '<main id="content">',
             *(_section(anchor, heading, report) for anchor, heading in listed),
-            '</main><footer><a class="up" href="#top">Back to top</a></footer>',
+            '</main><footer><a class="to-top" href="#top">Back to top</a></footer>',
             f"<script>\n{script}</script></body></html>\n",
         ]
     )

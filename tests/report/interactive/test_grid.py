@@ -12,6 +12,7 @@ import pytest
 from lagrotor import Link, Structure
 from lagrotor.report.interactive import grid as module
 from lagrotor.report.interactive.grid import grid_section
+from lagrotor.report.page import whole_page
 from tests.report.interactive.in_node import NODE, value_of
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -96,3 +97,33 @@ def test_the_board_in_a_browser(tmp_path) -> None:
     assert "It stands" in shown or "It falls" in shown
     for row, place in product((1, 2, 3), repeat=2):
         assert f'aria-label="row {row} from below, place {place}: ' in shown
+
+
+RECTANGLES = """document.querySelector("[data-grid=example]").value = "grid";
+    document.querySelector("[data-grid=example]").dispatchEvent(new Event("input"));
+    const box = (e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; };
+    const boxes = (name) => [...document.querySelectorAll(`#grid-model ${name}`)].filter((e) => !e.disabled).map(box);
+    document.body.innerHTML = `<pre id=boxes>${JSON.stringify([boxes(".grid-rotor"), boxes(".grid-bar")])}</pre>`;"""
+
+
+def misplaced_bars(style: str, folder: Path) -> list[int]:
+    """Which of the twelve bars, drawn with the page's style, overlap a rotor or do not lie midway between two."""
+    page = folder / "page.html"
+    fragment = f"<style>{style}</style><body>{grid_section()}<script>{RECTANGLES}</script>"
+    page.write_text(f"<!doctype html><meta charset=utf-8>{fragment}", encoding="utf-8")
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", f"file://{page}"]
+    shown = subprocess.run(command, capture_output=True, text=True, timeout=60).stdout
+    rotors, bars = map(np.array, json.loads(shown.split('<pre id="boxes">')[1].split("</pre>")[0]))
+    assert len(rotors) == 9 and len(bars) == 12
+    overlaps = (np.minimum(bars[:, None, 2:], rotors[:, 2:]) - np.maximum(bars[:, None, :2], rotors[:, :2])).min(-1) > 1
+    centres = (rotors[:, :2] + rotors[:, 2:]) / 2
+    middles = (centres[:, None] + centres)[np.triu_indices(9, 1)] / 2
+    off = np.linalg.norm((bars[:, None, :2] + bars[:, None, 2:]) / 2 - middles, axis=-1).min(1)
+    return [int(i) for i in np.flatnonzero(overlaps.any(1) | (off > 1))]
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+def test_the_bars_lie_between_their_rotors_on_the_whole_page(tmp_path: Path) -> None:
+    style = Path(whole_page.__file__).with_name("page.css").read_text(encoding="utf-8")
+    assert misplaced_bars(style, tmp_path) == []
+    assert misplaced_bars(style + " .grid-across { position: fixed; right: 0; bottom: 0 }", tmp_path) != []
