@@ -5,11 +5,11 @@
 # tools on the same pair; trajectories and points of closed forms a second.
 #
 # **Assumptions.** Times differ from machine to machine and from run to run. These are the results of one machine, recorded in
-# one run by `python -m lagrotor.report.renew_record speed`: medians of processor time over samples of at least 10 ms, the
+# one run by `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms, the
 # methods in turn. Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
 
 # %%
-from lagrotor.benchmark.recorded_speed import recorded_speed
+from lagrotor.benchmark.records import recorded_multiple, recorded_speed
 from lagrotor.benchmark.scenes_and_methods import CASES, OURS
 from lagrotor.models.choose import choose
 from lagrotor.paper import Table
@@ -26,8 +26,8 @@ def milliseconds(value):
 
 def multiple(name, error, of):
     """Seconds of a method over those of another at the same error, or a dash."""
-    ours, theirs = at_error[error][of], at_error[error][name]
-    return "—" if None in (ours, theirs) else f"{theirs / ours:.3g}"
+    ratio = recorded_multiple(found, name, error, of)
+    return "—" if ratio is None else f"{ratio:.3g}"
 
 
 # %% [markdown]

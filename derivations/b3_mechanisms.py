@@ -6,22 +6,21 @@
 # **Assumptions.** Rods of $l = 0.7$ m with $m = 1.3$ kg at their ends in a plane, relative angles; gyroscopes of
 # $I_1 = 0.3$, $I_3 = 0.2$ kg m² on each other's tips. Each tool is used as its documentation recommends, in a process of its
 # own; its right-hand side is equal to the others' to $10^{-9}$ before it is timed. One machine, recorded by
-# `python -m lagrotor.benchmark.mechanisms --record`; the counts of operations are the same everywhere.
+# `python -m benchmarks.mechanisms --record`; the counts of operations are the same everywhere.
 #
 # **Notation.** $n$ the number of rods or gyroscopes; ready: from the description of the mechanism to its right-hand side,
 # compiling included; rhs: one evaluation from Python.
 
 # %%
-from lagrotor.benchmark.mechanisms.comparison import ERROR, SIZES
-from lagrotor.benchmark.mechanisms.comparison_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
-from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
+from lagrotor.benchmark.mechanism_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_mechanisms
 from lagrotor.paper import Table
 
 found = recorded_mechanisms()
 machine = found.machine
 where = f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
 versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
-each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1] - n[-2]) for kind, n in SIZES.items()}
+each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1] - n[-2]) for kind, n in LINKS.items()}
 
 # %% [markdown]
 # ## Targets and measurements
@@ -40,9 +39,9 @@ tables = [
         "Mechanisms: tools, and what each needs",
         HEAD,
         tuple(rows(found.measured)),
-        f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of {ERROR:g} rad at eleven "
-        "times, by scipy's DOP853 or LSODA or the tool's own integrator, whichever is quickest. symbrim is not "
-        "among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
+        f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of "
+        f"{MECHANISM_ERROR:g} rad at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, whichever is "
+        "quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
     ),
     Table(
         "Mechanisms: do two formulations agree?",

@@ -7,7 +7,7 @@
 # of 0.05 and rates of 0.5 rad/s. The engines have three hinges a rotor. Accelerations under the bars, integrated by odeint,
 # come from Pinocchio's solver for constraints, or from Pinocchio's or Drake's matrices by sparse LU. MuJoCo has the bars as
 # tendons of fixed length, with the Runge–Kutta method of fourth order; Drake's own steps have them as constraints. One
-# machine and one thread, the tools in turns, recorded by `python -m lagrotor.benchmark.structure_comparison`.
+# machine and one thread, the tools in turns, recorded by `python -m benchmarks.structure_comparison`.
 #
 # **Notation.** Error: the largest error of a tip's coordinate, m. `simulate` integrates twice, for its error estimate; the
 # engines give none. With the fast extra both integrations run side by side in the processor's vectors, at the price of one.
@@ -15,7 +15,7 @@
 # %%
 import numpy as np
 
-from lagrotor.benchmark.structure_comparison import ERROR, SIZES, Timed, recorded_structures
+from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, Timed, recorded_structures
 from lagrotor.paper import Table
 
 record, found = recorded_structures()
@@ -48,7 +48,7 @@ wanted = Table(
             "10",
             times(nearest(n).seconds, ours[n].seconds),
         )
-        for n in SIZES
+        for n in ROTORS
     ),
     "Multiples of processor time to the same error. Pinocchio does not run 256 rotors here: its data hold four tensors of the "
     "cube of 768 speeds, 14 GB.",
@@ -79,7 +79,7 @@ table = Table(
         )
         for x in found
     ),
-    f"Processor time to an error of {ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
+    f"Processor time to an error of {CHAIN_ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
     f"{machine['Python']}; compiling left out. A tool without a time did not come to that error with its finest step, or "
     "did not run.",
 )

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.benchmark.mechanisms.recorded_mechanisms import recorded_mechanisms
+from lagrotor.benchmark.records import recorded_mechanisms
 from lagrotor.drawing import OKABE_ITO
 
 LOOKS = {

@@ -1,6 +1,7 @@
 """The house as CONTRIBUTING.md draws it: every import runs downward, no room and no module lies on a circle."""
 
 import ast
+import tomllib
 from collections import Counter
 from functools import cache
 from importlib import import_module
@@ -106,6 +107,30 @@ def test_every_room_has_its_floor() -> None:
 
 def test_no_import_runs_upward(imports: dict[str, set[str]]) -> None:
     assert upward(imports) == []
+
+
+def development_imports(file: Path) -> list[str]:
+    """What a file imports of `benchmarks` and `tests`, which the wheel does not have."""
+    names = [
+        alias.name if isinstance(node, ast.Import) else node.module or ""
+        for node in nodes(file)
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+        for alias in node.names
+    ]
+    return [f"{file.name} imports {name}" for name in names if name.split(".")[0] in ("benchmarks", "tests")]
+
+
+def test_what_the_wheel_holds_imports_nothing_that_it_does_not_hold() -> None:
+    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
+    folders = wheel["only-include"]
+    assert "lagrotor" in folders and not {"benchmarks", "tests"} & set(folders)
+    files = [file for folder in folders for file in sorted((ROOT / folder).rglob("*.py"))]
+    assert [line for file in files for line in development_imports(file)] == []
+
+
+def test_an_import_of_what_the_wheel_does_not_hold_would_be_seen(tmp_path: Path) -> None:
+    (tmp_path / "module.py").write_text("def draw():\n    from benchmarks.peers import PEERS\n")
+    assert development_imports(tmp_path / "module.py") == ["module.py imports benchmarks.peers"]
 
 
 def test_no_module_lies_on_a_circle(imports: dict[str, set[str]]) -> None:

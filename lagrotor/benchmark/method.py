@@ -22,13 +22,13 @@ class Method:
     """A benchmarked method: its family, how its runner is made, its accuracy settings.
 
     prepare(scene, t_eval) → runner(setting) → tips (2, n, 3) in m, and nfev. The setting is a tolerance, or one of `steps`
-    (s) of a method with equal steps. extra: the optional dependency of pyproject.toml that installs it.
+    (s) of a method with equal steps. install: what pip installs for it.
     """
 
     family: Family
     prepare: Prepare
     steps: tuple[float, ...] = ()
-    extra: str = ""
+    install: str = ""
 
 
 def tips(scene: Scene, axes: Array) -> Array:

@@ -124,7 +124,7 @@ def _prepare_all(
                 runner(settings[0])
             ready[method] = _Prepared(runner, settings, time.perf_counter() - began)
         except ImportError as absent:
-            reason = f"not installed ({absent.name}): pip install 'lagrotor[{given.extra}]'"
+            reason = f"not installed ({absent.name}): pip install {given.install}"
             record.failed.append((method, None, reason))
         except LagrotorError as refusal:
             record.failed.append((method, None, str(refusal)))

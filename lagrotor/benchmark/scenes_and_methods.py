@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
-from lagrotor.benchmark.compiled_solvers import CANDIDATES
 from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare, Runner
-from lagrotor.benchmark.peers import PEERS
 from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, work_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.simulate import simulate
@@ -106,12 +104,6 @@ METHODS: dict[str, Method] = {
 _ELSEWHERE = "takes seconds a run; see the displaced pair"
 _LEFT_OUT = {
     "quick": {
-        "minimal, CyRK": "compiles for six seconds",
-        "minimal, numba": "slower than minimal, CyRK",
-        "PyDy, lambdify": "slower than PyDy, Cython",
-        "LagrangesMethod": "slower than PyDy, Cython",
-        "Drake, SAP": "gives no digit in less than a second",
-        "Drake, multipliers": "slower than Pinocchio, which is as exact",
         "euler": "slower than minimal, which goes as far",
         "springs, 100 times as stiff": "takes two seconds a run",
     }
@@ -132,12 +124,12 @@ _LEFT_OUT = {
 
 
 def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
-    """All four cases; candidates and peers on the displaced one, the plain calls on the shock. step: called with each name."""
+    """All four cases; on the shock the plain calls, too. step: called with each name."""
     longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
     found = []
     for name, case in CASES.items():
         step(name)
-        methods = METHODS | {"displaced": CANDIDATES | PEERS, "shock": TRAPS}.get(name, {})
+        methods = METHODS | (TRAPS if name == "shock" else {})
         slow = _LEFT_OUT.get(name, {}) | (_LEFT_OUT["quick"] if quick else {})
         left_out = {method: why for method, why in slow.items() if method in methods}
         tolerances = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
@@ -155,20 +147,12 @@ def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: N
 OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
 
 
-def ratios(found: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of the best of OURS, and of each other tool as multiples of them; None where one does not reach it."""
-    by = {name: [p for p in found.points if p.family in families] for name, families in OURS.items()}
-    others = {name: [p for p in found.points if p.method == name] for name in (*CANDIDATES, *PEERS)}
+def ratios(chart: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
+    """Error → seconds of the best of OURS, and how many times longer core takes than fast; None where one does not reach it."""
+    points = {name: [p for p in chart.points if p.family in families] for name, families in OURS.items()}
     table = {}
     for error in errors:
-        ours = {name: work_at(points, error) for name, points in by.items()}
-        row: dict[str, Any] = ours | {"core / fast": _over(ours["core"], ours["fast"])}
-        for name, points in others.items():
-            theirs = work_at(points, error)
-            row |= {f"{name} / {best}": _over(theirs, seconds) for best, seconds in ours.items()}
-        table[f"{error:g}"] = row
+        ours = {name: work_at(of, error) for name, of in points.items()}
+        core, fast = ours["core"], ours["fast"]
+        table[f"{error:g}"] = ours | {"core / fast": core / fast if core and fast else None}
     return table
-
-
-def _over(theirs: float | None, ours: float | None) -> float | None:
-    return theirs / ours if theirs and ours else None

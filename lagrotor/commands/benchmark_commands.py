@@ -68,14 +68,30 @@ def chart_command(given: argparse.Namespace) -> int:
 
 
 def as_data(found: "list[Benchmark]") -> dict[str, Any]:
-    """The benchmarks and the ratios of the displaced scene, for JSON."""
+    """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0])}
+    return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0]), "other_tools": other_tools()}
+
+
+def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
+    """Other tools on the displaced scene, on record: tool → error → best of ours → how many times longer the tool takes."""
+    from lagrotor.benchmark.records import recorded_multiple, recorded_speed
+    from lagrotor.benchmark.scenes_and_methods import METHODS
+
+    record = recorded_speed()
+    others = [name for name in record["set_up"] if name not in METHODS]
+    return {
+        name: {
+            error: {of: recorded_multiple(record, name, error, f"best of {of}") for of in ("core", "fast")}
+            for error in record["at_error"]
+        }
+        for name in others
+    }
 
 
 def in_words(found: "list[Benchmark]") -> str:
-    """The front of each scene, set-up times, failures and ratios, as tables."""
+    """The front of each scene, set-up times, failures, ratios, and other tools on record, as tables."""
     from lagrotor.benchmark.runner import front, listed
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
@@ -97,7 +113,14 @@ def in_words(found: "list[Benchmark]") -> str:
         for name, value in row.items()
         if value is not None
     ]
-    return "\n".join([*parts, table(("error (m)", "at equal error, displaced", "time or ratio"), compared)])
+    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared), ""]
+    recorded = [
+        (name, error, *("—" if times is None else f"{times:.3g}" for times in multiples.values()))
+        for name, at_error in other_tools().items()
+        for error, multiples in at_error.items()
+        if any(multiples.values())
+    ]
+    return "\n".join([*parts, table(("other tools, on record", "error (m)", "over core", "over fast"), recorded)])
 
 
 def stability_command(given: argparse.Namespace) -> int:

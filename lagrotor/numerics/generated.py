@@ -2,7 +2,7 @@
 
 A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text lies in
 `generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called.
-`python -m lagrotor.report.renew_record code` writes these files, and a test derives every block again.
+`python -m tests.numerics.renew_generated` writes these files, and a test derives every block again.
 """
 
 from __future__ import annotations

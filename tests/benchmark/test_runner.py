@@ -64,11 +64,11 @@ class Clock:
 
 def test_what_fails_or_is_absent_is_listed() -> None:
     methods = {"minimal": METHODS["minimal"], "broken": Method("core", broken), "lost": Method("core", lost)}
-    methods |= {"absent": Method("peer", absent, extra="peers"), "halfway": Method("core", halfway)}
+    methods |= {"absent": Method("peer", absent, install="--group peers"), "halfway": Method("core", halfway)}
     found = benchmark("small", small(), methods, (1e-3, 1e-6))
     assert {(p.method, p.setting) for p in found.points} == {("minimal", 1e-3), ("minimal", 1e-6), ("halfway", 1e-3)}
     assert [str(failure) for failure in found.failures] == [
-        "absent: not installed (pydy): pip install 'lagrotor[peers]'",
+        "absent: not installed (pydy): pip install --group peers",
         "broken: does not do this",
         "halfway at 1e-06: too tight",
         "lost: a value is not finite",

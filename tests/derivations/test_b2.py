@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from lagrotor.benchmark import recorded_speed as recorded
+from lagrotor.benchmark import records
 from lagrotor.benchmark.scenes_and_methods import OURS
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -16,7 +16,7 @@ def made():
 
 
 def test_the_record_says_what_it_was_made_with(made):
-    found = recorded.recorded_speed()
+    found = records.recorded_speed()
     assert {"machine", "versions", "at_error", "least_error", "set_up", "throughput"} <= found.keys()
     assert found["machine"]["processor"] and found["versions"].keys() >= {"numpy", "scipy", "sympy"}
     assert all(found["machine"]["processor"] in table.note for table in made["tables"][::2])
@@ -25,7 +25,7 @@ def test_the_record_says_what_it_was_made_with(made):
 
 
 def test_the_tables_are_the_record(made):
-    found, (times, multiples, rates) = recorded.recorded_speed(), made["tables"]
+    found, (times, multiples, rates) = records.recorded_speed(), made["tables"]
     row = next(row for row in times.rows if row[0] == "minimal")
     assert row[1] == f"{1e3 * found['at_error']['1e-06']['minimal']:.3g}"
     assert all(len(row) == len(times.head) for row in times.rows)
@@ -43,11 +43,11 @@ def test_an_error_that_is_not_reached_is_a_dash(made):
 
 def test_a_broken_record_is_said(tmp_path, monkeypatch):
     broken = tmp_path / "recorded.json"
-    monkeypatch.setattr(recorded, "RECORDED", broken)
-    with pytest.raises(LagrotorError, match="renew it"):
-        recorded.recorded_speed()
+    monkeypatch.setattr(records, "SPEED", broken)
+    with pytest.raises(LagrotorError, match="install lagrotor anew"):
+        records.recorded_speed()
     broken.write_text("{")
-    with pytest.raises(LagrotorError, match="renew it"):
-        recorded.recorded_speed()
+    with pytest.raises(LagrotorError, match="install lagrotor anew"):
+        records.recorded_speed()
     broken.write_text(json.dumps({"machine": {}}))
-    assert recorded.recorded_speed() == {"machine": {}}
+    assert records.recorded_speed() == {"machine": {}}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lagrotor.benchmark.mechanisms.comparison import TOOLS
+from benchmarks.mechanisms.comparison import TOOLS
 from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 

@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrotor.numerics import Program, generated, program_source
 from lagrotor.numerics.generated import GeneratedFunction, function_of
-from lagrotor.report.renew_record import generated_code
+from tests.numerics.renew_generated import derived_files
 
 x, y = sp.symbols("x y", real=True)
 DERIVED: list[int] = []
@@ -66,16 +66,16 @@ def test_of_each_kind_one_that_is_kept_is_what_is_derived() -> None:
     assert len(kinds) > 10
     for one in kinds:
         given = one.kept[len(one.kept) // 2]
-        assert as_derived(one, given), f"{one.name(*given)}: python -m lagrotor.report.renew_record code"
+        assert as_derived(one, given), f"{one.name(*given)}: python -m tests.numerics.renew_generated"
 
 
 @pytest.mark.slow
 def test_everything_kept_is_what_is_derived() -> None:
-    for file, text in generated_code().items():
+    for file, text in derived_files().items():
         kept = file.read_text(encoding="utf-8")
         if kept.split("\n")[0] != text.split("\n")[0]:
             pytest.skip(f"another sympy than {kept.splitlines()[0]} may print the same function in another way")
-        assert kept == text, f"{file} is out of date: python -m lagrotor.report.renew_record code"
+        assert kept == text, f"{file} is out of date: python -m tests.numerics.renew_generated"
 
 
 def test_a_changed_derivation_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:

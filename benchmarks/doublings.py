@@ -1,6 +1,6 @@
 """What an evaluation of a chain costs when its rotors double: processor time, all in one run, in turns.
 
-`python -m lagrotor.benchmark.doublings` prints it for massless and for heavy bars, by the core and by the fast extra:
+`python -m benchmarks.doublings` prints it for massless and for heavy bars, by the core and by the fast extra:
 some minutes.
 """
 
@@ -11,8 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from benchmarks.structure_comparison import MASSLESS, staircase
 from lagrotor.benchmark.method import Array
-from lagrotor.benchmark.structure_comparison import MASSLESS, staircase
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.process import begin_process

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.peers.rig import Rig, rig_of
+from benchmarks.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor.benchmark.method import Method, Prepare, Runner
-from lagrotor.benchmark.peers.rig import Rig, rig_of
-from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor.errors import IntegrationError
 
 Array = NDArray[np.float64]
@@ -235,7 +235,7 @@ def _on_the_pair(prepare: Callable[[Rig, Array], Runner]) -> Prepare:
 
 
 BODIES: dict[str, Method] = {
-    name: Method("peer", _on_the_pair(prepare), steps, "engines")
+    name: Method("peer", _on_the_pair(prepare), steps, "--group engines")
     for name, (prepare, steps) in ENGINES.items()
     if name != "Pinocchio, sparse"  # one bar is no sparse system
 }

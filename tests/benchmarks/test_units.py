@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.benchmark import units
-from lagrotor.benchmark.units import LONG, QUICK, Command, line, measure, measured
+from benchmarks import units
+from benchmarks.units import LONG, QUICK, Command, line, measure, measured
 from lagrotor.errors import LagrotorError
 
 ROOT = Path(__file__).parent.parent.parent

@@ -6,8 +6,9 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from lagrotor.benchmark import structure_comparison
-from lagrotor.benchmark.structure_comparison import ERROR, SIZES, begun, recorded_structures, staircase, tools
+from benchmarks import structure_comparison
+from benchmarks.structure_comparison import begun, staircase, tools
+from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, recorded_structures
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 
@@ -15,8 +16,8 @@ def test_the_table_is_the_record() -> None:
     record, found = recorded_structures()
     table = PAPER.scripts.run("derivations", "b4_chains_of_rotors")["table"]
     assert len(table.rows) == len(found) and record["machine"]["processor"] in table.note
-    assert {x.n for x in found if x.tool == "lagrotor, fast"} == set(SIZES)
-    assert all(x.error <= ERROR for x in found if x.seconds) and all(x.reason for x in found if not x.seconds)
+    assert {x.n for x in found if x.tool == "lagrotor, fast"} == set(ROTORS)
+    assert all(x.error <= CHAIN_ERROR for x in found if x.seconds) and all(x.reason for x in found if not x.seconds)
     own = next(x for x in found if (x.n, x.tool) == (16, "lagrotor, fast"))
     row = next(row for row in table.rows if row[:2] == ("16", "lagrotor, fast"))
     assert row[4:6] == (f"{1e3 * own.seconds:.3g}", "1.0")
@@ -28,7 +29,7 @@ def test_the_coarsest_setting_that_suffices_is_taken() -> None:
     found = structure_comparison._reached(2, "tool", lambda setting: truth + runs[setting], tuple(runs), truth)
     assert (found.setting, found.error) == (1e-2, pytest.approx(5e-7))
     worse = structure_comparison._reached(2, "tool", lambda setting: truth + 1e-3, tuple(runs), truth)
-    assert worse.error == pytest.approx(1e-3) and replace(worse, seconds=1.0).error > ERROR
+    assert worse.error == pytest.approx(1e-3) and replace(worse, seconds=1.0).error > CHAIN_ERROR
 
 
 def test_every_tool_that_is_there_runs_the_same_chain() -> None:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind
-from lagrotor.benchmark.mechanisms.tool import Array, Ready, Tool
+from benchmarks.mechanisms.chains import JOINTS, VALUES
+from benchmarks.mechanisms.tool import Array, Ready, Tool
+from lagrotor.benchmark.records import Kind
 
 _NUMBERS = {str(s): value for s, value in VALUES.items()}
 
@@ -141,5 +142,5 @@ def pydy(kind: Kind, n: int) -> Ready:
 SYMPY = {
     "KanesMethod": Tool(kane),
     "LagrangesMethod": Tool(lagrange),
-    "PyDy, Cython": Tool(pydy, "pydy", "peers", ("Cython",)),
+    "PyDy, Cython": Tool(pydy, "pydy", "--group peers", ("Cython",)),
 }

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.peers import PEERS
+from benchmarks.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor import simulate
 from lagrotor.benchmark.method import Case
-from lagrotor.benchmark.peers import PEERS
-from lagrotor.benchmark.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor.benchmark.runner import benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import IntegrationError
@@ -35,7 +35,7 @@ ORDERS = {"MuJoCo": 2, "Drake, SAP": 1}
 
 
 def run_of(name: str, scene: Any = SCENE) -> Any:
-    pytest.importorskip(NEEDS[name], reason=f"{name} is in the extra {PEERS[name].extra}")
+    pytest.importorskip(NEEDS[name], reason=f"{name} is not installed: pip install {PEERS[name].install}")
     if name == "PyDy, Cython":
         pytest.importorskip("Cython", reason="PyDy compiles with it")
     return PEERS[name].prepare(scene, TIMES)
@@ -102,4 +102,4 @@ def test_what_is_not_installed_is_said() -> None:
     found = benchmark("small", Case(SCENE, TIMES, 0, ""), {name: PEERS[name] for name in absent}, (1e-3,))
     assert not found.points
     assert {f.method for f in found.failures} == set(absent)
-    assert all("not installed" in f.reason and "pip install 'lagrotor[" in f.reason for f in found.failures)
+    assert all("not installed" in f.reason and "pip install --group " in f.reason for f in found.failures)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.mechanisms.chains import Kind
+from lagrotor.benchmark.records import Kind
 
 Array = NDArray[np.float64]
 Rhs = Callable[[float, Array], "Array | list[float]"]  # (t, (q, v)) → (v, a)
@@ -27,11 +27,11 @@ class Ready:
 
 @dataclass(frozen=True)
 class Tool:
-    """prepare(kind, n) makes it ready; module: what has to be importable; extra: the optional dependency that installs it."""
+    """prepare(kind, n) makes it ready; module: what has to be importable; install: what pip installs for it."""
 
     prepare: Callable[[Kind, int], Ready]
     module: str = "sympy"
-    extra: str = ""
+    install: str = ""
     others: tuple[str, ...] = ()  # modules needed besides
 
 

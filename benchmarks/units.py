@@ -1,4 +1,4 @@
-"""The commands' times in units of `python -c "import sympy"`, beside the targets: `python -m lagrotor.benchmark.units`.
+"""The commands' times in units of `python -c "import sympy"`, beside the targets: `python -m benchmarks.units`.
 
 Each command runs in processes of its own, five times, and the median counts; the unit is measured between them, so that a
 machine that is busy slows both. `--whole` adds the long commands: the whole audit, the main job and the tests, once each; of
@@ -19,7 +19,7 @@ from statistics import median
 
 from lagrotor.errors import LagrotorError
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parent.parent
 UNIT = ("-c", "import sympy")
 REPEATS = 5
 
@@ -137,9 +137,7 @@ def line(row: Row) -> str:
 
 
 def main(whole: bool) -> None:
-    """Measure in a copy of the sources, and print each row when it is known. Raises LagrotorError outside a checkout."""
-    if not (ROOT / "pyproject.toml").exists():
-        raise LagrotorError(f"{ROOT} is no checkout of lagrotor: clone it, and measure there")
+    """Measure in a copy of the sources, and print each row when it is known."""
     print(f"{'units of import sympy':<44}{'wanted':>8} {'wall':>8} {'processor':>10} {'MB':>8}")
     with tempfile.TemporaryDirectory() as base:
         folder = Path(base) / "lagrotor"
@@ -151,5 +149,5 @@ def main(whole: bool) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["--whole"]):
-        sys.exit("usage: python -m lagrotor.benchmark.units [--whole]")
+        sys.exit("usage: python -m benchmarks.units [--whole]")
     main(sys.argv[1:] == ["--whole"])

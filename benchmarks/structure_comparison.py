@@ -1,7 +1,7 @@
 """Chains of rotors by this tool and by multibody engines: processor time to one error, all in one run, in turns.
 
-`python -m lagrotor.benchmark.structure_comparison` writes the record that the report shows; some minutes, in one thread. A
-tool's time is that of its coarsest setting whose tips are within ERROR of the reference at all times: the exact model at
+`python -m benchmarks.structure_comparison` writes the record that the report shows; some minutes, in one thread. A
+tool's time is that of its coarsest setting whose tips are within CHAIN_ERROR of the reference at all times: the exact model at
 10⁻¹², with which every engine agrees. `simulate` gives its error estimate, for which it integrates twice; the engines give none.
 """
 
@@ -9,29 +9,26 @@ import json
 import os
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from importlib.util import find_spec
 from multiprocessing import get_context
-from pathlib import Path
 from statistics import median
 from typing import Any
 
 import numpy as np
 
+from benchmarks.machine import machine, versions
+from benchmarks.peers.multibody_engines import ENGINES
+from benchmarks.peers.rig import Rig
 from lagrotor.benchmark.method import Array, Runner
-from lagrotor.benchmark.peers.multibody_engines import ENGINES
-from lagrotor.benchmark.peers.rig import Rig
-from lagrotor.benchmark.recorded_speed import machine, versions
-from lagrotor.errors import IntegrationError, LagrotorError
+from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, STRUCTURES, Timed
+from lagrotor.errors import IntegrationError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.structures.exact.structure_run import StructureRun
 from lagrotor.structures.structure import Structure
 
-RECORDED = Path(__file__).with_name("recorded_structures.json")
-SIZES = (16, 64, 256)
-ERROR = 1e-6
 MASSLESS = Link(1, 0, 0)
 TIMES = np.linspace(0, 3, 31)
 _LONGEST = 60.0  # s of a run, after which no finer setting is tried
@@ -41,23 +38,6 @@ _ROUNDS = 5
 _TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(3, 24))
 _MODULES = {"MuJoCo": "mujoco", "Pinocchio": "pinocchio", "Drake": "pydrake"}
 Run = Callable[[float], Array]
-
-
-@dataclass(frozen=True)
-class Timed:
-    """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
-
-    seconds is None where no setting reaches ERROR before a run takes `_LONGEST`; error is then the least that was reached
-    (infinite where it was refused; null on record), and reason why it stopped, where it did.
-    """
-
-    n: int
-    tool: str
-    setting: float
-    error: float
-    seconds: float | None
-    first: float
-    reason: str = ""
 
 
 def staircase(n: int, link: Link = MASSLESS) -> Structure:
@@ -108,19 +88,19 @@ def compared(n: int, say: Callable[[str], None], out: set[str]) -> list[Timed]:
         if name in out:
             continue
         found[name], seconds = _reached(n, name, run, settings, truth), list[float]()
-        if found[name].error <= ERROR and found[name].first < _ONCE:
+        if found[name].error <= CHAIN_ERROR and found[name].first < _ONCE:
             chosen[name] = (run, found[name].setting, seconds)
         say(f"{n} {name}: error {found[name].error:.1e} at {found[name].setting:g}")
     for _ in range(_ROUNDS):
         for run, setting, seconds in chosen.values():
             seconds.append(_timed(run, setting)[1])
-    taken = {name: each.first if each.error <= ERROR else None for name, each in found.items()}
+    taken = {name: each.first if each.error <= CHAIN_ERROR else None for name, each in found.items()}
     taken |= {name: median(seconds) for name, (_, _, seconds) in chosen.items()}
     return [replace(each, seconds=taken[name]) for name, each in found.items()]
 
 
 def _reached(n: int, name: str, run: Run, settings: tuple[float, ...], truth: Array) -> Timed:
-    """The first setting within ERROR, or the best of those that were tried."""
+    """The first setting within CHAIN_ERROR, or the best of those that were tried."""
     best = Timed(n, name, settings[0], np.inf, None, 0.0)
     for setting in settings:
         try:
@@ -130,7 +110,7 @@ def _reached(n: int, name: str, run: Run, settings: tuple[float, ...], truth: Ar
         error = float(np.abs(tips - truth).max())
         if error < best.error:
             best = Timed(n, name, setting, error, None, seconds)
-        if error <= ERROR or seconds > _LONGEST:
+        if error <= CHAIN_ERROR or seconds > _LONGEST:
             break
     return best
 
@@ -148,7 +128,7 @@ def _timed(run: Run, setting: float) -> tuple[Array, float]:
 def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any]:
     """All of it: machine, versions, and the rows."""
     rows: list[Timed] = []
-    for n in SIZES:
+    for n in ROTORS:
         found = compared(n, say, {row.tool for row in rows if row.reason})
         rows += found
         least = min(row.seconds for row in found if row.seconds)
@@ -165,19 +145,8 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
     }
 
 
-def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
-    """What is on record: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
-    try:
-        data = json.loads(RECORDED.read_text(encoding="utf-8"))
-        return data, [
-            Timed(**row | {"error": np.inf if row["error"] is None else row["error"]}) for row in data["rows"]
-        ]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise LagrotorError(f"{RECORDED} cannot be read ({error}): renew it") from None
-
-
 def _in_one_thread() -> None:
-    write_text(RECORDED, json.dumps(measure_all(print), indent=1) + "\n")
+    write_text(STRUCTURES, json.dumps(measure_all(print), indent=1) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,13 +1,13 @@
 """Tools on growing mechanisms: time to be ready, time of a right-hand side, time to an error; one process for each.
 
 A tool's right-hand side is first compared with lagrotor's at some states; only what is equal is timed. Runs end at the first
-setting whose error is at most ERROR, the largest of a coordinate (rad) at eleven times of one second; the reference is
+setting whose error is at most MECHANISM_ERROR, the largest of a coordinate (rad) at eleven times of one second; the reference is
 scipy's DOP853 at 10⁻¹³ on the right-hand side that all agree on.
 """
 
 import gc
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from importlib.util import find_spec
 from statistics import median
@@ -17,43 +17,26 @@ import numpy as np
 from numpy.typing import NDArray
 from sympy.core.cache import clear_cache
 
-from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, start
-from lagrotor.benchmark.mechanisms.engine_tools import ENGINES
-from lagrotor.benchmark.mechanisms.own_tools import OWN
-from lagrotor.benchmark.mechanisms.sympy_tools import SYMPY
-from lagrotor.benchmark.mechanisms.tool import Ready, Rhs, Tool, in_own_process
+from benchmarks.mechanisms.chains import JOINTS, VALUES, chain, start
+from benchmarks.mechanisms.engine_tools import ENGINES
+from benchmarks.mechanisms.own_tools import OWN
+from benchmarks.mechanisms.sympy_tools import SYMPY
+from benchmarks.mechanisms.tool import Ready, Rhs, Tool, in_own_process
 from lagrotor.benchmark.method import TOLERANCES
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Kind, Measured
+from lagrotor.mechanics.running.programs import motion_program
+from lagrotor.numerics.codegen import operations
 
 Array = NDArray[np.float64]
 TOOLS: dict[str, Tool] = OWN | SYMPY | ENGINES
-SIZES: dict[Kind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}
 TIMES = np.linspace(0, 1, 11)
-ERROR = 1e-8
 SAME = 1e-9  # relative difference of right-hand sides up to which they are equal
 _LONGEST = 40.0  # s of processor time, for one tool on one mechanism; beyond, larger ones are left out
 _SAMPLES, _SAMPLE = 15, 5e-3
 
 
-@dataclass(frozen=True)
-class Measured:
-    """One tool on one mechanism, processor time in s; a reason in place of what was not measured.
-
-    difference: of its right-hand side from lagrotor's, relative. by: what ran it to the error.
-    """
-
-    kind: Kind
-    n: int
-    tool: str
-    ready: float | None = None
-    rhs: float | None = None
-    difference: float | None = None
-    run: float | None = None
-    by: str = ""
-    reason: str = ""
-
-
 def compare(
-    sizes: Mapping[Kind, Sequence[int]] = SIZES,
+    sizes: Mapping[Kind, Sequence[int]] = LINKS,
     tools: Mapping[str, Tool] = TOOLS,
     step: Callable[[str], None] = lambda text: None,
 ) -> list[Measured]:
@@ -63,7 +46,7 @@ def compare(
         for name, tool in tools.items():
             missing = [module for module in (tool.module, *tool.others) if find_spec(module) is None]
             if missing:
-                way = f"{', '.join(missing)} not installed: pip install 'lagrotor[{tool.extra}]'"
+                way = f"{', '.join(missing)} not installed: pip install {tool.install}"
                 found.append(Measured(kind, min(numbers), name, reason=way))
                 continue
             for n in sorted(numbers):
@@ -114,8 +97,8 @@ def _prepared(tool: Tool, kind: Kind, n: int) -> tuple[Ready, float]:
 
 
 def ready_in_turns(kind: Kind, rounds: int = 15) -> list[float]:
-    """Median processor time, s, in which lagrotor is ready, on each of SIZES: in turns, so that load comes to all alike."""
-    times: dict[int, list[float]] = {n: [] for n in SIZES[kind]}
+    """Median processor time, s, in which lagrotor is ready, on each of LINKS: in turns, so that load comes to all alike."""
+    times: dict[int, list[float]] = {n: [] for n in LINKS[kind]}
     for _ in range(rounds):
         for n, taken in times.items():
             clear_cache()
@@ -161,7 +144,7 @@ def _sample(call: Callable[[], Any], number: int) -> float:
 
 
 def _run(ready: Ready, kind: Kind, n: int) -> dict[str, Any]:
-    """The least time of a run with at most ERROR: by the tool's own way, or by scipy's DOP853 or LSODA."""
+    """The least time of a run with at most MECHANISM_ERROR: by the tool's own way, or by scipy's DOP853 or LSODA."""
     begin = start(kind, n)
     truth = _scipy(chain(kind, n).rhs(VALUES), begin, "DOP853", 1e-13)
     ways: list[tuple[str, Callable[[float], Array], tuple[float, ...]]] = [
@@ -169,9 +152,9 @@ def _run(ready: Ready, kind: Kind, n: int) -> dict[str, Any]:
     ]
     if ready.run:
         ways.append(("its own", partial(ready.run, begin, TIMES), ready.settings))
-    best: dict[str, Any] = {"run": None, "by": f"no setting reaches {ERROR:g}"}
+    best: dict[str, Any] = {"run": None, "by": f"no setting reaches {MECHANISM_ERROR:g}"}
     for name, run, settings in ways:
-        enough = next((setting for setting in settings if np.abs(run(setting) - truth).max() <= ERROR), None)
+        enough = next((setting for setting in settings if np.abs(run(setting) - truth).max() <= MECHANISM_ERROR), None)
         if enough is not None:
             seconds = _time_of(partial(run, enough))
             if best["run"] is None or seconds < best["run"]:
@@ -185,3 +168,8 @@ def _scipy(rhs: Rhs, begin: Array, name: str, tol: float) -> Array:
 
     found = solve_ivp(rhs, (0, TIMES[-1]), begin, name, TIMES, rtol=tol, atol=tol)
     return np.asarray(found.y.T[:, : len(begin) // 2])
+
+
+def operation_counts() -> dict[Kind, list[int]]:
+    """Operations of one evaluation on each of LINKS."""
+    return {kind: [operations(motion_program(chain(kind, n)).program) for n in sizes] for kind, sizes in LINKS.items()}

@@ -4,17 +4,15 @@ Rods: without mass, length l, a mass m at each end, in the plane y = 0. Gyroscop
 x and then y, a rotor about its middle on a third, about z; the next stands on its tip. Gravity g along −z.
 """
 
-from typing import Literal
-
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrotor.benchmark.records import Kind
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.mechanics.bodies.rigid_bodies import Energy
 
 Array = NDArray[np.float64]
-Kind = Literal["rods", "gyroscopes"]
 
 m, l, g, I1, I3 = sp.symbols("m l g I_1 I_3", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I3: 0.2}

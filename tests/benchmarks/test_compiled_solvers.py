@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.compiled_solvers import CANDIDATES
 from lagrotor import simulate
-from lagrotor.benchmark.compiled_solvers import CANDIDATES
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import InputError
 
@@ -16,7 +16,7 @@ NEEDS = {"minimal, CyRK": ("numba", "CyRK"), "minimal, numba": ("numba",)}
 
 def prepare(name: str, course: str) -> Any:
     for module in NEEDS[name]:
-        pytest.importorskip(module, reason=f"{name} is in the extra {CANDIDATES[name].extra}")
+        pytest.importorskip(module, reason=f"{name} is not installed: pip install {CANDIDATES[name].install}")
     return CANDIDATES[name].prepare(CASES[course](True).scene, TIMES)
 
 

@@ -7,14 +7,15 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from lagrotor.benchmark.mechanisms import comparison, deciding
-from lagrotor.benchmark.mechanisms import recorded_mechanisms as record
-from lagrotor.benchmark.mechanisms.chains import JOINTS, VALUES, Kind, chain, g
-from lagrotor.benchmark.mechanisms.comparison import SAME, SIZES, TIMES, TOOLS, Measured
-from lagrotor.benchmark.mechanisms.comparison_tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
-from lagrotor.benchmark.mechanisms.deciding import PAIRS, Decided
-from lagrotor.benchmark.mechanisms.own_tools import OWN
-from lagrotor.benchmark.mechanisms.tool import Ready, Tool
+from benchmarks.mechanisms import comparison, deciding
+from benchmarks.mechanisms.chains import JOINTS, VALUES, chain, g
+from benchmarks.mechanisms.comparison import SAME, TIMES, TOOLS, operation_counts
+from benchmarks.mechanisms.deciding import PAIRS
+from benchmarks.mechanisms.own_tools import OWN
+from benchmarks.mechanisms.tool import Ready, Tool
+from lagrotor.benchmark import records
+from lagrotor.benchmark.mechanism_tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.records import LINKS, Decided, Kind, Measured, recorded_mechanisms
 from lagrotor.errors import LagrotorError
 
 CASES: tuple[tuple[Kind, int], ...] = (("rods", 2), ("gyroscopes", 1))
@@ -22,7 +23,7 @@ CASES: tuple[tuple[Kind, int], ...] = (("rods", 2), ("gyroscopes", 1))
 
 def prepared(name: str, kind: Kind, n: int) -> Ready:
     for module in (TOOLS[name].module, *TOOLS[name].others):
-        pytest.importorskip(module, reason=f"{name} is in the extra {TOOLS[name].extra}")
+        pytest.importorskip(module, reason=f"{name} is not installed: pip install {TOOLS[name].install}")
     return TOOLS[name].prepare(kind, n)
 
 
@@ -59,10 +60,10 @@ def test_a_tool_is_measured_and_one_with_another_motion_is_not_timed(monkeypatch
 
 
 def test_what_is_not_installed_raises_or_takes_too_long_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    missing, broken = Tool(OWN["lagrotor"].prepare, "no_such_module", "peers"), Tool(partial(divmod))
+    missing, broken = Tool(OWN["lagrotor"].prepare, "no_such_module", "--group peers"), Tool(partial(divmod))
     found = comparison.compare({"rods": (2, 3)}, {"missing": missing, "broken": broken})
     assert [x.tool for x in found] == ["missing", "broken"]  # no larger one after a failure
-    assert found[0].reason == "no_such_module not installed: pip install 'lagrotor[peers]'"
+    assert found[0].reason == "no_such_module not installed: pip install --group peers"
     assert found[1].reason.startswith("TypeError: unsupported operand")
     monkeypatch.setattr(comparison, "_LONGEST", 0.01)
     (slow,) = comparison.compare({"rods": (3,)}, {"slow": OWN["lagrotor"]})
@@ -107,13 +108,13 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
 
 
 def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:
-    found = record.recorded_mechanisms()
-    assert found.operations == record.counted() and {k: len(x) for k, x in found.ready.items()} == {
+    found = recorded_mechanisms()
+    assert found.operations == operation_counts() and {k: len(x) for k, x in found.ready.items()} == {
         "rods": 4,
         "gyroscopes": 4,
     }
     assert {x.tool for x in found.measured} == set(TOOLS)
-    assert {(x.kind, x.n) for x in found.measured if x.tool == "lagrotor"} == {(k, n) for k in SIZES for n in SIZES[k]}
+    assert {(x.kind, x.n) for x in found.measured if x.tool == "lagrotor"} == {(k, n) for k in LINKS for n in LINKS[k]}
     assert all(x.reason or (x.difference is not None and x.difference < SAME) for x in found.measured)
     assert [x.pair for x in found.decided] == list(PAIRS)
     assert found.machine["processor"] and {"sympy", "heyoka", "mujoco", "drake", "pin"} <= found.versions.keys()
@@ -121,15 +122,15 @@ def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:
 
 def test_a_broken_record_is_said(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
     broken = tmp_path / "recorded.json"
-    monkeypatch.setattr(record, "RECORDED", broken)
+    monkeypatch.setattr(records, "MECHANISMS", broken)
     for text in (None, "{", '{"measured": [{"speed": 1}], "decided": []}'):
         if text is not None:
             broken.write_text(text)
-        with pytest.raises(LagrotorError, match="renew it"):
-            record.recorded_mechanisms()
+        with pytest.raises(LagrotorError, match="install lagrotor anew"):
+            recorded_mechanisms()
 
 
-@pytest.mark.skipif(not all(map(find_spec, ("pydy", "mujoco", "pydrake"))), reason="needs the extras peers and engines")
+@pytest.mark.skipif(not all(map(find_spec, ("pydy", "mujoco", "pydrake"))), reason="needs the groups peers and engines")
 @pytest.mark.slow
 def test_the_whole_comparison_runs() -> None:
     found = comparison.compare({"rods": (2,)})

@@ -88,6 +88,6 @@ def numba_odeint(scene: Scene, t_eval: Array) -> Runner:
 
 
 CANDIDATES: dict[str, Method] = {
-    "minimal, CyRK": Method("candidate", cyrk, extra="candidates"),
-    "minimal, numba": Method("candidate", numba_odeint, extra="candidates"),
+    "minimal, CyRK": Method("candidate", cyrk, install="--group candidates"),
+    "minimal, numba": Method("candidate", numba_odeint, install="--group candidates"),
 }

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.benchmark.mechanisms.chains import I1, I3, VALUES, Kind, g, l, m
-from lagrotor.benchmark.mechanisms.tool import Array, Ready, Tool
+from benchmarks.mechanisms.chains import I1, I3, VALUES, g, l, m
+from benchmarks.mechanisms.tool import Array, Ready, Tool
+from lagrotor.benchmark.records import Kind
 
 _M, _L, _G, _I1, _I3 = (VALUES[s] for s in (m, l, g, I1, I3))
 _NONE = 1e-14
@@ -144,7 +145,7 @@ def _drake_plant(kind: Kind, n: int) -> Any:
 
 
 ENGINES = {
-    "MuJoCo": Tool(mujoco, "mujoco", "engines"),
-    "Pinocchio": Tool(pinocchio, "pinocchio", "engines"),
-    "Drake": Tool(drake, "pydrake", "engines"),
+    "MuJoCo": Tool(mujoco, "mujoco", "--group engines"),
+    "Pinocchio": Tool(pinocchio, "pinocchio", "--group engines"),
+    "Drake": Tool(drake, "pydrake", "--group engines"),
 }

@@ -2,8 +2,9 @@
 
 from functools import partial
 
-from lagrotor.benchmark.mechanisms.chains import VALUES, Kind, chain
-from lagrotor.benchmark.mechanisms.tool import Array, Ready, Tool
+from benchmarks.mechanisms.chains import VALUES, chain
+from benchmarks.mechanisms.tool import Array, Ready, Tool
+from lagrotor.benchmark.records import Kind
 from lagrotor.numerics.integrate import Engine
 
 _TOLERANCES = tuple(10.0**-k for k in range(6, 14))
@@ -19,4 +20,7 @@ def _prepare(engine: Engine, kind: Kind, n: int) -> Ready:
     return Ready(system.rhs(VALUES, engine), run, _TOLERANCES)
 
 
-OWN = {"lagrotor": Tool(partial(_prepare, "core")), "lagrotor, fast": Tool(partial(_prepare, "fast"), "heyoka", "fast")}
+OWN = {
+    "lagrotor": Tool(partial(_prepare, "core")),
+    "lagrotor, fast": Tool(partial(_prepare, "fast"), "heyoka", "lagrotor[fast]"),
+}

@@ -2,12 +2,10 @@
 
 from collections.abc import Sequence
 
-from lagrotor.benchmark.mechanisms.chains import Kind
-from lagrotor.benchmark.mechanisms.comparison import ERROR, SIZES, Measured
-from lagrotor.benchmark.mechanisms.deciding import Decided
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Kind, Measured
 
 Row = tuple[str, ...]
-HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", f"run to {ERROR:g} (ms)", "by", "rhs differs by")
+HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", f"run to {MECHANISM_ERROR:g} (ms)", "by", "rhs differs by")
 DECIDED_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
 WANTED_HEAD = ("what", "wanted", "measured")
 _AT: dict[Kind, int] = {"rods": 6, "gyroscopes": 3}
@@ -18,7 +16,7 @@ def rows(found: Sequence[Measured]) -> list[Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
-        for x in sorted(found, key=lambda x: (list(SIZES).index(x.kind), x.n))
+        for x in sorted(found, key=lambda x: (list(LINKS).index(x.kind), x.n))
     ]
 
 
@@ -38,7 +36,7 @@ def wanted(
 ) -> list[Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 
-    On each of SIZES, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
+    On each of LINKS, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
     """
     made = {(x.kind, x.n, x.tool): x for x in found}
     table, nothing = list[Row](), Measured("rods", 0, "")
@@ -62,7 +60,7 @@ def wanted(
                 _ratio(pydy.rhs, fast.rhs),
             ),
         ]
-    for kind, numbers in SIZES.items():
+    for kind, numbers in LINKS.items():
         for what, values in (("operations", operations[kind]), ("time to be ready", ready_in[kind])):
             doubled = [
                 f"{b / a:.2f}"

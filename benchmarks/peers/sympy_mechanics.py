@@ -140,7 +140,7 @@ def _pydy(generator: str) -> Prepare:
 
 
 SYMPY: dict[str, Method] = {
-    "LagrangesMethod": Method("peer", lagranges_method, extra="peers"),
-    "PyDy, lambdify": Method("peer", _pydy("lambdify"), extra="peers"),
-    "PyDy, Cython": Method("peer", _pydy("cython"), extra="peers"),
+    "LagrangesMethod": Method("peer", lagranges_method, install="--group peers"),
+    "PyDy, lambdify": Method("peer", _pydy("lambdify"), install="--group peers"),
+    "PyDy, Cython": Method("peer", _pydy("cython"), install="--group peers"),
 }

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from lagrotor.benchmark import doublings
-from lagrotor.benchmark.doublings import BARS, table, times
-from lagrotor.benchmark.structure_comparison import staircase
+from benchmarks import doublings
+from benchmarks.doublings import BARS, table, times
+from benchmarks.structure_comparison import staircase
 
 
 @pytest.fixture(autouse=True)

@@ -61,7 +61,7 @@ def sundae(scene: Scene, t_eval: Array) -> Runner:
 
 
 SUNDIALS: dict[str, Method] = {
-    "CasADi CVODES": Method("peer", _casadi("bdf"), extra="peers"),  # its default
-    "CasADi CVODES, Adams": Method("peer", _casadi("adams"), extra="peers"),
-    "scikit-sundae": Method("peer", sundae, extra="peers"),
+    "CasADi CVODES": Method("peer", _casadi("bdf"), install="--group peers"),  # its default
+    "CasADi CVODES, Adams": Method("peer", _casadi("adams"), install="--group peers"),
+    "scikit-sundae": Method("peer", sundae, install="--group peers"),
 }

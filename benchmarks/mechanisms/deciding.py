@@ -6,32 +6,16 @@ these differ, as they may by a factor, the accelerations. simplify is a tool her
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.benchmark.mechanisms.chains import I1, I3, chain, g, l, m
-from lagrotor.benchmark.mechanisms.tool import in_own_process
+from benchmarks.mechanisms.chains import I1, I3, chain, g, l, m
+from benchmarks.mechanisms.tool import in_own_process
+from lagrotor.benchmark.records import Decided
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
 
 LONGEST = 20.0  # s of processor time, given to simplify
-
-
-@dataclass(frozen=True)
-class Decided:
-    """Processor time in s of same_as and of simplify, and their answers; where simplify did not end, the time it was given."""
-
-    pair: str
-    ours: float
-    answer: str
-    theirs: float
-    their_answer: str
-
-    @property
-    def times(self) -> float:
-        """How many times longer simplify takes."""
-        return self.theirs / self.ours
 
 
 def _absolute(n: int) -> System:

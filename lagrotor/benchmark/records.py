@@ -1,0 +1,128 @@
+"""Comparisons with other tools on record, each made in one run of one machine, which is named: the displaced pair by every
+method, mechanisms, and chains of rotors.
+
+They are read here, so that what is shown is the same bytes everywhere. They are renewed in a checkout, where the other tools
+are run: `python -m benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`.
+"""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from lagrotor.errors import LagrotorError
+
+SPEED, MECHANISMS, STRUCTURES = (
+    Path(__file__).with_name(f"recorded_{name}.json") for name in ("speed", "mechanisms", "structures")
+)
+Kind = Literal["rods", "gyroscopes"]
+LINKS: dict[Kind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
+MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
+ROTORS = (16, 64, 256)  # of the chains
+CHAIN_ERROR = 1e-6  # m, at which runs of chains are timed
+_UNREADABLE = OSError, ValueError, KeyError, TypeError
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One tool on one mechanism, processor time in s; a reason in place of what was not measured.
+
+    difference: of its right-hand side from lagrotor's, relative. by: what ran it to the error.
+    """
+
+    kind: Kind
+    n: int
+    tool: str
+    ready: float | None = None
+    rhs: float | None = None
+    difference: float | None = None
+    run: float | None = None
+    by: str = ""
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Decided:
+    """Processor time in s of same_as and of simplify, and their answers; where simplify did not end, the time it was given."""
+
+    pair: str
+    ours: float
+    answer: str
+    theirs: float
+    their_answer: str
+
+    @property
+    def times(self) -> float:
+        """How many times longer simplify takes."""
+        return self.theirs / self.ours
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """machine and versions; tools on mechanisms; pairs of formulations; on each of LINKS operations of one
+    evaluation, and the time in which lagrotor is ready, s."""
+
+    machine: dict[str, Any]
+    versions: dict[str, str]
+    measured: list[Measured]
+    decided: list[Decided]
+    operations: dict[Kind, list[int]]
+    ready: dict[Kind, list[float]]
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
+
+    seconds is None where no setting reaches CHAIN_ERROR before a run takes too long; error is then the least that was reached
+    (infinite where it was refused; null on record), and reason why it stopped, where it did.
+    """
+
+    n: int
+    tool: str
+    setting: float
+    error: float
+    seconds: float | None
+    first: float
+    reason: str = ""
+
+
+def recorded_speed() -> dict[str, Any]:
+    """machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError if unreadable."""
+    try:
+        return dict(json.loads(SPEED.read_text(encoding="utf-8")))
+    except _UNREADABLE as error:
+        raise _unreadable(SPEED, error) from None
+
+
+def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
+    """Seconds of a method over those of another at the same error; None where one of them does not reach it."""
+    seconds = record["at_error"][error]
+    return None if None in (seconds[name], seconds[of]) else float(seconds[name] / seconds[of])
+
+
+def recorded_mechanisms() -> Comparison:
+    """Tools on mechanisms. Raises LagrotorError if it is unreadable."""
+    try:
+        data = json.loads(MECHANISMS.read_text(encoding="utf-8"))
+        measured = [Measured(**x) for x in data.pop("measured")]
+        decided = [Decided(**x) for x in data.pop("decided")]
+        return Comparison(**data, measured=measured, decided=decided)
+    except _UNREADABLE as error:
+        raise _unreadable(MECHANISMS, error) from None
+
+
+def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
+    """Chains of rotors: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
+    try:
+        data = json.loads(STRUCTURES.read_text(encoding="utf-8"))
+        return data, [
+            Timed(**row | {"error": math.inf if row["error"] is None else row["error"]}) for row in data["rows"]
+        ]
+    except _UNREADABLE as error:
+        raise _unreadable(STRUCTURES, error) from None
+
+
+def _unreadable(file: Path, error: Exception) -> LagrotorError:
+    return LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew")
