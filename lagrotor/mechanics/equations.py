@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import decide_zero, derivative
+from lagrotor.algebra import check_names, decide_zero, derivative
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.constraints import dependent_rows
@@ -69,6 +69,7 @@ class Equations:
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
+        check_names("System", self.c.q, self.c.v, t, self.constraints, self.rolling, self.dissipation, self.forces)
         self._check_symbols()
         if not self.bodies:
             _ = self.L  # checked now; an energy of bodies is written out when it is needed
@@ -101,6 +102,7 @@ class Equations:
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
         L = expression("System: L", self.lagrangian)
+        check_names("System", self.c.q, self.c.v, t, L, self.constraints, self.rolling, self.dissipation, self.forces)
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
 

@@ -16,6 +16,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.simplify.cse_main import tree_cse
 
+from lagrotor.algebra import check_names
 from lagrotor.errors import SingularError
 
 Array = NDArray[np.float64]
@@ -40,8 +41,10 @@ class Program:
 
     def __post_init__(self) -> None:
         known = set(self.arguments)
+        check_names("Program", self.arguments, tuple(name for name, _ in self.stages))
         for name, expression in (*self.stages, *((None, e) for e in (*self.outputs, *self.positive))):
             if missing := expression.free_symbols - known:
+                check_names("Program", self.arguments, tuple(missing))
                 raise SingularError(
                     f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"
                 )

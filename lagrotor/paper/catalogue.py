@@ -9,6 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
+from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.letters import Letters, Line, declared, read, read_line
@@ -221,6 +222,7 @@ class Catalogue:
 
     def letters(self, section: str) -> Letters:
         """What the printed lines of a section are written in, besides the functions of every paper."""
+        check_names(str(self.folder / "symbols.py"), list(self.glossary), dict(self.written_out))
         own = {symbol.name: symbol for symbol in self.glossary}
         given = self._equations_toml.get("letters", {}).get(section, {})
         names = {**own, **getattr(self._symbols, "FUNCTIONS", {}), **declared(given)}

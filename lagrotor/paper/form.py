@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
-from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex, light
+from lagrotor.paper.grammar import parsed
 from lagrotor.paper.letters import Letters, read
 
 # How many particles or bodies a sum runs over where the derivation does not say.
@@ -49,13 +49,8 @@ class Form:
             kind = known.get(name, known.get(re.sub(r"_i(?=_|$)", "_1", name)))
             local[name] = sp.Symbol(name, commutative=not isinstance(kind, sp.MatrixBase))
             symbols[local[name]] = written.get(name) or _name(name, kind)
-        made = parse_expr(
-            self.text,
-            local_dict=local,
-            global_dict={name: getattr(sp, name) for name in (*_CONSTANTS, "Symbol", "Add", "Mul", "Pow")},
-            transformations=(auto_number, rationalize),
-            evaluate=False,
-        )
+        constants = {name: getattr(sp, name) for name in _CONSTANTS}
+        made = parsed(self.text, constants | local, "form", as_written=True)
         shown = light(sp.latex(made, symbol_names=symbols, order="none", long_frac_ratio=2))
         return shown + (f" + O({self.rest})" if self.rest else "")
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
-from sympy.parsing.sympy_parser import auto_number, parse_expr, rationalize
 
 from lagrotor.algebra import along
 from lagrotor.errors import InputError
+from lagrotor.paper.grammar import parsed
 
 
 def vector(name: str) -> sp.Matrix:
@@ -114,16 +114,7 @@ def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
 
     Raises InputError where it cannot be read, or holds a letter that is not declared.
     """
-    names = {**FUNCTIONS, **letters}
-    try:
-        value = parse_expr(
-            text, local_dict=names, global_dict=dict(FUNCTIONS), transformations=(auto_number, rationalize)
-        )
-    except NameError as missing:
-        raise InputError(f"{where}: {text!r}: {missing}: declare the letter, or give its meaning") from None
-    except (SyntaxError, TypeError, AttributeError, ValueError) as refusal:
-        raise InputError(f"{where}: {text!r} cannot be read: {refusal}") from None
-    return value
+    return parsed(text, {**FUNCTIONS, **letters}, where)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import agreement_order, decide_equal
+from lagrotor.algebra import agreement_order, check_names, decide_equal
 from lagrotor.errors import ProofError
 from lagrotor.mechanics.glossary import latex
 
@@ -89,6 +89,7 @@ def prove(
     is not decided, and where a left side is too long to be read and neither named nor written.
     """
     pairs = _pairs(left, right)
+    check_names(f"prove: {says or 'this step'}", pairs, small)
     named, shown = ((given,) if isinstance(given, str) else tuple(given) for given in (names, written))
     for given, what in ((named, "names"), (shown, "equations are written")):
         if given and len(given) != len(pairs):

@@ -6,6 +6,7 @@ from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
+from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.readable import readable
@@ -72,6 +73,9 @@ class Statement:
     def __post_init__(self) -> None:
         if not self.relations and not self.names:
             raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
+        where = f"verdict: {self.id}" if self.id else "judge"
+        sides = [(r.printed, r.derived, r.small, r.scene) for r in (*self.relations, *self.correction)]
+        check_names(where, sides, [(premise.put, premise.small) for premise in self.premises])
 
 
 @dataclass(frozen=True)

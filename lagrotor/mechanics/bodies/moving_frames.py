@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import decide_equal
+from lagrotor.algebra import check_names, decide_equal
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
@@ -41,6 +41,12 @@ class MovingFrame:
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(f"Frame: {self.c!r} must be Coordinates: Frame(coordinates('phi theta psi'))")
+        check_names("Frame", self.c.q, self.c.v, [frame.amount for frame in self._to_the_ground])
+
+    @property
+    def _to_the_ground(self) -> "list[MovingFrame]":
+        """This frame, its parent, and so on."""
+        return [self] if self.parent is None else [self, *self.parent._to_the_ground]
 
     def __repr__(self) -> str:
         if self.parent is None:

@@ -76,12 +76,6 @@ def generated(
     if moving and len(states) > 2 * len(system.c.q):
         outputs = [*outputs, sp.S.One]
     parameters = tuple(sorted(used - {*states}, key=str))
-    taken = {str(s) for s in (*states, t)}
-    if doubles := [str(p) for p in parameters if str(p) in taken]:
-        raise InputError(
-            f"simulate: two different symbols are called {', '.join(doubles)} (they differ in their assumptions): use the "
-            "coordinates' own, c.q and c.v, and t of lagrotor.mechanics"
-        )
     rename: dict[Any, Any] = {
         s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate((*states, *parameters)) if not _is_plain(str(s))
     }

@@ -171,9 +171,9 @@ def test_what_cannot_be_run_is_refused_before_it_runs(arguments: dict, message: 
 
 
 def test_a_symbol_of_the_same_name_but_other_assumptions_is_pointed_out() -> None:
-    stranger = System(ANGLE, ANGLE.v[0] ** 2 / 2 + ANGLE.q[0] * sp.cos(sp.Symbol("theta")))
-    with pytest.raises(InputError, match="two different symbols are called theta"):
-        stranger.simulate({"theta": 1}, (1,), (0,), [0, 1])
+    for stranger in (sp.Symbol("theta"), sp.Symbol("t")):
+        with pytest.raises(InputError, match=f"System: two different symbols are called '{stranger}'"):
+            System(ANGLE, ANGLE.v[0] ** 2 / 2 + t * ANGLE.q[0] * sp.cos(stranger))
 
 
 def test_a_lagrangian_without_a_mass_is_refused() -> None:

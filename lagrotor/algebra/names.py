@@ -1,0 +1,43 @@
+"""Two different symbols of one name print alike and are not equal: what holds of one says nothing of the other."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+
+
+def check_names(where: str, *given: Any) -> None:
+    """Raise InputError, which begins with `where`, if two symbols in what is given have one name and other assumptions.
+
+    given: expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
+    """
+    seen: dict[str, sp.Symbol] = {}
+    for symbol in _symbols(given):
+        if type(symbol) is sp.Symbol and (other := seen.setdefault(symbol.name, symbol)) != symbol:
+            kinds = " and ".join(sorted({_kind(symbol), _kind(other)}))
+            raise InputError(
+                f"{where}: two different symbols are called {symbol.name!r}, one declared {kinds.replace(' and ', ', one ')}: "
+                "declare the letter once and use it everywhere"
+            )
+
+
+def _symbols(given: Any) -> Iterable[sp.Symbol]:
+    if isinstance(given, sp.Basic | sp.MatrixBase):
+        yield from sorted(given.free_symbols, key=lambda s: (str(s), s.sort_key()))
+    elif isinstance(given, Mapping):
+        for pair in given.items():
+            yield from _symbols(pair)
+    elif isinstance(given, list | tuple | set | frozenset):
+        for each in given:
+            yield from _symbols(each)
+
+
+def _kind(symbol: sp.Symbol) -> str:
+    """What a symbol was declared with, in words."""
+    said = {name: value for name, value in symbol.assumptions0.items() if name != "commutative" or not value}
+    for name in ("positive", "negative", "nonnegative", "nonpositive", "integer", "real", "imaginary"):
+        if said.get(name):
+            return name
+    return ", ".join(sorted(said)) or "without assumptions"

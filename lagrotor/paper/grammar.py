@@ -1,0 +1,181 @@
+"""The one reader of expressions: a text as a sympy object, by a grammar of known nodes and names. Nothing that is read runs.
+
+A text is written as in Python: numbers, names, + - * / **, calls of known functions, tuples as their arguments, `.T` of a matrix
+and `.subs(letter, value)`. There are no strings, no other attributes, no names but those that are known; what is not in the
+grammar is refused before anything is built.
+"""
+
+import ast
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+
+# Numbers that would take longer to write down than anybody reads: of digits, and powers of numbers.
+_MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS = 20_000, 400, 1000, 50
+_SIGNS: dict[type, str] = {
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**",
+}  # fmt: skip
+# Called with evaluate=False where a text is kept as it is written.
+_KEPT = {sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sqrt, sp.Abs, sp.sinh, sp.cosh, sp.tanh, sp.asin, sp.acos, sp.atan}
+_SIZED = {sp.eye, sp.zeros}
+
+
+def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = False) -> Any:
+    """What `text` writes in `names`, name → symbol, matrix or function; decimals are the rationals that they are.
+
+    as_written: sums, products and functions are kept as they stand, for printing. Raises InputError, which begins with
+    `where`, for what is not in the grammar and for a name that is not known.
+    """
+    if not isinstance(text, str):
+        raise InputError(f"{where}: {text!r} is no text: write the expression between quotes")
+    line = " ".join(text.split())
+    if len(line) > _MOST_CHARACTERS:
+        raise InputError(f"{where}: an expression of {len(line)} characters is too long: name its parts as letters")
+    try:
+        tree = ast.parse(line, mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise InputError(f"{where}: {text!r} cannot be read: {getattr(error, 'msg', error)}") from None
+    try:
+        return _Reader(line.encode(), names, as_written).value(tree.body)
+    except _RefusalError as refusal:
+        raise InputError(f"{where}: {text!r}: {refusal}") from None
+    except (TypeError, AttributeError, ValueError, ArithmeticError, RecursionError) as refusal:
+        raise InputError(f"{where}: {text!r} cannot be read: {refusal}") from None
+
+
+class _RefusalError(Exception):
+    """What is not in the grammar."""
+
+
+@dataclass(frozen=True)
+class _Reader:
+    source: bytes
+    names: Mapping[str, Any]
+    as_written: bool
+
+    def value(self, node: ast.expr) -> Any:
+        """The object that a node stands for."""
+        if isinstance(node, ast.Constant):
+            return self._number(node)
+        if isinstance(node, ast.Name):
+            return self._known(node.id)
+        if isinstance(node, ast.Tuple):
+            return tuple(map(self.value, node.elts))
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
+            value = self._operand(node.operand)
+            return -value if isinstance(node.op, ast.USub) else value
+        if isinstance(node, ast.BinOp):
+            return self._combined(node)
+        if isinstance(node, ast.Attribute) and node.attr == "T":
+            return self._matrix(node.value).T
+        if isinstance(node, ast.Call) and not node.keywords:
+            return self._called(node)
+        raise self._refused(node)
+
+    def _refused(self, node: ast.expr) -> _RefusalError:
+        there = self.source[node.col_offset : node.end_col_offset].decode()
+        hint = ": write ** for a power" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
+        return _RefusalError(f"{there!r} is no part of an expression{hint}")
+
+    def _number(self, node: ast.Constant) -> sp.Expr:
+        text = self.source[node.col_offset : node.end_col_offset].decode()
+        if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
+            raise self._refused(node)
+        if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):
+            raise _RefusalError(f"the number {text[:20]}… has too many digits")
+        return sp.Integer(node.value) if type(node.value) is int else sp.Rational(text.replace("_", ""))
+
+    def _known(self, name: str) -> Any:
+        if name not in self.names:
+            raise _RefusalError(f"name {name!r} is not defined: declare the letter, or give its meaning")
+        value = self.names[name]
+        return sp.Integer(value) if type(value) is int else value
+
+    def _operand(self, node: ast.expr) -> Any:
+        value = self.value(node)
+        if not isinstance(value, sp.Expr | sp.MatrixBase):
+            raise self._refused(node)
+        return value
+
+    def _matrix(self, node: ast.expr) -> Any:
+        value = self._operand(node)
+        if not isinstance(value, sp.MatrixBase):
+            raise _RefusalError(f"{self.source[node.col_offset : node.end_col_offset].decode()!r} is no matrix")
+        return value
+
+    def _called(self, node: ast.Call) -> Any:
+        arguments = [self.value(part) for part in node.args]
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "subs" and len(arguments) == 2:
+            letter, value = arguments
+            if not isinstance(letter, sp.Symbol) or not isinstance(value, sp.Expr):
+                raise _RefusalError(".subs takes a letter and its value")
+            return self._operand(node.func.value).subs(letter, value)
+        if not isinstance(node.func, ast.Name):
+            raise self._refused(node)
+        function = self._known(node.func.id)
+        if not callable(function) or isinstance(function, sp.Basic | sp.MatrixBase):
+            raise _RefusalError(f"{node.func.id} is a letter, not a function: write {node.func.id}*(…)")
+        if function in _SIZED and not all(n.is_Integer and 0 <= n <= _MOST_ROWS for n in arguments):
+            raise _RefusalError(f"{node.func.id} takes numbers of rows and columns up to {_MOST_ROWS}")
+        if self.as_written and function in _KEPT:
+            return function(*arguments, evaluate=False)
+        return function(*arguments)
+
+    def _combined(self, node: ast.BinOp) -> Any:
+        sign = _SIGNS.get(type(node.op))
+        if sign is None:
+            raise self._refused(node)
+        if self.as_written:
+            return self._kept(node, sign)
+        left, right = self._operand(node.left), self._operand(node.right)
+        if sign == "**":
+            _check_power(left, right)
+        return _OPERATIONS[sign](left, right)
+
+    def _kept(self, node: ast.BinOp, sign: str) -> Any:
+        """A sum, product or power that is not evaluated; sums of sums and products of products are one."""
+        left, right = self._operand(node.left), self._operand(node.right)
+        if sign == "**":
+            _check_power(left, right)
+            return sp.Pow(left, right, evaluate=False)
+        kind = sp.Add if sign in "+-" else sp.Mul
+        if sign == "-":
+            right = sp.Mul(sp.S.NegativeOne, right, evaluate=False)
+        elif sign == "/":
+            right = sp.Pow(right, sp.S.NegativeOne, evaluate=False)
+        parts: list[Any] = []
+        for value, part in ((left, node.left), (right, node.right if sign in "+*" else None)):
+            joined = isinstance(part, ast.BinOp) and isinstance(part.op, _SAME[kind])
+            parts += value.args if joined and isinstance(value, kind) else [value]
+        return kind(*parts, evaluate=False)
+
+
+_SAME: dict[Any, Any] = {sp.Add: ast.Add | ast.Sub, sp.Mul: ast.Mult | ast.Div}
+_OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": lambda a, b: a / b,
+    "**": lambda a, b: a**b,
+}
+
+
+def _check_power(base: Any, exponent: Any) -> None:
+    """Raise _RefusalError for a power of a number that would have too many digits, and for a matrix in the exponent."""
+    if isinstance(exponent, sp.MatrixBase):
+        raise _RefusalError("a matrix is no exponent")
+    whole = isinstance(exponent, sp.Integer)
+    if isinstance(exponent, sp.Expr) and exponent.is_number and (not whole or abs(exponent) > _MOST_POWER):
+        size = abs(sp.N(exponent, 5)) if not whole else abs(exponent)
+        if not bool(size <= _MOST_POWER):
+            raise _RefusalError(f"the power {exponent} is larger than {_MOST_POWER}")
+    if (
+        isinstance(base, sp.Rational)
+        and whole
+        and abs(exponent) * max(abs(base.p), base.q).bit_length() > 4 * _MOST_POWER
+    ):
+        raise _RefusalError(f"{base}**{exponent} has too many digits")
