@@ -1,10 +1,11 @@
 # `make reproduce` writes the report into report/; `make test` runs the tests. Each makes .venv where there is none.
 # `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
-# `make test-lowest` runs the tests of what computes with the lowest versions that pyproject.toml declares, in .venv-lowest.
+# `make test-machines` runs the tests as they run elsewhere: other kernels of linear algebra, numpy without its vector features,
+# other hash seeds, the lowest dependencies, the extras, other Pythons; `make test-machines RUNS="Prescott extras"` some of it.
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test check docs test-lowest
+.PHONY: reproduce test check docs test-machines
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
@@ -19,9 +20,8 @@ check: $(VENV)/.installed-test
 docs: $(VENV)/.installed-docs
 	$(VENV)/bin/mkdocs build --quiet
 
-LOWEST_ROOMS := algebra mechanics numerics pair theory models
-test-lowest: .venv-lowest/.installed
-	.venv-lowest/bin/python -m pytest $(LOWEST_ROOMS:%=tests/%)
+test-machines:
+	$(PYTHON) -m tests.machines $(RUNS)
 
 # sympy>=1.13.0 becomes sympy==1.13.0: the lowest of each, written beside the environment as pip's constraints.
 .venv-lowest/.installed: pyproject.toml
@@ -30,6 +30,11 @@ test-lowest: .venv-lowest/.installed
 		| sed 's/>=/==/' > .venv-lowest/constraints.txt
 	.venv-lowest/bin/python -m pip install --quiet --disable-pip-version-check \
 		--constraint .venv-lowest/constraints.txt --editable '.[test]'
+	@touch $@
+
+.venv-extras/.installed: pyproject.toml
+	$(PYTHON) -m venv .venv-extras
+	.venv-extras/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test,fast,notebook]'
 	@touch $@
 
 $(VENV)/bin/python:

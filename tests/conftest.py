@@ -1,12 +1,18 @@
-"""The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported; which of them runs what."""
+"""The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported; which of them runs what;
+what hypothesis draws."""
 
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from lagrotor.process import begin_process
 
 begin_process()
+
+# The same values each time; the slow tests draw others, and keep what fails. `--hypothesis-profile` chooses.
+settings.register_profile("repeatable", derandomize=True, deadline=None)
+settings.register_profile("exploring", deadline=None)
 
 # Files whose tests run the same scripts: one process takes them all and runs each script once.
 ONE_PROCESS = (
@@ -21,6 +27,24 @@ ONE_PROCESS = (
         "tests/report/test_",
     ),
 )
+
+
+def exploring(marks: str) -> bool:
+    """Whether an expression of marks takes the slow tests."""
+    return "slow" in marks.replace("not slow", "")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    settings.load_profile("exploring" if exploring(config.option.markexpr) else "repeatable")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """With the slow tests go those that hypothesis draws the values of."""
+    if exploring(config.option.markexpr):
+        for item in items:
+            if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
+                item.add_marker("slow")
 
 
 @pytest.fixture(scope="session")

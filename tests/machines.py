@@ -1,0 +1,166 @@
+"""The tests on other machines, as far as this one can stand for them: `make test-machines`.
+
+Other kernels of the linear algebra library, numpy without its vector features, other orders of hashing, the lowest
+dependencies, with the extras and without, and every Python from 3.11 on that is here. Each run has a name; some of them:
+`make test-machines RUNS="Prescott extras"`. What this machine cannot is said. Exit status 1 where a run fails.
+"""
+
+import os
+import platform
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+# The rooms in which numbers are computed, whose last digits depend on the machine.
+COMPUTING = tuple(
+    f"tests/{room}" for room in ("algebra", "numerics", "mechanics", "pair", "theory", "models", "structures")
+)
+# OPENBLAS_CORETYPE → what the processor has to have for it.
+KERNELS = {"Prescott": "pni", "Nehalem": "sse4_2", "Sandybridge": "avx", "Haswell": "avx2", "SkylakeX": "avx512bw"}
+OLDEST = "Prescott"  # its run has no vector features of numpy either
+SEEDS = 1, 2, 3
+PYTHONS = "3.11", "3.12", "3.13", "3.14"
+EXTRAS = "heyoka", "pandas", "xarray"
+# Prints the vector features that numpy chooses among and this processor has.
+_FEATURES = """
+try:
+    from numpy._core import _multiarray_umath as numpy
+except ImportError:
+    from numpy.core import _multiarray_umath as numpy
+print(*(name for name in numpy.__cpu_dispatch__ if numpy.__cpu_features__[name]))
+"""
+
+
+@dataclass(frozen=True)
+class Environment:
+    """Where packages are installed: a folder and the mark that `make` leaves in it, and the Python it is made with."""
+
+    folder: str
+    mark: str = ".installed"
+    python: str = ""
+
+    @property
+    def executable(self) -> str:
+        return f"{self.folder}/bin/python"
+
+    def make(self) -> int:
+        """Made as the Makefile says; exit status."""
+        variables = [f"VENV={self.folder}", f"PYTHON={self.python}"] if self.python else []
+        return subprocess.run(["make", "--silent", *variables, f"{self.folder}/{self.mark}"], cwd=ROOT).returncode
+
+
+ORDINARY = Environment(".venv", ".installed-test")
+WITH_EXTRAS = Environment(".venv-extras")
+LOWEST = Environment(".venv-lowest")
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of tests: its name, files, environment and variables. vectors: whether numpy uses its vector features."""
+
+    name: str
+    tests: tuple[str, ...]
+    environment: Environment
+    variables: dict[str, str] = field(default_factory=dict)
+    vectors: bool = True
+
+
+def extras_files() -> tuple[str, ...]:
+    """The files of tests that need an extra: they name a module of it in quotes."""
+    named = re.compile("|".join(f'"{module}' for module in EXTRAS))
+    files = sorted(
+        path for path in (ROOT / "tests").rglob("test_*.py") if named.search(path.read_text(encoding="utf-8"))
+    )
+    return tuple(path.relative_to(ROOT).as_posix() for path in files)
+
+
+def runs() -> list[Run]:
+    """All of them."""
+    return [
+        *(Run(f"hash-seed-{seed}", ("tests",), ORDINARY, {"PYTHONHASHSEED": str(seed)}) for seed in SEEDS),
+        Run("extras", extras_files(), WITH_EXTRAS),
+        *(Run(name, COMPUTING, WITH_EXTRAS, {"OPENBLAS_CORETYPE": name}, name != OLDEST) for name in KERNELS),
+        Run("no-vectors", COMPUTING, WITH_EXTRAS, vectors=False),
+        Run("lowest", COMPUTING, LOWEST),
+        *(
+            Run(f"python{number}", ("tests",), Environment(f".venv-{number}", ".installed-test", f"python{number}"))
+            for number in PYTHONS
+        ),
+    ]
+
+
+def hindrance(run: Run) -> str:
+    """Why this machine cannot run it; "" if it can."""
+    if kernel := run.variables.get("OPENBLAS_CORETYPE"):
+        if platform.machine() not in ("x86_64", "AMD64"):
+            return f"a kernel of x86-64; this is {platform.machine()}"
+        flags = Path("/proc/cpuinfo")
+        if flags.exists() and KERNELS[kernel] not in flags.read_text().split():
+            return f"the processor has no {KERNELS[kernel]}"
+    if run.environment.python:
+        try:
+            subprocess.run([run.environment.python, "--version"], capture_output=True, check=True)
+        except (OSError, subprocess.CalledProcessError):
+            return f"no {run.environment.python} is installed"
+    if run.environment.make():
+        return "its packages cannot be installed"
+    if kernel and f"Core: {kernel}" not in chosen_kernel(run):
+        said = chosen_kernel(run).strip() or "numpy's linear algebra is not OpenBLAS"
+        return "" if kernel == OLDEST and "Katmai" in said else f"not chosen: {said}"
+    return ""
+
+
+def chosen_kernel(run: Run) -> str:
+    """What OpenBLAS says of its choice."""
+    variables = os.environ | run.variables | {"OPENBLAS_VERBOSE": "2"}
+    done = subprocess.run(
+        [run.environment.executable, "-c", "import numpy"], cwd=ROOT, env=variables, capture_output=True, text=True
+    )
+    return done.stdout + done.stderr
+
+
+def variables_of(run: Run) -> dict[str, str]:
+    """The environment variables of a run."""
+    variables = os.environ | run.variables
+    if not run.vectors:
+        found = subprocess.run(
+            [run.environment.executable, "-c", _FEATURES], capture_output=True, text=True, check=True
+        )
+        variables["NPY_DISABLE_CPU_FEATURES"] = found.stdout.strip()
+    return variables
+
+
+def passed(run: Run) -> bool:
+    """Run the tests, their progress shown."""
+    command = [run.environment.executable, "-m", "pytest", "-q", *run.tests]
+    return subprocess.run(command, cwd=ROOT, env=variables_of(run)).returncode == 0
+
+
+def main(names: Iterable[str]) -> int:
+    """Run those of the names, or all; exit status."""
+    known = {run.name: run for run in runs()}
+    if unknown := [name for name in names if name not in known]:
+        print(f"no run is called {', '.join(unknown)}: there are {', '.join(known)}")
+        return 2
+    results, failed = [], False
+    for number, name in enumerate(chosen := list(names) or list(known), start=1):
+        print(f"== {number} of {len(chosen)}: {name}", flush=True)
+        began = time.monotonic()
+        if why := hindrance(known[name]):
+            results.append(f"{name}: not run, {why}")
+        else:
+            good = passed(known[name])
+            failed |= not good
+            results.append(f"{name}: {'passed' if good else 'FAILED'} in {time.monotonic() - began:.0f} s")
+        print(results[-1], flush=True)
+    print("== all", *results, sep="\n")
+    return int(failed)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

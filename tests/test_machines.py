@@ -1,0 +1,105 @@
+"""The runs of `make test-machines`: each has a name and files, what cannot be run says why; what hypothesis draws."""
+
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests import machines
+from tests.conftest import exploring
+from tests.machines import EXTRAS, KERNELS, OLDEST, PYTHONS, ROOT, Environment, Run, extras_files, runs
+
+WORKFLOW = ROOT / ".github" / "workflows" / "tests.yml"
+HERE = Environment(str(Path(sys.executable).parent.parent))
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Environment, "make", lambda self: 0)
+
+
+def test_every_run_has_a_name_of_its_own_and_files() -> None:
+    names = [run.name for run in runs()]
+    assert len(set(names)) == len(names) and not any(" " in name for name in names)
+    assert all((ROOT / path).exists() for run in runs() for path in run.tests)
+    assert {*KERNELS, "extras", "lowest", "no-vectors"} <= set(names)
+
+
+def test_the_extras_are_in_the_environment_that_tests_them() -> None:
+    assert "fast,notebook" in (ROOT / "Makefile").read_text() and len(extras_files()) > 8
+    assert {"tests/numerics/test_taylor.py", "tests/pair/test_shown.py"} <= set(extras_files())
+    needing = re.compile(rf"importorskip\(\s*\"(?:{'|'.join(EXTRAS)})\"")
+    files = [path for path in (ROOT / "tests").rglob("test_*.py") if needing.search(path.read_text())]
+    assert {path.relative_to(ROOT).as_posix() for path in files} <= set(extras_files())
+
+
+@pytest.mark.skipif(not WORKFLOW.exists(), reason="installed without the workflow")
+def test_what_is_run_elsewhere_is_one_of_the_runs() -> None:
+    names, text = {run.name for run in runs()}, WORKFLOW.read_text()
+    (listed,) = re.findall(r"run: \[(.*)\]", text)
+    assert set(listed.split(", ")) <= names
+    assert tuple(re.findall(r'"(3\.\d+)"', re.findall(r"python: \[(.*)\]", text)[0])) == PYTHONS
+
+
+def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    other = Run("python9", ("tests",), Environment(".venv-9", python="no-such-python"))
+    assert machines.hindrance(other) == "no no-such-python is installed"
+    kernel = Run("Haswell", ("tests",), HERE, {"OPENBLAS_CORETYPE": "Haswell"})
+    monkeypatch.setattr(machines, "chosen_kernel", lambda run: "Core not found: Haswell")
+    monkeypatch.setitem(KERNELS, "Haswell", "no-such-feature")
+    assert (
+        "Haswell" in machines.hindrance(kernel)
+        or "no-such-feature" in machines.hindrance(kernel)
+        or ("x86-64" in machines.hindrance(kernel))
+    )
+    monkeypatch.setattr(Environment, "make", lambda self: 1)
+    assert machines.hindrance(Run("lowest", ("tests",), HERE)) == "its packages cannot be installed"
+
+
+def test_numpy_is_left_without_what_it_would_choose() -> None:
+    run = Run("no-vectors", ("tests",), HERE, vectors=False)
+    variables = machines.variables_of(run)
+    assert "NPY_DISABLE_CPU_FEATURES" not in machines.variables_of(replace(run, vectors=True))
+    done = subprocess.run(
+        [HERE.executable, "-W", "error", "-c", machines._FEATURES], env=variables, capture_output=True, text=True
+    )
+    assert done.returncode == 0 and not done.stdout.strip(), done.stderr
+
+
+def test_a_run_that_fails_and_a_name_that_is_none(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(machines, "hindrance", lambda run: "no such kernel" if run.name == OLDEST else "")
+    monkeypatch.setattr(machines, "passed", lambda run: run.name != "lowest")
+    assert machines.main(["extras", OLDEST]) == 0
+    assert machines.main(["lowest", "extras"]) == 1
+    assert machines.main(["no-run"]) == 2
+    said = capsys.readouterr().out
+    assert (
+        f"{OLDEST}: not run, no such kernel" in said and "lowest: FAILED" in said and "no run is called no-run" in said
+    )
+
+
+def test_hypothesis_draws_the_same_values_but_in_the_slow_tests(request: pytest.FixtureRequest) -> None:
+    assert settings.default is not None
+    assert settings.default.derandomize != exploring(request.config.option.markexpr)
+    assert exploring("slow") and exploring("slow or not slow") and not exploring("not slow") and not exploring("")
+
+
+def test_what_is_drawn_twice_is_the_same_but_in_the_slow_tests(request: pytest.FixtureRequest) -> None:
+    draws: list[list[float]] = []
+
+    @settings(max_examples=20)
+    @given(st.floats(0, 1))
+    def draw(x: float) -> None:
+        draws[-1].append(x)
+
+    for _ in range(2):
+        draws.append([])
+        draw()
+    assert len(draws[0]) > 5 and (draws[0] == draws[1]) != exploring(request.config.option.markexpr)
