@@ -1,7 +1,26 @@
-"""`python -m lagrotor` is the command `lagrotor`."""
+"""`python -m lagrotor` is the command `lagrotor`.
 
+An interrupt while the package loads, or after the command has ended, stops the process as it does any program, without a
+traceback; between the two `main` says it in words.
+"""
+
+import signal
 import sys
 
-from lagrotor.commands.command_line import main
 
-sys.exit(main())
+def start() -> int:
+    """Load the command line, run it, and give its exit status."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from lagrotor.commands.command_line import main
+
+    try:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        return main()
+    except KeyboardInterrupt:  # a second one, while the first is said
+        return 130
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+if __name__ == "__main__":
+    sys.exit(start())

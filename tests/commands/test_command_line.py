@@ -651,3 +651,26 @@ def test_table_wraps_at_the_edge_of_the_terminal(monkeypatch: pytest.MonkeyPatch
     lines = terminal.table(("id", "verdict", "title"), rows).splitlines()
     assert len(lines) > 3
     assert max(map(len, lines)) <= 60
+
+
+LOADING = """
+import os, signal, sys
+import lagrotor.__main__ as command
+
+class Interrupt:
+    def find_spec(self, name, path=None, target=None):
+        if name == "lagrotor.commands.command_line":
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupt())
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a process interrupts itself by a POSIX signal")
+@pytest.mark.parametrize(
+    ("call", "silent"), [("command.start()", True), ("import lagrotor.commands.command_line", False)]
+)
+def test_an_interrupt_while_the_command_loads_leaves_no_traceback(call: str, silent: bool) -> None:
+    done = subprocess.run([sys.executable, "-c", LOADING + call], capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert ("Traceback" not in done.stderr) == silent

@@ -63,7 +63,8 @@ def results(
             while len(running) < jobs and any(given(task) is not None for task in left):
                 task, more = _next(left, given)
                 begins(task)
-                running[pool.submit(run, task, *more)] = task
+                with _interrupts_wait():
+                    running[pool.submit(run, task, *more)] = task
             done, _ = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
                 yield running.pop(future), future.result()
@@ -99,6 +100,19 @@ def _no_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """An interrupt comes when this is done: a process that is being started is not yet one that the pool can end."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin() -> None:

@@ -24,21 +24,32 @@ function search(query, entries) {
   return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
 }
 
+// What is read of the page is read once, when it is first searched.
+function kept(entry, read) {
+  const text = read().toLowerCase();
+  Object.defineProperty(entry, "text", { value: text });
+  return text;
+}
+
 function setUpSearch() {
   const form = document.getElementById("search");
   const [input, said, elsewhere] = ["query", "found", "elsewhere"].map((id) => document.getElementById(id));
+  // An equation's words are those of its row and of its own entry below.
+  const whole = (row, { hash }) => row.textContent + " " + (document.getElementById(hash.slice(1))?.textContent ?? "");
   const rows = [...document.querySelectorAll(".verdicts tbody tr")].map((row) => ({
     id: row.cells[0].textContent,
-    text: row.textContent.toLowerCase(),
+    get text() { return kept(this, () => whole(row, row.querySelector("a"))); },
     target: row.querySelector("a").hash,
     row,
   }));
-  const others = [...document.querySelectorAll("main article[id^=claim-], main article[id^=erratum-], main figure[id]")];
-  const entries = others.map((entry) => ({
+  const others = document.querySelectorAll(
+    "main article[id^=claim-], main article[id^=erratum-], main figure[id], main details.derivation, main h2[id=notation]",
+  );
+  const entries = [...others].map((entry) => ({
     id: entry.id.replace("claim-", "").toLowerCase(),
-    text: entry.textContent.toLowerCase(),
+    get text() { return kept(this, () => (entry.closest("section:has(> #notation)") ?? entry).textContent); },
     target: "#" + entry.id,
-    name: (entry.id.startsWith("erratum") ? "Erratum " : "") + entry.querySelector("h3").textContent,
+    name: (entry.id.startsWith("erratum") ? "Erratum " : "") + (entry.querySelector("h3, summary") ?? entry).textContent,
   }));
   let first = null;
   function show() {
@@ -55,7 +66,7 @@ function setUpSearch() {
       }),
     );
     const more = outside.length > 12 ? ", of which 12 are listed" : "";
-    said.textContent = sought && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures and errata${more}`;
+    said.textContent = sought && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures, derivations and errata${more}`;
     first = search(sought, [...inTable, ...outside])[0] ?? null;
   }
   form.hidden = false;
@@ -94,8 +105,8 @@ function setUpFigures() {
   }
 }
 
-// A formula wider than its box is drawn smaller, down to 0.44 of its size; what is then still too wide scrolls.
-const NARROWEST = 0.44;
+// A formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls.
+const SMALLEST = 10; // px
 function fitFormulas() {
   for (const box of document.querySelectorAll(".wide")) {
     for (const formula of box.querySelectorAll("math[display=block]")) {
@@ -104,10 +115,19 @@ function fitFormulas() {
       // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
         share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
-        if (share < 1) formula.style.fontSize = Math.max(NARROWEST, share) * natural + "px";
+        if (share < 1) formula.style.fontSize = Math.max(SMALLEST, share * natural) + "px";
       }
     }
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; // the keyboard must reach what scrolls
+  }
+  for (const formula of document.querySelectorAll("math:not([display=block])")) {
+    const line = formula.closest("p, li, td, dd, figcaption, h3");
+    if (!line?.clientWidth || formula.getBoundingClientRect().width <= line.clientWidth || formula.closest(".wide")) continue;
+    const box = document.createElement("span");
+    box.className = "wide";
+    formula.replaceWith(box);
+    box.append(formula);
+    box.tabIndex = 0;
   }
 }
 

@@ -46,7 +46,8 @@ function measure(view) {
     const scrolls = ["auto", "scroll"].includes(view.getComputedStyle(box).overflowX);
     (scrolls ? scrolled : tooWide).push(formula.textContent.slice(0, 60));
   }
-  return {formulas: page.querySelectorAll("math").length, tooWide, scrolled,
+  const sizes = [...page.querySelectorAll("math")].map(formula => parseFloat(view.getComputedStyle(formula).fontSize));
+  return {formulas: page.querySelectorAll("math").length, smallest: Math.min(...sizes), tooWide, scrolled,
           width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
           font: page.fonts.check("16px 'FAMILY'")};
 }
@@ -111,10 +112,11 @@ def every_formula() -> Iterator[str]:
 
 
 def wrong() -> str:
-    """A formula too wide for a box that does not scroll, one that does, and a script that fails."""
+    """A formula too wide for a box that does not scroll, one that does, one too small, and a script that fails."""
     long = "<math><mrow>" + "<mi>α</mi><mo>+</mo>" * 99 + "</mrow></math>"
+    small = '<p><math style="font-size: 9px"><mi>α</mi></math></p>'
     fails = "<script>console.error('said'); undefined_name()</script>"
-    return f"<!DOCTYPE html><html><head></head><p>{long}</p><div style='overflow-x: auto'>{long}</div>{fails}</html>"
+    return f"<!DOCTYPE html><html><head></head><p>{long}</p><div style='overflow-x: auto'>{long}</div>{small}{fails}</html>"
 
 
 @pytest.fixture(scope="module")
@@ -129,6 +131,7 @@ def test_the_page_fits_a_desk_and_a_phone(found: Seen) -> None:
     for seen in found["page"]:
         assert seen["formulas"] > 20
         assert seen["font"]
+        assert seen["smallest"] >= 10, "px"
         assert seen["tooWide"] == []
         assert seen["width"] <= seen["room"]
         assert seen["failures"] == []
@@ -147,5 +150,6 @@ def test_what_is_wrong_is_found(found: Seen) -> None:
     for seen in found["wrong"]:
         assert len(seen["tooWide"]) == len(seen["scrolled"]) == 1
         assert seen["width"] > seen["room"]
+        assert seen["smallest"] == 9
         assert len(seen["failures"]) == 2
         assert seen["failures"][0] == "said"
