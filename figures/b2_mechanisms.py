@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
 from lagrotor.benchmark.records import recorded_mechanisms
 from lagrotor.drawing import OKABE_ITO
@@ -22,7 +23,7 @@ LOOKS = {
     "Pinocchio": ("black", "P"),
     "Drake": ("olive", "p"),
 }
-WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [s]"}
+WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
 
 TITLE = "Other tools on growing mechanisms"
 ALT = (
@@ -77,8 +78,10 @@ def figure() -> Figure:
         for panel, kind in zip(row, ("rods", "gyroscopes"), strict=True):
             for (name, (colour, marker)), seconds in zip(LOOKS.items(), d[f"{what} of {kind}"], strict=True):
                 line = {"color": OKABE_ITO.get(colour, colour), "marker": marker, "markersize": 5, "linewidth": 1.0}
-                panel.loglog(d[f"n of {kind}"], seconds, label=name, **line)
-            panel.set(xlabel=f"{kind} [1]", ylabel=label, title=kind)
+                panel.loglog(d[f"n of {kind}"], seconds * (1e6 if what == "rhs" else 1), label=name, **line)
+            panel.set(xlabel=f"number of {kind} [1]", ylabel=label, title=kind)
+            panel.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if what == "rhs" else (1,)))
+            panel.yaxis.set_major_formatter("{x:g}" if what == "rhs" else LogFormatterSciNotation())
             panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
             panel.minorticks_off()
     picture.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)

@@ -22,7 +22,7 @@ CAPTION = (
     "its axis of length R = 1 m at its own omega_i, here opposite; wheels not drawn to the inertia, one spoke of each marked."
 )
 ALT = (
-    "Two wheels, blue on the left and red on the right, on upright axes above two ground joints on the x axis. A grey "
+    "Two wheels, indigo on the left and purple on the right, on upright axes above two ground joints on the x axis. A grey "
     "bar joins the upper ends of the axes. Arrows about the axes show spins of opposite sense."
 )
 

@@ -24,7 +24,7 @@ CAPTION = (
     "same way, along r × F."
 )
 ALT = (
-    "Two parallel inclined axes, blue and red, with spins omega 1 and omega 2, joined by a grey bar. A green force arrow F "
+    "Two parallel inclined axes, indigo and purple, with spins omega 1 and omega 2, joined by a grey bar. A green force arrow F "
     "along the bar; below it F A on tip 1 is twice as long as F B on tip 2. Thin black arrows at both tips point into the "
     "picture, along r cross F."
 )

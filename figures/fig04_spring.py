@@ -22,7 +22,7 @@ CAPTION = (
     "apart at rest, so that the force on vertex 1 is −S (X_1 − X_2) and that on vertex 2 its opposite."
 )
 ALT = (
-    "Two bodies drawn as a blue and a red bar with their centres of mass marked. From the end of each, vertex 1 and "
+    "Two bodies drawn as an indigo and a purple bar with their centres of mass marked. From the end of each, vertex 1 and "
     "vertex 2, a zigzag spring labelled S and a damper labelled D join the two. Green arrows at the vertices point at each "
     "other: F on 1 and F on 2."
 )

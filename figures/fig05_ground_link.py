@@ -23,7 +23,7 @@ CAPTION = (
     "is, and a link between the two; drawn after the rotor has been moved off by 0.3 m, with the force on it."
 )
 ALT = (
-    "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright blue rotor, vertex X r 1, joined "
+    "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright indigo rotor, vertex X r 1, joined "
     "to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points back at the ground vertex; an "
     "equal one at the ground vertex is taken up by the ground."
 )

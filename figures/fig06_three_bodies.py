@@ -24,7 +24,7 @@ CAPTION = (
     "pulled apart here. Heights count from the ground joints: the paper's z is 0.5 m less."
 )
 ALT = (
-    "Two wheels on upright axes, R1 blue and R2 red, and above them a grey bar R3. Vertices 1 and 2 of every body are "
+    "Two wheels on upright axes, R1 indigo and R2 purple, and above them a grey bar R3. Vertices 1 and 2 of every body are "
     "numbered, centres of mass marked with their coordinates. Dotted green lines join the bar's ends to the upper vertices "
     "and the lower vertices to the ground."
 )

@@ -94,6 +94,6 @@ def figure() -> Figure:
     for name in ("run", "spike"):
         panels[name].set_ylabel("energy [J]")
     for panel in panels.values():
-        panel.set_xlabel("t [s]")
+        panel.set_xlabel("time [s]")
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

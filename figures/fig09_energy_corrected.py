@@ -58,6 +58,6 @@ def figure() -> Figure:
     main.set(ylabel="energy [J]", ylim=(0, 120), title="Energy")
     for name, colour, line in (("kinetic", MODEL, "-"), ("exact", EXACT, "--")):
         below.plot(d["t"], 1e12 * (d[name] - 100), color=colour, linestyle=line, linewidth=3 if line == "-" else 1.6)
-    below.set(ylabel="energy − 100 J [pJ]", xlabel="t [s]", ylim=(-5, 5), title="Departure from 100 J")
+    below.set(ylabel="energy − 100 J [pJ]", xlabel="time [s]", ylim=(-5, 5), title="Departure from 100 J")
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

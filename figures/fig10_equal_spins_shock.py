@@ -71,6 +71,6 @@ def figure() -> Figure:
     upper.plot(d["t"], d["exact"], color=EXACT, linestyle="--", label="exact model")
     upper.set(ylabel="energy [J]", title="Energy", ylim=(99.95, 100.5))
     lower.plot(d["t"], d["force"], color=OKABE_ITO["reddish purple"])
-    lower.set(ylabel="force in x [N]", xlabel="t [s]", title="Force on the tip of rotor 1", ylim=(-3, 55))
+    lower.set(ylabel="force in x [N]", xlabel="time [s]", title="Force on the tip of rotor 1", ylim=(-3, 55))
     drawn.legend(loc="outside lower center", ncols=2)
     return drawn

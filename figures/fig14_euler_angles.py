@@ -24,7 +24,7 @@ CAPTION = (
     "axis lies at the azimuth varphi − 90°."
 )
 ALT = (
-    "A fixed black frame and a tilted blue frame with a common origin. A dashed node line lies in the level plane "
+    "A fixed black frame and a tilted indigo frame with a common origin. A dashed node line lies in the level plane "
     "and in the tilted plane. Green arcs with arrows mark varphi in the level plane, theta between e z and e 3, and psi in the "
     "tilted plane."
 )

@@ -13,8 +13,8 @@ from lagrotor.structures import GALLERY, draw_plan, example
 
 TITLE = "Ten structures"
 ALT = (
-    "Ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon, a grid. Blue rotors spin one "
-    "way, red ones "
+    "Ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon, a grid. Indigo rotors spin one "
+    "way, purple ones "
     "the other, a ring around each shows how fast; over each plan stands whether it stands, and from which multiple of "
     "its spins on."
 )

@@ -112,9 +112,10 @@ def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float
 
 
 def _palette() -> Pixels:
-    """Every ink in steps from white to itself, (96, 3): what anti-aliasing makes of it on white."""
+    """Every ink in steps from white to itself, (96, 3): what anti-aliasing makes of it on white, of which nothing is so near
+    that the nearest colour of white could be another."""
     inks = np.array([to_rgb(ink) for ink in (INK, *ROTORS, MARK)])
-    share = np.linspace(0, 1, 24)[:, None, None]
+    share = np.append(0, np.linspace(0.08, 1, 23))[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
 
 

@@ -56,10 +56,10 @@ def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array
         for panel, (label, values) in zip(axes, panels, strict=True):
             panel.plot(t, values, color=ROTORS[label in below])
             panel.set_ylabel(label)
-        axes[-1].set_xlabel("t [s]")
+        axes[-1].set_xlabel("time [s]")
     return figure
 
 
 def _over_time(panel: Axes, labelled: bool) -> None:
-    panel.set_xlabel("t [s]" if labelled else "")
+    panel.set_xlabel("time [s]" if labelled else "")
     panel.tick_params(labelbottom=labelled)

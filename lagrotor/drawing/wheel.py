@@ -13,7 +13,7 @@ from lagrotor.numerics.rotations import Array
 RADIUS = 0.36  # of a wheel, in lengths of its axis; two wheels on a bar of that length do not meet. Not to the inertia
 
 INK, BAR, GROUND, MARK = "#222222", "#777777", "#aaaaaa", OKABE_ITO["bluish green"]
-ROTORS = (OKABE_ITO["blue"], OKABE_ITO["vermillion"])  # dark enough for letters on white
+ROTORS = ("#332288", "#a0568a")  # indigo and purple, as on the page: no curve of a model or of the paper has them
 
 
 def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDArray[np.intp]]:

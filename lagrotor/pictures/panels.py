@@ -41,7 +41,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
         for panel in (upper, lower):
             panel.axvline(end, color=EXACT, linewidth=0.8, linestyle=":")
         lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
-    lower.set(ylabel="centre of rotor 1 [m]", xlabel="t [s]", title="Centre of mass of rotor 1")
+    lower.set(ylabel="centre of rotor 1 [m]", xlabel="time [s]", title="Centre of mass of rotor 1")
     lower.margins(y=0.06)
     figure.legend(loc="outside lower center", ncols=4)
     return figure

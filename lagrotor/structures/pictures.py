@@ -1,7 +1,8 @@
 """Pictures of a structure: its plan, its roots, and a run over time."""
 
-from math import inf
+from math import inf, pi
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -22,15 +23,35 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
         end = s.joints[brace.to] if isinstance(brace.to, int) else brace.to[:2]
         panel.plot(*zip(s.joints[brace.tip], end, strict=True), "--", color=MARK, linewidth=1.5, zorder=1)
     most = max(map(abs, s.spins)) or 1.0
-    for (x, y), spin in zip(s.joints, s.spins, strict=True):
+    for i, ((x, y), spin) in enumerate(zip(s.joints, s.spins, strict=True)):
         ink = BAR if spin == 0 else ROTORS[spin < 0]
-        panel.plot(x, y, "o", color=ink, markersize=9, fillstyle="full" if spin else "none", zorder=2)
+        panel.plot(x, y, "o", color=ink, markersize=9, mfc=ink if spin else "white", zorder=2)
         if len(s.joints) <= 16:
-            label = f"{spin:.4g}".replace("-", "−")
-            panel.annotate(label, (x, y), (6, 6), textcoords="offset points", color=INK, path_effects=HALO)
+            label, (along, up) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
+            panel.annotate(
+                label, (x, y), (9 * along, 9 * up), textcoords="offset points", color=INK, path_effects=HALO,
+                ha="center" if abs(along) < 0.3 else "left" if along > 0 else "right",
+                va="center" if abs(up) < 0.3 else "bottom" if up > 0 else "top",
+            )  # fmt: skip
         panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
+
+
+def _clear_direction(s: Assembly, rotor: int) -> Array:
+    """The unit vector (2,) in the middle of the widest angle between the bars and braces at a rotor; up where there are none."""
+    ends = [s.joints[j if i == rotor else i] for i, j, _ in s.bars if rotor in (i, j)]
+    ends += [s.joints[b.to] if isinstance(b.to, int) else b.to[:2] for b in s.braces if b.tip == rotor]
+    ends += [s.joints[b.tip] for b in s.braces if b.to == rotor]
+    if not ends:
+        return np.array([0.0, 1.0])
+    x, y = np.transpose(ends) - np.array(s.joints[rotor])[:, None]
+    angles = np.sort(np.arctan2(y, x))
+    gaps = np.diff(angles, append=angles[0] + 2 * pi)
+    middle = angles + gaps / 2
+    widest = middle[gaps > gaps.max() - 1e-9]
+    best = widest[np.argmax(np.sin(widest) + 1e-3 * np.cos(widest))]  # of equal ones the highest
+    return np.array([np.cos(best), np.sin(best)])
 
 
 def structure_picture(s: Assembly) -> Figure:
@@ -79,5 +100,5 @@ def run_picture(s: Assembly, t: Array, tips: Array, energy: Array) -> Figure:
         panels["energy"].plot(t, energy - energy[0], color=INK)
         panels["energy"].set_ylabel("change of the energy [J]")
         for name in ("z", "energy"):
-            panels[name].set_xlabel("t [s]")
+            panels[name].set_xlabel("time [s]")
     return figure

@@ -357,7 +357,7 @@ def marked(rows):
     ]
 
 
-UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²", "pJ", "SI"}
+UNITS = {"m", "rad", "s", "N", "J", "rad/s", "1/s", "1", "deg", "kg", "kg m²", "pJ", "SI", "µs"}
 
 
 def test_every_figure_makes_a_claim():
