@@ -21,7 +21,7 @@ from benchmarks.machine import machine, versions
 from benchmarks.peers.multibody_engines import ENGINES
 from benchmarks.peers.rig import Rig
 from lagrotor.benchmark.method import Array, Runner
-from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, STRUCTURES, Timed
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed
 from lagrotor.errors import IntegrationError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
@@ -128,7 +128,7 @@ def _timed(run: Run, setting: float) -> tuple[Array, float]:
 def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any]:
     """All of it: machine, versions, and the rows."""
     rows: list[Timed] = []
-    for n in ROTORS:
+    for n in CHAIN_SIZES:
         found = compared(n, say, {row.tool for row in rows if row.reason})
         rows += found
         least = min(row.seconds for row in found if row.seconds)

@@ -12,7 +12,14 @@
 # compiling included; rhs: one evaluation from Python.
 
 # %%
-from lagrotor.benchmark.mechanism_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.mechanism_tables import (
+    DECISION_HEAD,
+    MECHANISM_HEAD,
+    TARGET_HEAD,
+    decision_rows,
+    mechanism_rows,
+    target_rows,
+)
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_mechanisms
 from lagrotor.paper import Table
 
@@ -29,24 +36,24 @@ each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1
 tables = [
     Table(
         "Mechanisms: targets and measurements",
-        WANTED_HEAD,
-        tuple(wanted(found.measured, found.decided, found.operations, found.ready)),
+        TARGET_HEAD,
+        tuple(target_rows(found.measured, found.decided, found.operations, found.ready)),
         f"Multiples of processor time, on {where}. Each rod more takes {each['rods']} operations, each gyroscope more "
         f"{each['gyroscopes']}; the first, on the ground, takes much less ({found.operations['gyroscopes'][0]} for a "
         "gyroscope). Twice as many therefore take more than twice the operations, most so where there are few.",
     ),
     Table(
         "Mechanisms: tools, and what each needs",
-        HEAD,
-        tuple(rows(found.measured)),
+        MECHANISM_HEAD,
+        tuple(mechanism_rows(found.measured)),
         f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of "
         f"{MECHANISM_ERROR:g} rad at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, whichever is "
         "quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
     ),
     Table(
         "Mechanisms: do two formulations agree?",
-        DECIDED_HEAD,
-        tuple(decided_rows(found.decided)),
+        DECISION_HEAD,
+        tuple(decision_rows(found.decided)),
         "The same steps with the exact decision and with sympy's simplify in its place, from a run of its own.",
     ),
 ]

@@ -15,7 +15,7 @@
 # %%
 import numpy as np
 
-from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, Timed, recorded_structures
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, Timed, recorded_structures
 from lagrotor.paper import Table
 
 record, found = recorded_structures()
@@ -48,7 +48,7 @@ wanted = Table(
             "10",
             times(nearest(n).seconds, ours[n].seconds),
         )
-        for n in ROTORS
+        for n in CHAIN_SIZES
     ),
     "Multiples of processor time to the same error. Pinocchio does not run 256 rotors here: its data hold four tensors of the "
     "cube of 768 speeds, 14 GB.",

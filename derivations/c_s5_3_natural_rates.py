@@ -12,7 +12,7 @@
 
 # %%
 from lagrotor import Scene, natural_rate
-from lagrotor.pair import HEAVY
+from lagrotor.pair import HEAVY_LINK
 from lagrotor.paper.rotor_pair.claims.natural_rates import C20, C21, C22
 from lagrotor.paper.rotor_pair.claims.rate_and_inclination import C23
 
@@ -40,7 +40,7 @@ C21
 # In closed form the constant is $J/(a + b)$:
 
 # %%
-natural_rate(Scene((20, 20), link=HEAVY)) / natural_rate(Scene((20, 20), link=None))
+natural_rate(Scene((20, 20), link=HEAVY_LINK)) / natural_rate(Scene((20, 20), link=None))
 
 # %% [markdown]
 # ## C22: the anti-spin pair at 5.7

@@ -16,7 +16,7 @@ import sympy as sp
 
 from lagrotor import Scene, natural_rate, simulate
 from lagrotor.numerics import measured_order
-from lagrotor.pair import HEAVY, SHOCK_PAIRED, SHOCK_Y
+from lagrotor.pair import HEAVY_LINK, SHOCK_PAIRED, SHOCK_Y
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Omega, R, a, b, t
 from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import linear_pair
@@ -132,7 +132,7 @@ prove(balance(both), sp.Matrix([rest, loads, rest]), "the response to equal impu
 # mass 1 and inertia 1, spins ±10: the largest error of $X$ over a period, and the mean of $X$ over the linear one's.
 
 # %%
-still = Scene(spins=(10, -10), link=HEAVY)
+still = Scene(spins=(10, -10), link=HEAVY_LINK)
 period = 2 * np.pi / natural_rate(still)
 turn_times = np.linspace(0, period, 41)
 numbers = {R: 1, p: sum(still.inertias), q: still.inertias[0] - still.inertias[1], G: 10, Omega: natural_rate(still)}
@@ -143,7 +143,7 @@ def exact_and_linear(motion: sp.Matrix, impulse: dict[sp.Symbol, float]) -> tupl
     mine = motion.subs(numbers | impulse)
     speeds = [float(speed) for speed in mine.diff(t).subs(t, 0)]
     rates = ((speeds[1], (speeds[0] + speeds[2]) / 2, 0.0), (speeds[1], (speeds[0] - speeds[2]) / 2, 0.0))
-    run = simulate(Scene(spins=(10, -10), link=HEAVY, rates=rates), turn_times, "minimal", 1e-12)
+    run = simulate(Scene(spins=(10, -10), link=HEAVY_LINK, rates=rates), turn_times, "minimal", 1e-12)
     return run.axes[:, :, 0].mean(0), sp.lambdify(t, mine[1], "numpy")(turn_times)
 
 
@@ -165,7 +165,7 @@ orders
 
 # %%
 just_after = SHOCK_Y.at + 5 * SHOCK_Y.width
-paper = simulate(Scene(spins=(10, -10), link=HEAVY, shock=SHOCK_Y), just_after + turn_times, "minimal", 1e-9)
+paper = simulate(Scene(spins=(10, -10), link=HEAVY_LINK, shock=SHOCK_Y), just_after + turn_times, "minimal", 1e-9)
 paper_mean = float(paper.axes[:, :-1, 0].mean())
 paper_linear = float(mean_y.subs(numbers | {P_y: SHOCK_Y.impulse[1]}))
 paper_over = float(np.degrees(paper.inclinations[:, -1]).mean())

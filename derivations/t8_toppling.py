@@ -24,8 +24,8 @@ from lagrotor.theory import (
     toppling_polynomial,
     toppling_residual,
     toppling_threshold,
-    turning,
     twisted_lagrangian,
+    uniform_toppling,
 )
 
 A, D = a + b, a - b
@@ -58,7 +58,7 @@ prove(L.diff(alpha), 0, "the angle about the joint line is cyclic")
 # Uniform turning is $U=\Delta=0$, $\dot\alpha=\nu$. The Euler–Lagrange expressions leave of it
 
 # %%
-residual = [e.xreplace(turning()) for e in euler_lagrange(L, TWISTED)]
+residual = [e.xreplace(uniform_toppling()) for e in euler_lagrange(L, TWISTED)]
 prove(residual, (-(G_1 + G_2) * nu, 0, 0), "what uniform turning leaves of the three equations")
 
 # %%
@@ -75,7 +75,7 @@ prove(toppling_residual(), residual, "as the library has it")
 # %%
 e = b * nu**2 - G * nu / k
 state, off = (U, Delta, U_v, Delta_v, alpha_v), sp.symbols("U Delta U_dot Delta_dot beta_dot", real=True)
-second = hessian(L, state).xreplace(turning()).subs({G_1: G, G_2: -G})
+second = hessian(L, state).xreplace(uniform_toppling()).subs({G_1: G, G_2: -G})
 quadratic = (sp.Matrix([off]) * second * sp.Matrix(off))[0] / 2
 u, d, u_v, d_v, beta_v = off
 prove(

@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lagrotor.faces import handed_on
+from lagrotor.faces import names_of_face
 
 if TYPE_CHECKING:
     from mkdocs.structure.files import Files
@@ -88,7 +88,7 @@ def reference() -> dict[str, str]:
     """The reference: the names at the top of the package, then a page a room, with every public docstring."""
     package = ROOT / "lagrotor"
     rooms = sorted(path.name for path in package.iterdir() if (path / "__init__.py").is_file())
-    top = ", ".join(f"`{name}`" for name in sorted(handed_on(package / "__init__.py")))
+    top = ", ".join(f"`{name}`" for name in sorted(names_of_face(package / "__init__.py")))
     listed = "\n".join(f"- [{room}](reference/{room}.md)" for room in rooms)
     pages = {"reference.md": f"# Reference\n\nFrom the top of the package: {top}.\n\nRoom by room:\n\n{listed}\n"}
     for room in rooms:

@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
-from lagrotor.drawing import CORRECTED, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.models import RigidBody, RigidBodySystem
 from lagrotor.models.spring_link import paper_bodies, run, system
 from lagrotor.pictures import arrow, bare
@@ -62,8 +62,8 @@ def data() -> dict[str, np.ndarray]:
 
 # %%
 PLACES = {  # left, top, width in inches, and what the box is
-    "RigidBody": (0.0, 4.5, 2.2, "a body as it starts", MODEL),
-    "RigidBodySystem": (2.9, 5.0, 4.1, "bodies, links, ground", CORRECTED),
+    "RigidBody": (0.0, 4.5, 2.2, "a body as it starts", MODEL_COLOUR),
+    "RigidBodySystem": (2.9, 5.0, 4.1, "bodies, links, ground", CORRECTION_COLOUR),
     "Force": (0.0, 1.3, 2.7, "the law of a link", OKABE_ITO["orange"]),
     "Runs": (3.0, 1.6, 4.0, "scenes and runs", OKABE_ITO["reddish purple"]),
 }

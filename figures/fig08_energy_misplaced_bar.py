@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import MODEL, OKABE_ITO
+from lagrotor.drawing import MODEL_COLOUR, OKABE_ITO
 from lagrotor.models import paper_system, run_steps
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 
@@ -82,11 +82,11 @@ def figure() -> Figure:
     drawn = Figure(figsize=(7.4, 5.4))
     panels = drawn.subplot_mosaic([["run", "run"], ["spike", "decay"]])
     early = (d["t"] > 0) & (d["t"] <= 0.15)
-    panels["run"].plot(d["t"], d["kinetic"], color=MODEL, label="kinetic energy, as the paper records it")
+    panels["run"].plot(d["t"], d["kinetic"], color=MODEL_COLOUR, label="kinetic energy, as the paper records it")
     panels["run"].set(title="Whole run, kinetic", xlim=(-0.1, 10), ylim=(90, 215))
-    panels["spike"].plot(d["t"][: early.sum() + 1], d["kinetic"][: early.sum() + 1], color=MODEL)
+    panels["spike"].plot(d["t"][: early.sum() + 1], d["kinetic"][: early.sum() + 1], color=MODEL_COLOUR)
     panels["spike"].set(title="First 0.15 s, kinetic", ylim=(90, 215))
-    for name, colour in (("kinetic", MODEL), ("total", TOTAL)):
+    for name, colour in (("kinetic", MODEL_COLOUR), ("total", TOTAL)):
         above = d[name][early] - 100
         label = "kinetic and spring energy" if name == "total" else None
         panels["decay"].semilogy(d["t"][early], above, color=colour, label=label)

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import EXACT, PAPER
+from lagrotor.drawing import EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes
 from lagrotor.pictures import orbits_from_above, over_one_turn
@@ -79,18 +79,18 @@ def figure() -> Figure:
         )  # fmt: skip
     for i in (0, 1):
         first = i == 0
-        top.plot(*d["ansatz"][i, :, :2].T, color=PAPER, label="ansatz" if first else None)
-        top.plot(*d["exact"][i, :, :2].T, color=EXACT, ls="--", label="exact orbit" if first else None)
+        top.plot(*d["ansatz"][i, :, :2].T, color=PAPER_COLOUR, label="ansatz" if first else None)
+        top.plot(*d["exact"][i, :, :2].T, color=EXACT_COLOUR, ls="--", label="exact orbit" if first else None)
         j, k = (33, 40)
-        arrow = {"arrowstyle": "-|>", "color": PAPER, "lw": 1.6, "mutation_scale": 20}
+        arrow = {"arrowstyle": "-|>", "color": PAPER_COLOUR, "lw": 1.6, "mutation_scale": 20}
         top.annotate("", xy=d["ansatz"][i, k, :2], xytext=d["ansatz"][i, j, :2], arrowprops=arrow)
     orbits_from_above(top, 0.85, 0.27)
 
-    length.plot(d["phase"], d["ansatz_length"], color=PAPER)
-    length.plot(d["phase"], d["exact_length"], color=EXACT, ls="--")
+    length.plot(d["phase"], d["ansatz_length"], color=PAPER_COLOUR)
+    length.plot(d["phase"], d["exact_length"], color=EXACT_COLOUR, ls="--")
     length.set(ylabel="length of the bar [m]", title="Length of the bar", ylim=(0.99, 1.09))
-    distance.plot(d["phase"], d["distance"][0], color=PAPER, label="distance of tip 1")
-    distance.plot(d["phase"], d["distance"][1], color=PAPER, ls=":", label="distance of tip 2")
+    distance.plot(d["phase"], d["distance"][0], color=PAPER_COLOUR, label="distance of tip 1")
+    distance.plot(d["phase"], d["distance"][1], color=PAPER_COLOUR, ls=":", label="distance of tip 2")
     distance.set(ylabel="distance [m]", title="Residual: distance from exact", ylim=(0, None))
     for panel in (length, distance):
         panel.set_xlabel("phase [rad]")

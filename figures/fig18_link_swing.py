@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTED, EXACT, PAPER, with_residual
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, with_residual
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes, paper_axes, series_axes
 from lagrotor.pictures import over_one_turn
@@ -77,11 +77,11 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 5.6))
     main, residual = with_residual(picture)
     curves = (
-        ("constant", PAPER, "-", "constant inclination (5.19)"),
-        ("paper", PAPER, "--", "paper's correction (5.20)"),
-        ("order_2", CORRECTED, "--", "corrected series, order 2"),
-        ("order_3", CORRECTED, "-", "corrected series, order 3"),
-        ("exact", EXACT, ":", "exact orbit"),
+        ("constant", PAPER_COLOUR, "-", "constant inclination (5.19)"),
+        ("paper", PAPER_COLOUR, "--", "paper's correction (5.20)"),
+        ("order_2", CORRECTION_COLOUR, "--", "corrected series, order 2"),
+        ("order_3", CORRECTION_COLOUR, "-", "corrected series, order 3"),
+        ("exact", EXACT_COLOUR, ":", "exact orbit"),
     )
     for name, colour, line, label in curves:
         main.plot(d["phi"], d[name], color=colour, ls=line, label=label)

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes, series_axes
 from lagrotor.pictures import distance_over_one_turn, orbits_from_above
@@ -63,15 +63,15 @@ def figure() -> Figure:
     top, residual = picture.subplots(2, 1, height_ratios=(1.4, 1))
     for i in (0, 1):
         first = i == 0
-        top.plot(*d["paper"][i, :, :2].T, color=PAPER, label="paper's correction (5.20)" if first else None)
+        top.plot(*d["paper"][i, :, :2].T, color=PAPER_COLOUR, label="paper's correction (5.20)" if first else None)
         for name, line, width in (("order_2", ":", 1.6), ("order_3", "-", 2.4)):
             label = f"corrected series, order {name[-1]}" if first else None
-            top.plot(*d[name][i, :, :2].T, color=CORRECTED, ls=line, lw=width, label=label)
-        top.plot(*d["exact"][i, :, :2].T, color=EXACT, ls="--", lw=1.2, label="exact orbit" if first else None)
+            top.plot(*d[name][i, :, :2].T, color=CORRECTION_COLOUR, ls=line, lw=width, label=label)
+        top.plot(*d["exact"][i, :, :2].T, color=EXACT_COLOUR, ls="--", lw=1.2, label="exact orbit" if first else None)
     orbits_from_above(top, 0.85, 0.28)
-    residual.semilogy(d["phase"], d["paper_distance"], color=PAPER)
-    residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTED, ls=":")
-    residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTED)
+    residual.semilogy(d["phase"], d["paper_distance"], color=PAPER_COLOUR)
+    residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTION_COLOUR, ls=":")
+    residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTION_COLOUR)
     distance_over_one_turn(residual, 5e-5, 0.2)
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import shock_response, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -80,12 +80,12 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.0, 7.0))
     top, turns = picture.subplots(2, 1, height_ratios=(2.2, 1))
-    for i, colour in ((0, MODEL), (1, OKABE_ITO["orange"])):
+    for i, colour in ((0, MODEL_COLOUR), (1, OKABE_ITO["orange"])):
         top.plot(*d["tips"][i, :, :2].T, color=colour, lw=0.9, label=f"{('left', 'right')[i]} tip, of rotor {i + 1}")
     centres = d["centres"].mean(1)[:, :2]
     for points, colour, line, mark, label in (
-        (centres, EXACT, "-", "o", "centres and skew axis"),
-        (d["predicted_centres"], CORRECTED, "--", "^", "by the linear response"),
+        (centres, EXACT_COLOUR, "-", "o", "centres and skew axis"),
+        (d["predicted_centres"], CORRECTION_COLOUR, "--", "^", "by the linear response"),
     ):
         middle, along = points.mean(0), points[1] - points[0]
         ends = middle + np.array([[-0.85], [0.85]]) * along
@@ -96,8 +96,8 @@ def figure() -> Figure:
     top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
     top.set_aspect("equal")
     top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x".replace("-", "−"), fontsize=10)
-    turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT, ms=5)
-    turns.axhline(d["predicted_angle"][0], color=CORRECTED, ls="--")
+    turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT_COLOUR, ms=5)
+    turns.axhline(d["predicted_angle"][0], color=CORRECTION_COLOUR, ls="--")
     turns.set(
         xlabel="turn after the shock [1]", ylabel="angle to x [deg]", title="Angle of the skew axis, turn by turn"
     )

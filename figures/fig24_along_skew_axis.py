@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import corrected_trajectories, paired_frequency, shock_response, simulate
-from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -134,12 +134,12 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 6.8))
     right, left, residual = picture.subplots(3, 1, sharex=True, height_ratios=(2, 2, 1.4))
     for panel, i in ((right, 1), (left, 0)):
-        panel.plot(d["t"], d["simulated"][i], color=EXACT, label="simulated, exact model")
-        panel.plot(d["t"], d["paper"][i], color=PAPER, ls="--", label="paper (5.22)")
-        panel.plot(d["t"], d["corrected"][i], color=CORRECTED, ls="--", label="corrected series, order 3")
+        panel.plot(d["t"], d["simulated"][i], color=EXACT_COLOUR, label="simulated, exact model")
+        panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, ls="--", label="paper (5.22)")
+        panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, ls="--", label="corrected series, order 3")
     right.set(ylabel="along the axis [m]", title="Right tip", ylim=(0.2, 0.8))
     left.set(ylabel="along the axis [m]", title="Left tip", ylim=(-0.8, -0.2))
-    for name, colour in (("paper", PAPER), ("corrected", CORRECTED)):
+    for name, colour in (("paper", PAPER_COLOUR), ("corrected", CORRECTION_COLOUR)):
         residual.plot(d["t"], d[name][0] - d["simulated"][0], color=colour)
         residual.plot(d["t"], d[name][1] - d["simulated"][1], color=colour, ls=":")
     residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid left tip, dotted right tip)")

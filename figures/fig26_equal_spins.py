@@ -11,12 +11,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.drawing import EXACT, MODEL
-from lagrotor.pair import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR
+from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
 
 TOL = 1e-10
-SCENE = Scene(spins=(20, 20), link=HEAVY, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
+SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
 
 TITLE = "Pair of equal spins 20 after a shock"
 ALT = (
@@ -66,10 +66,10 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.0, 6.4))
     force, x, residual = picture.subplots(3, 1, sharex=True, height_ratios=(1, 2, 1))
-    force.plot(d["t"], d["force"], color=EXACT)
-    x.plot(d["t"], d["exact"], color=EXACT, label="exact model")
-    x.plot(d["t"], d["springs"], color=MODEL, ls="--", lw=1.2, label="paper's method, stiff springs")
-    residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL)
+    force.plot(d["t"], d["force"], color=EXACT_COLOUR)
+    x.plot(d["t"], d["exact"], color=EXACT_COLOUR, label="exact model")
+    x.plot(d["t"], d["springs"], color=MODEL_COLOUR, ls="--", lw=1.2, label="paper's method, stiff springs")
+    residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL_COLOUR)
     force.set(ylabel="force [N]", title="Force on tip 1 along x")
     x.set(ylabel="$x_1$ [m]", title="x of tip 1")
     residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual: paper's method − exact model")

@@ -11,12 +11,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.pair import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import rate_numbers, rate_runs
 from lagrotor.pictures import rate_figure
 
 TOL, PRINTED = 1e-10, 11.4
-SCENE = Scene(spins=(20, 20), link=HEAVY, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
+SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))
 
 TITLE = "Equal spins 20, matched to a rate"
 ALT = (

@@ -11,13 +11,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
 from lagrotor.numerics import peak, spectrum
-from lagrotor.pair import DAMPING, HEAVY, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
+from lagrotor.pair import DAMPING, HEAVY_LINK, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
-BARS = {"heavy": HEAVY, "light": LIGHT}
+BARS = {"heavy": HEAVY_LINK, "light": LIGHT}
 SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK_PAIRED) for name, bar in BARS.items()}
 
 TITLE = "Opposite spins ±10 in the second mode"
@@ -103,21 +103,28 @@ def figure() -> Figure:
         (heavy, "heavy", "Heavy bar: 1 kg, 1 kg m²"),
         (light, "light", "Light bar: 0.01 kg, 0.1 kg m²"),
     ):
-        panel.plot(d["t"], d[f"{name}_x"], color=EXACT, label="exact model")
-        panel.plot(d["t"][after], d[f"{name}_printed"][after], color=PAPER, ls="--", lw=1.2, label="sine at 5.7 rad/s")
+        panel.plot(d["t"], d[f"{name}_x"], color=EXACT_COLOUR, label="exact model")
         panel.plot(
-            d["t"][after], d[f"{name}_natural"][after], color=CORRECTED, ls=":", lw=2, label="sine at the natural rate"
+            d["t"][after], d[f"{name}_printed"][after], color=PAPER_COLOUR, ls="--", lw=1.2, label="sine at 5.7 rad/s"
+        )
+        panel.plot(
+            d["t"][after],
+            d[f"{name}_natural"][after],
+            color=CORRECTION_COLOUR,
+            ls=":",
+            lw=2,
+            label="sine at the natural rate",
         )
         panel.set(ylabel="$x_1$ [m]", title=title, xlim=(1.5, 10))
         panel.tick_params(labelbottom=False)
         line = "-" if name == "heavy" else "-."
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER, ls=line)
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTED, ls=line)
-        heights.plot(d["rate"], d[f"{name}_amplitude"], color=EXACT, ls=line)
-        heights.axvline(d[f"{name}_natural_rate"][0], color=CORRECTED, ls=":", lw=2)
-    heavy.plot(d["t"], d["springs_x"], color=MODEL, lw=1.2, label="paper's method (heavy bar)")
-    heights.plot(d["rate"], d["springs_amplitude"], color=MODEL, lw=1.2)
-    heights.axvline(PRINTED, color=PAPER, ls="--", lw=1.2)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTION_COLOUR, ls=line)
+        heights.plot(d["rate"], d[f"{name}_amplitude"], color=EXACT_COLOUR, ls=line)
+        heights.axvline(d[f"{name}_natural_rate"][0], color=CORRECTION_COLOUR, ls=":", lw=2)
+    heavy.plot(d["t"], d["springs_x"], color=MODEL_COLOUR, lw=1.2, label="paper's method (heavy bar)")
+    heights.plot(d["rate"], d["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
+    heights.axvline(PRINTED, color=PAPER_COLOUR, ls="--", lw=1.2)
     drift.set(xlabel="time [s]", ylabel="phase drift [rad]", xlim=(1.5, 10))
     drift.set_title("Phase of the sine less that of $x_1$ (solid: heavy bar, dash-dotted: light)")
     heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", xlim=(0, 12), ylim=(0, None))

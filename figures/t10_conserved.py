@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A
@@ -71,11 +71,11 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 5.0))
     looks = {
-        "A": (PAPER, "o", "the paper's A [kg m²/s]"),
-        "E": (EXACT, "s", "energy E [J]"),
-        "P": (CORRECTED, "^", "momentum about the joint line P [kg m²/s]"),
+        "A": (PAPER_COLOUR, "o", "the paper's A [kg m²/s]"),
+        "E": (EXACT_COLOUR, "s", "energy E [J]"),
+        "P": (CORRECTION_COLOUR, "^", "momentum about the joint line P [kg m²/s]"),
         "B": (OKABE_ITO["orange"], "D", "the paper's B [kg m²/s]"),
-        "G_1": (MODEL, "x", "axial momentum $G_1$ [kg m²/s]"),
+        "G_1": (MODEL_COLOUR, "x", "axial momentum $G_1$ [kg m²/s]"),
     }
     for i, (model, panel) in enumerate(zip(MODELS, picture.subplots(1, 2, sharey=True), strict=True)):
         for name, (colour, mark, says) in looks.items():

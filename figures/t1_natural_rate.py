@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.drawing import CORRECTED, EXACT, OKABE_ITO, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO, PAPER_COLOUR
 from lagrotor.numerics import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
@@ -82,19 +82,19 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 4.6))
     panels = dict(zip(("inertia", "mass"), picture.subplots(1, 2, sharey=True), strict=True))
-    colours = {"equal": CORRECTED, "opposite": OKABE_ITO["reddish purple"]}
+    colours = {"equal": CORRECTION_COLOUR, "opposite": OKABE_ITO["reddish purple"]}
     for by, panel in panels.items():
         for name, colour in colours.items():
             panel.plot(d[by], d[f"{name}_by_{by}"], color=colour, label=f"closed form, {name} spins")
             panel.plot(
-                d[f"{by}_tried"], d[f"{name}_by_{by}_tried"], "o", color=EXACT, ms=5, mfc="none",
+                d[f"{by}_tried"], d[f"{name}_by_{by}_tried"], "o", color=EXACT_COLOUR, ms=5, mfc="none",
                 label="exact model", clip_on=False, zorder=4,
             )  # fmt: skip
-        panel.axhline(PRINTED, color=PAPER, ls="--", label="the paper's constant")
+        panel.axhline(PRINTED, color=PAPER_COLOUR, ls="--", label="the paper's constant")
         edge = MASS / 4 if by == "inertia" else 4 * INERTIA
         panel.axvline(edge, color="#777777", ls=":", label=r"dumbbell, $K = m\ell^2/4$")
         place = 1.0 if by == "inertia" else 0.01
-        panel.axvline(place, color=PAPER, lw=5, alpha=0.25, label="the paper's bar")
+        panel.axvline(place, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
         panel.set_ylabel("natural frequency, in units of G/J [1]")
     panels["inertia"].set(xlabel="inertia of the bar K [kg m²]", title=f"Mass of the bar m = {MASS:g} kg")
     panels["mass"].set(xlabel="mass of the bar m [kg]", title=f"Inertia of the bar K = {INERTIA:g} kg m²")

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.numerics import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11
@@ -79,16 +79,20 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 6.2))
     axes = picture.subplot_mosaic([["motion", "motion"], ["difference", "order"]], height_ratios=(1.4, 1))
     motion, difference, order = axes["motion"], axes["difference"], axes["order"]
-    colours = dict(zip(("x", "y, tip 1", "y, tip 2"), (CORRECTED, MODEL, OKABE_ITO["orange"]), strict=True))
+    colours = dict(
+        zip(("x", "y, tip 1", "y, tip 2"), (CORRECTION_COLOUR, MODEL_COLOUR, OKABE_ITO["orange"]), strict=True)
+    )
     for i, (name, colour) in enumerate(colours.items()):
         motion.plot(d["t"], d["closed"][:, i], color=colour, label=f"closed form, {name}")
-        motion.plot(d["t"], d["exact"][:, i], color=EXACT, ls=":", lw=1.3, label="exact model" if i == 0 else None)
+        motion.plot(
+            d["t"], d["exact"][:, i], color=EXACT_COLOUR, ls=":", lw=1.3, label="exact model" if i == 0 else None
+        )
         difference.plot(d["t"], d["closed"][:, i] - d["exact"][:, i], color=colour)
     motion.set(xlabel="time [s]", ylabel="component of the axis [1]", title="Motion")
     difference.set(xlabel="time [s]", ylabel="difference [1]", title="Residual: closed form less exact")
-    order.loglog(d["forces"], d["errors"], "o", color=EXACT, label="largest difference over 2 s")
+    order.loglog(d["forces"], d["errors"], "o", color=EXACT_COLOUR, label="largest difference over 2 s")
     law = d["errors"][0] * (d["forces"] / d["forces"][0]) ** 2
-    order.loglog(d["forces"], law, color=CORRECTED, ls="--", label="square of the force")
+    order.loglog(d["forces"], law, color=CORRECTION_COLOUR, ls="--", label="square of the force")
     order.set(xlabel="force along x [N]", ylabel="largest difference [1]", title="Order", xlim=(0.8, 20))
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTED, EXACT
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.theory import paired_series, series_orbit
@@ -95,8 +95,8 @@ def figure() -> Figure:
     )
     errors.set_xticks([0.05, 0.1, 0.2, 0.4], ["0.05", "0.1", "0.2", "0.4"], minor=False)
     errors.set_xticks([], minor=True)
-    slope.plot(d["orders"], d["orders"] + 1, color=CORRECTED, label="promised: order + 1")
-    slope.plot(d["orders"], slopes(), "o", color=EXACT, mfc="none", label="measured slope")
+    slope.plot(d["orders"], d["orders"] + 1, color=CORRECTION_COLOUR, label="promised: order + 1")
+    slope.plot(d["orders"], slopes(), "o", color=EXACT_COLOUR, mfc="none", label="measured slope")
     slope.set(xlabel="order of the series [1]", ylabel="slope [1]", title="Residual's slope", xlim=(0.5, 9.5))
     slope.set_xticks(range(1, 10))
     picture.legend(loc="outside lower center", ncols=4)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
 from lagrotor.theory import paired_series
 from lagrotor.theory.paired_precession.series import shape_of
 
@@ -81,11 +81,20 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 4.2))
     for i, (name, panel) in enumerate(zip(BARS, picture.subplots(1, 3), strict=True)):
         exact = d[f"exact, {i}"]
-        panel.plot(d["r0"], d["paper"], color=PAPER, label="paper" if i == 0 else None)
-        panel.plot(d["r0"], d[f"order 3, {i}"], color=CORRECTED, ls="--", label="series, order 3" if i == 0 else None)
-        panel.plot(d["r0"], d[f"order 9, {i}"], color=MODEL, label="series, order 9" if i == 0 else None)
+        panel.plot(d["r0"], d["paper"], color=PAPER_COLOUR, label="paper" if i == 0 else None)
         panel.plot(
-            d["exact_at"], exact, "o-", color=EXACT, lw=0.8, ms=3.5, mfc="none", label="exact" if i == 0 else None
+            d["r0"], d[f"order 3, {i}"], color=CORRECTION_COLOUR, ls="--", label="series, order 3" if i == 0 else None
+        )
+        panel.plot(d["r0"], d[f"order 9, {i}"], color=MODEL_COLOUR, label="series, order 9" if i == 0 else None)
+        panel.plot(
+            d["exact_at"],
+            exact,
+            "o-",
+            color=EXACT_COLOUR,
+            lw=0.8,
+            ms=3.5,
+            mfc="none",
+            label="exact" if i == 0 else None,
         )
         low, high = min(exact.min(), 1.0), max(exact.max(), 1.0)
         panel.set_ylim(low - 0.25 * (high - low), high + 0.6 * (high - low))

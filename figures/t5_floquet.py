@@ -11,14 +11,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.numerics import measured_order
 from lagrotor.theory import elliptic_edge, growth_squared
 
 BARS = {
     "b = 0: massless": (Link(1, 0, 0), OKABE_ITO["reddish purple"], "o"),
-    "b < 0: m = 0.01 kg, K = 0.1 kg m²": (Link(1, 0.01, 0.1), MODEL, "s"),
-    "b > 0: m = 1 kg, K = 0.05 kg m²": (Link(1, 1, 0.05), CORRECTED, "^"),
+    "b < 0: m = 0.01 kg, K = 0.1 kg m²": (Link(1, 0.01, 0.1), MODEL_COLOUR, "s"),
+    "b > 0: m = 1 kg, K = 0.05 kg m²": (Link(1, 1, 0.05), CORRECTION_COLOUR, "^"),
 }
 AMPLITUDES = np.array([0.08, 0.14, 0.24])
 # Masses (kg) of a bar of small b > 0, and amplitudes on both sides of the edge.
@@ -105,15 +105,15 @@ def figure() -> Figure:
     growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle, a turn [rad]", title="Growth a turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
-    plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0, color=CORRECTED, alpha=0.18, lw=0, label="elliptic")
+    plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0, color=CORRECTION_COLOUR, alpha=0.18, lw=0, label="elliptic")
     plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0.4, color=OKABE_ITO["orange"], alpha=0.22, lw=0)
     plane.axhspan(0.96, 1, color=OKABE_ITO["orange"], alpha=0.22, lw=0, label="hyperbolic")
     low, high = d["edge_r0"] - d["edge_error"], d["edge_r0"] + d["edge_error"]
     plane.fill_betweenx(d["edge_sigma"], low, high, color="#777777", alpha=0.5, lw=0, label="error of the edge")
-    plane.plot(d["edge_r0"], d["edge_sigma"], color=EXACT, lw=1.2, label="edge, derived")
-    for growing, fill, says in ((True, EXACT, "found hyperbolic"), (False, "white", "found elliptic")):
+    plane.plot(d["edge_r0"], d["edge_sigma"], color=EXACT_COLOUR, lw=1.2, label="edge, derived")
+    for growing, fill, says in ((True, EXACT_COLOUR, "found hyperbolic"), (False, "white", "found elliptic")):
         sigma, r0, _ = d["tried"][(d["tried"][:, 2] > 0) == growing].T
-        plane.plot(r0, sigma, "D", color=EXACT, mfc=fill, ms=5, label=says)
+        plane.plot(r0, sigma, "D", color=EXACT_COLOUR, mfc=fill, ms=5, label=says)
     plane.set(
         xlabel="amplitude $r_0$ [1]",
         ylabel=r"$\sigma$ [1]",

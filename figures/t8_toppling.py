@@ -11,13 +11,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.theory import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0
 BARS = {
-    "b = 0: massless": (Link(1, 0, 0), CORRECTED),
-    "b < 0: m = K = 1": (Link(1, 1, 1), MODEL),
+    "b = 0: massless": (Link(1, 0, 0), CORRECTION_COLOUR),
+    "b < 0: m = K = 1": (Link(1, 1, 1), MODEL_COLOUR),
     "b > 0: m = 1 kg, K = 0": (Link(1, 1, 0), OKABE_ITO["orange"]),
 }
 TRIED = ((0, 2.0), (0, 6.0), (1, 8.0), (1, -16.0), (2, 20.0))
@@ -94,14 +94,14 @@ def figure() -> Figure:
     growth, shocks = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, colour)), values in zip(BARS.items(), d["growth"], strict=True):
         growth.plot(d["rates"], values, color=colour, label=f"closed form, {name}")
-    growth.plot(d["tried"][:, 1], d["measured"], "o", color=EXACT, mfc="none", label="exact motion")
+    growth.plot(d["tried"][:, 1], d["measured"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     growth.set(
         xlabel=r"rate of turning $\nu$ [rad/s]",
         ylabel="growth rate [1/s]",
         title="Growth of a small tilt",
         ylim=(-0.3, 14),
     )
-    for force, x, line in zip((FORCE, -FORCE), d["x"], (EXACT, OKABE_ITO["reddish purple"]), strict=True):
+    for force, x, line in zip((FORCE, -FORCE), d["x"], (EXACT_COLOUR, OKABE_ITO["reddish purple"]), strict=True):
         shocks.plot(d["t"], x, color=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−"))
     shocks.set(xlabel="time [s]", ylabel="mean x of both axes [1]", title="After the paper's shocks along y")
     picture.legend(loc="outside lower center", ncols=3)

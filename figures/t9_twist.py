@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
 from lagrotor.theory import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
@@ -83,15 +83,19 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 4.8))
     growth, residual = picture.subplots(1, 2, width_ratios=(1.5, 1))
-    for i, (angle, colour) in enumerate(zip(ANGLES, (MODEL, OKABE_ITO["reddish purple"]), strict=True)):
-        growth.plot(d["inertia"], d["closed"][i], color=CORRECTED, ls="--", label="closed form" if i == 0 else None)
+    for i, (angle, colour) in enumerate(zip(ANGLES, (MODEL_COLOUR, OKABE_ITO["reddish purple"]), strict=True)):
+        growth.plot(
+            d["inertia"], d["closed"][i], color=CORRECTION_COLOUR, ls="--", label="closed form" if i == 0 else None
+        )
         growth.plot(d["inertia"], d["hill"][i], color=colour, label=f"Hill's equation, {angle:g} rad")
-        growth.plot(d["tried"], d["exact"][i], "o", color=EXACT, mfc="none", label="exact motion" if i == 0 else None)
+        growth.plot(
+            d["tried"], d["exact"][i], "o", color=EXACT_COLOUR, mfc="none", label="exact motion" if i == 0 else None
+        )
         residual.plot(d["inertia"], d["closed"][i] - d["hill"][i], color=colour)
     for panel in (growth, residual):
         panel.axvline(EDGE, color="#777777", ls=":", label=r"threshold, $K = m\ell^2/4$" if panel is growth else None)
         panel.set_xlabel("inertia of the bar K [kg m²]")
-    growth.axvline(1.0, color=PAPER, lw=5, alpha=0.25, label="the paper's bar")
+    growth.axvline(1.0, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
     growth.set(ylabel="growth rate [1/s]", title="Growth of a small twist")
     residual.set(ylabel="difference [1/s]", title="Residual: closed form less Hill")
     picture.legend(loc="outside lower center", ncols=3)

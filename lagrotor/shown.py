@@ -6,7 +6,7 @@ from html import escape
 _HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def raised(power: int) -> str:
+def superscript(power: int) -> str:
     """A whole power as people write it: −14 as ⁻¹⁴."""
     return str(power).translate(_HIGH)
 
@@ -16,7 +16,7 @@ def scientific(value: float, digits: int = 0) -> str:
     if value == 0:
         return "0"
     mantissa, _, power = f"{value:.{digits}e}".partition("e")
-    return mantissa.replace("-", "−") + (f"×10{raised(int(power))}" if int(power) else "")
+    return mantissa.replace("-", "−") + (f"×10{superscript(int(power))}" if int(power) else "")
 
 
 class Shown(ABC):

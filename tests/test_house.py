@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.faces import handed_on
+from lagrotor.faces import names_of_face
 
 ROOT = Path(__file__).parent.parent
 # From the ground up: a room imports from those before it and from itself.
@@ -159,7 +159,7 @@ def test_an_upward_import_and_a_circle_would_be_seen(imports: dict[str, set[str]
     assert {"lagrotor.errors", "lagrotor.pair.scene"} in circles(changed)
 
 
-FACES = {name: handed_on(path) for name, path in MODULES.items() if path.name == "__init__.py"}
+FACES = {name: names_of_face(path) for name, path in MODULES.items() if path.name == "__init__.py"}
 
 
 def test_a_face_hands_names_on_and_defines_nothing() -> None:

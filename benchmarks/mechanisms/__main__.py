@@ -10,7 +10,14 @@ from dataclasses import asdict
 from benchmarks.machine import machine, versions
 from benchmarks.mechanisms.comparison import compare, operation_counts, ready_in_turns
 from benchmarks.mechanisms.deciding import decide_pairs
-from lagrotor.benchmark.mechanism_tables import DECIDED_HEAD, HEAD, WANTED_HEAD, decided_rows, rows, wanted
+from lagrotor.benchmark.mechanism_tables import (
+    DECISION_HEAD,
+    MECHANISM_HEAD,
+    TARGET_HEAD,
+    decision_rows,
+    mechanism_rows,
+    target_rows,
+)
 from lagrotor.benchmark.records import LINKS, MECHANISMS, Comparison
 from lagrotor.files import write_text
 
@@ -23,8 +30,8 @@ if __name__ == "__main__":
     if arguments.record:
         print(write_text(MECHANISMS, json.dumps(asdict(made), indent=1, ensure_ascii=False) + "\n"))
     for head, body in (
-        (HEAD, rows(made.measured)),
-        (DECIDED_HEAD, decided_rows(made.decided)),
-        (WANTED_HEAD, wanted(made.measured, made.decided, made.operations, made.ready)),
+        (MECHANISM_HEAD, mechanism_rows(made.measured)),
+        (DECISION_HEAD, decision_rows(made.decided)),
+        (TARGET_HEAD, target_rows(made.measured, made.decided, made.operations, made.ready)),
     ):
         print("", " | ".join(head), *(" | ".join(row) for row in body), sep="\n")

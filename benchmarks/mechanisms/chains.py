@@ -8,7 +8,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.records import Kind
+from lagrotor.benchmark.records import MechanismKind
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.mechanics.bodies.rigid_bodies import Energy
 
@@ -19,7 +19,7 @@ VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I3: 0.2}
 JOINTS = {"rods": 1, "gyroscopes": 3}  # coordinates of each link
 
 
-def chain(kind: Kind, n: int) -> System:
+def chain(kind: MechanismKind, n: int) -> System:
     """The system of n links."""
     c = coordinates([f"q_{i}" for i in range(JOINTS[kind] * n)])
     frame, L = Frame(c), Energy(())
@@ -34,7 +34,7 @@ def chain(kind: Kind, n: int) -> System:
     return System(c, L)
 
 
-def start(kind: Kind, n: int) -> Array:
+def start(kind: MechanismKind, n: int) -> Array:
     """The state (q, v) from which a run begins: rods at rest and bent, gyroscopes inclined, with a spin of 30 rad/s."""
     if kind == "rods":
         return np.concatenate([np.linspace(0.5, 0.1, n), np.zeros(n)])

@@ -23,7 +23,7 @@ from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.sympy_tools import SYMPY
 from benchmarks.mechanisms.tool import Ready, Rhs, Tool, in_own_process
 from lagrotor.benchmark.method import TOLERANCES
-from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Kind, Measured
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Measured, MechanismKind
 from lagrotor.mechanics.running.programs import motion_program
 from lagrotor.numerics.codegen import operations
 
@@ -36,7 +36,7 @@ _SAMPLES, _SAMPLE = 15, 5e-3
 
 
 def compare(
-    sizes: Mapping[Kind, Sequence[int]] = LINKS,
+    sizes: Mapping[MechanismKind, Sequence[int]] = LINKS,
     tools: Mapping[str, Tool] = TOOLS,
     step: Callable[[str], None] = lambda text: None,
 ) -> list[Measured]:
@@ -85,7 +85,7 @@ def measure(tool: Tool, case: Measured) -> Measured:
     return replace(case, ready=seconds, difference=difference, rhs=rhs, **_run(ready, kind, n))
 
 
-def _prepared(tool: Tool, kind: Kind, n: int) -> tuple[Ready, float]:
+def _prepared(tool: Tool, kind: MechanismKind, n: int) -> tuple[Ready, float]:
     """Ready, and the least time of that: of one where it takes seconds, of five with empty caches where it does not."""
     times: list[float] = []
     while len(times) < 5 and sum(times) < 2:
@@ -96,7 +96,7 @@ def _prepared(tool: Tool, kind: Kind, n: int) -> tuple[Ready, float]:
     return ready, min(times)
 
 
-def ready_in_turns(kind: Kind, rounds: int = 15) -> list[float]:
+def ready_in_turns(kind: MechanismKind, rounds: int = 15) -> list[float]:
     """Median processor time, s, in which lagrotor is ready, on each of LINKS: in turns, so that load comes to all alike."""
     times: dict[int, list[float]] = {n: [] for n in LINKS[kind]}
     for _ in range(rounds):
@@ -109,7 +109,7 @@ def ready_in_turns(kind: Kind, rounds: int = 15) -> list[float]:
     return [median(taken) for taken in times.values()]
 
 
-def _states(kind: Kind, n: int) -> Any:
+def _states(kind: MechanismKind, n: int) -> Any:
     random = np.random.default_rng(1)
     return (random.uniform(-0.5, 0.5, 2 * JOINTS[kind] * n) for _ in range(3))
 
@@ -143,7 +143,7 @@ def _sample(call: Callable[[], Any], number: int) -> float:
     return _clock() - before
 
 
-def _run(ready: Ready, kind: Kind, n: int) -> dict[str, Any]:
+def _run(ready: Ready, kind: MechanismKind, n: int) -> dict[str, Any]:
     """The least time of a run with at most MECHANISM_ERROR: by the tool's own way, or by scipy's DOP853 or LSODA."""
     begin = start(kind, n)
     truth = _scipy(chain(kind, n).rhs(VALUES), begin, "DOP853", 1e-13)
@@ -170,6 +170,6 @@ def _scipy(rhs: Rhs, begin: Array, name: str, tol: float) -> Array:
     return np.asarray(found.y.T[:, : len(begin) // 2])
 
 
-def operation_counts() -> dict[Kind, list[int]]:
+def operation_counts() -> dict[MechanismKind, list[int]]:
     """Operations of one evaluation on each of LINKS."""
     return {kind: [operations(motion_program(chain(kind, n)).program) for n in sizes] for kind, sizes in LINKS.items()}

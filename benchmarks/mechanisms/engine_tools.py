@@ -9,13 +9,13 @@ import numpy as np
 
 from benchmarks.mechanisms.chains import I1, I3, VALUES, g, l, m
 from benchmarks.mechanisms.tool import Array, Ready, Tool
-from lagrotor.benchmark.records import Kind
+from lagrotor.benchmark.records import MechanismKind
 
 _M, _L, _G, _I1, _I3 = (VALUES[s] for s in (m, l, g, I1, I3))
 _NONE = 1e-14
 
 
-def mujoco(kind: Kind, n: int) -> Ready:
+def mujoco(kind: MechanismKind, n: int) -> Ready:
     """MuJoCo: mj_forward for the right-hand side, its Runge–Kutta of fourth order for runs."""
     import mujoco as mj
 
@@ -40,7 +40,7 @@ def mujoco(kind: Kind, n: int) -> Ready:
     return Ready(rhs, run, tuple(0.01 / 2**k for k in range(10)))
 
 
-def _mjcf(kind: Kind, n: int) -> str:
+def _mjcf(kind: MechanismKind, n: int) -> str:
     """Nested bodies in MuJoCo's format."""
     text, mass = "", f'<inertial pos="0 0 {{}}" mass="{_M}" diaginertia="{{}} {{}} {{}}"/>'
     for i in reversed(range(n)):
@@ -59,7 +59,7 @@ def _mjcf(kind: Kind, n: int) -> str:
     )
 
 
-def pinocchio(kind: Kind, n: int) -> Ready:
+def pinocchio(kind: MechanismKind, n: int) -> Ready:
     """Pinocchio: the articulated-body algorithm, aba."""
     import pinocchio as pin
 
@@ -89,7 +89,7 @@ def pinocchio(kind: Kind, n: int) -> Ready:
     return Ready(rhs)
 
 
-def drake(kind: Kind, n: int) -> Ready:
+def drake(kind: MechanismKind, n: int) -> Ready:
     """Drake: a continuous MultibodyPlant, its time derivatives, and runs by its Runge–Kutta of fifth order."""
     from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 
@@ -117,7 +117,7 @@ def drake(kind: Kind, n: int) -> Ready:
     return Ready(rhs, run, tuple(10.0**-k for k in range(5, 14)))
 
 
-def _drake_plant(kind: Kind, n: int) -> Any:
+def _drake_plant(kind: MechanismKind, n: int) -> Any:
     from pydrake.math import RigidTransform
     from pydrake.multibody.plant import MultibodyPlant
     from pydrake.multibody.tree import FixedOffsetFrame, RevoluteJoint, RotationalInertia, SpatialInertia, UnitInertia

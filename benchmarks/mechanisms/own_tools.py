@@ -4,13 +4,13 @@ from functools import partial
 
 from benchmarks.mechanisms.chains import VALUES, chain
 from benchmarks.mechanisms.tool import Array, Ready, Tool
-from lagrotor.benchmark.records import Kind
+from lagrotor.benchmark.records import MechanismKind
 from lagrotor.numerics.integrate import Engine
 
 _TOLERANCES = tuple(10.0**-k for k in range(6, 14))
 
 
-def _prepare(engine: Engine, kind: Kind, n: int) -> Ready:
+def _prepare(engine: Engine, kind: MechanismKind, n: int) -> Ready:
     system = chain(kind, n)
 
     def run(start: Array, times: Array, tol: float) -> Array:

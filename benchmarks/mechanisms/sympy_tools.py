@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.mechanisms.chains import JOINTS, VALUES
 from benchmarks.mechanisms.tool import Array, Ready, Tool
-from lagrotor.benchmark.records import Kind
+from lagrotor.benchmark.records import MechanismKind
 
 _NUMBERS = {str(s): value for s, value in VALUES.items()}
 
@@ -18,7 +18,7 @@ _NUMBERS = {str(s): value for s, value in VALUES.items()}
 class _Mechanism:
     """Coordinates q, speeds u, the ground, bodies with their frames, and the weights, in sympy.physics.mechanics."""
 
-    def __init__(self, kind: Kind, n: int) -> None:
+    def __init__(self, kind: MechanismKind, n: int) -> None:
         import sympy as sp
         from sympy.physics import mechanics as me
 
@@ -107,19 +107,19 @@ def _solved(method: Any, q: list[Any], u: list[Any], parameters: Any) -> Ready:
     return Ready(rhs)
 
 
-def kane(kind: Kind, n: int) -> Ready:
+def kane(kind: MechanismKind, n: int) -> Ready:
     """KanesMethod."""
     made = _Mechanism(kind, n)
     return _solved(made.kane(), made.q, made.u, made.parameters)
 
 
-def lagrange(kind: Kind, n: int) -> Ready:
+def lagrange(kind: MechanismKind, n: int) -> Ready:
     """LagrangesMethod."""
     made = _Mechanism(kind, n)
     return _solved(made.lagrange(), made.q, made.rates, made.parameters)
 
 
-def pydy(kind: Kind, n: int) -> Ready:
+def pydy(kind: MechanismKind, n: int) -> Ready:
     """KanesMethod's equations compiled by PyDy with Cython."""
     from pydy.codegen.ode_function_generators import generate_ode_function
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.records import Kind
+from lagrotor.benchmark.records import MechanismKind
 
 Array = NDArray[np.float64]
 Rhs = Callable[[float, Array], "Array | list[float]"]  # (t, (q, v)) → (v, a)
@@ -29,7 +29,7 @@ class Ready:
 class Tool:
     """prepare(kind, n) makes it ready; module: what has to be importable; install: what pip installs for it."""
 
-    prepare: Callable[[Kind, int], Ready]
+    prepare: Callable[[MechanismKind, int], Ready]
     module: str = "sympy"
     install: str = ""
     others: tuple[str, ...] = ()  # modules needed besides

@@ -2,17 +2,25 @@
 
 from collections.abc import Sequence
 
-from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Kind, Measured
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured, MechanismKind
 
 Row = tuple[str, ...]
-HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", f"run to {MECHANISM_ERROR:g} (ms)", "by", "rhs differs by")
-DECIDED_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
-WANTED_HEAD = ("what", "wanted", "measured")
-_AT: dict[Kind, int] = {"rods": 6, "gyroscopes": 3}
+MECHANISM_HEAD = (
+    "mechanism",
+    "tool",
+    "ready (ms)",
+    "rhs (µs)",
+    f"run to {MECHANISM_ERROR:g} (ms)",
+    "by",
+    "rhs differs by",
+)
+DECISION_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
+TARGET_HEAD = ("what", "wanted", "measured")
+_AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
 
 
-def rows(found: Sequence[Measured]) -> list[Row]:
+def mechanism_rows(found: Sequence[Measured]) -> list[Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
@@ -20,7 +28,7 @@ def rows(found: Sequence[Measured]) -> list[Row]:
     ]
 
 
-def decided_rows(found: Sequence[Decided]) -> list[Row]:
+def decision_rows(found: Sequence[Decided]) -> list[Row]:
     """One row a pair of formulations."""
     return [
         (x.pair, _number(x.ours, 1e3), x.answer, _number(x.theirs, 1e3), x.their_answer, f"{_at_least(x)}{x.times:.0f}")
@@ -28,11 +36,11 @@ def decided_rows(found: Sequence[Decided]) -> list[Row]:
     ]
 
 
-def wanted(
+def target_rows(
     found: Sequence[Measured],
     decided: Sequence[Decided],
-    operations: dict[Kind, list[int]],
-    ready_in: dict[Kind, list[float]],
+    operations: dict[MechanismKind, list[int]],
+    ready_in: dict[MechanismKind, list[float]],
 ) -> list[Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 

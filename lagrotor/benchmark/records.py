@@ -16,10 +16,10 @@ from lagrotor.errors import LagrotorError
 SPEED, MECHANISMS, STRUCTURES = (
     Path(__file__).with_name(f"recorded_{name}.json") for name in ("speed", "mechanisms", "structures")
 )
-Kind = Literal["rods", "gyroscopes"]
-LINKS: dict[Kind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
+MechanismKind = Literal["rods", "gyroscopes"]
+LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
 MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
-ROTORS = (16, 64, 256)  # of the chains
+CHAIN_SIZES = (16, 64, 256)  # of the chains
 CHAIN_ERROR = 1e-6  # m, at which runs of chains are timed
 _UNREADABLE = OSError, ValueError, KeyError, TypeError
 
@@ -31,7 +31,7 @@ class Measured:
     difference: of its right-hand side from lagrotor's, relative. by: what ran it to the error.
     """
 
-    kind: Kind
+    kind: MechanismKind
     n: int
     tool: str
     ready: float | None = None
@@ -67,8 +67,8 @@ class Comparison:
     versions: dict[str, str]
     measured: list[Measured]
     decided: list[Decided]
-    operations: dict[Kind, list[int]]
-    ready: dict[Kind, list[float]]
+    operations: dict[MechanismKind, list[int]]
+    ready: dict[MechanismKind, list[float]]
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ _REFUSALS = LagrotorError, RuntimeError, ValueError
 
 
 @dataclass(frozen=True)
-class Point:
+class ChartPoint:
     """One method at one accuracy setting, a tolerance or a step in s.
 
     error: largest of a tip (m; the reference's own where it is below that). nfev: evaluations of the right-hand side.
@@ -60,7 +60,7 @@ class Benchmark:
 
     scene: str
     says: str
-    points: tuple[Point, ...]
+    points: tuple[ChartPoint, ...]
     failures: tuple[Failure, ...]
     setup: dict[str, float]
     floor: float
@@ -103,12 +103,12 @@ def benchmark(
     for (method, setting), (error, nfev) in record.found.items():
         first, *later = record.seconds[method, setting]
         usual = median(later or [first])
-        points.append(Point(method, methods[method].family, setting, max(error, truth.floor), nfev, usual, first))
+        points.append(ChartPoint(method, methods[method].family, setting, max(error, truth.floor), nfev, usual, first))
     setup = {
         method: one.seconds + max([0.0, *(p.first - p.seconds for p in points if p.method == method)])
         for method, one in ready.items()
     }
-    return Benchmark(name, case.says, tuple(points), _grouped(record, ready), setup, truth.floor)
+    return Benchmark(name, case.says, tuple(points), _group_failures(record, ready), setup, truth.floor)
 
 
 def _prepare_all(
@@ -184,7 +184,7 @@ def _sample(runner: Runner, setting: float) -> float:
     return spent / runs
 
 
-def _grouped(record: _Record, ready: dict[str, _Prepared]) -> tuple[Failure, ...]:
+def _group_failures(record: _Record, ready: dict[str, _Prepared]) -> tuple[Failure, ...]:
     """One failure a method and reason; without settings where it is all of them."""
     grouped = []
     by_reason = sorted(record.failed, key=lambda f: (f[0], f[2]))
@@ -195,7 +195,7 @@ def _grouped(record: _Record, ready: dict[str, _Prepared]) -> tuple[Failure, ...
     return tuple(grouped)
 
 
-def listed(failures: Iterable[Failure]) -> list[str]:
+def failure_sentences(failures: Iterable[Failure]) -> list[str]:
     """Sentences, one for all methods that share settings and reason."""
     shared: dict[tuple[tuple[float, ...], str], list[str]] = {}
     for failure in failures:
@@ -203,16 +203,16 @@ def listed(failures: Iterable[Failure]) -> list[str]:
     return [str(Failure("; ".join(methods), *key)) for key, methods in shared.items()]
 
 
-def front(points: Iterable[Point], work: Work = "seconds") -> list[Point]:
+def front(points: Iterable[ChartPoint], work: Work = "seconds") -> list[ChartPoint]:
     """The points that no other beats both in error and in work, from the cheapest to the most exact; traps left out."""
-    kept: list[Point] = []
+    kept: list[ChartPoint] = []
     for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):
         if point.family != "trap" and (not kept or point.error < kept[-1].error):
             kept.append(point)
     return kept
 
 
-def work_at(points: Iterable[Point], error: float, work: Work = "seconds") -> float | None:
+def work_at(points: Iterable[ChartPoint], error: float, work: Work = "seconds") -> float | None:
     """Work for an error (m), between the neighbours of the front on logarithmic scales; None where none reaches it."""
     best = front(points, work)
     if not best or best[-1].error > error:

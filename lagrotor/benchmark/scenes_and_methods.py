@@ -15,37 +15,37 @@ from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.pair.examples import DAMPING, HEAVY, SCENES, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
 
 Array = NDArray[np.float64]
 
-AMPLITUDE, ORDER = 0.204, 21  # the start lies on the periodic orbit to 1e-12
+AMPLITUDE, SERIES_ORDER = 0.204, 21  # the start lies on the periodic orbit to 1e-12
 _TEN = np.linspace(0, 10, 1001)
 
 
-def _displaced(quick: bool) -> Case:
-    return Case(_paired(Link()), _TEN, _repeats(quick), f"paired precession, r0 = {AMPLITUDE}, 10 s")
+def _displaced_case(quick: bool) -> Case:
+    return Case(_scene_on_orbit(Link()), _TEN, _repeats(quick), f"paired precession, r0 = {AMPLITUDE}, 10 s")
 
 
-def _shocked(quick: bool) -> Case:
+def _shock_case(quick: bool) -> Case:
     return Case(SCENES["free-precession"].scene, _TEN, _repeats(quick), "shock of 5.2.1 on a light bar, 10 s")
 
 
-def _heavy(quick: bool) -> Case:
-    return Case(_paired(HEAVY), _TEN, _repeats(quick), "bar of 1 kg, 10 s")
+def _heavy_case(quick: bool) -> Case:
+    return Case(_scene_on_orbit(HEAVY_LINK), _TEN, _repeats(quick), "bar of 1 kg, 10 s")
 
 
-def _long(quick: bool) -> Case:
-    scene, turns = _paired(Link()), 100 if quick else 1000
+def _long_case(quick: bool) -> Case:
+    scene, turns = _scene_on_orbit(Link()), 100 if quick else 1000
     t_eval = np.linspace(0, turns * 2 * np.pi / natural_rate(scene), 1001)
     return Case(scene, t_eval, 1, f"paired precession, {turns:,} turns")
 
 
-def _paired(bar: Link) -> Scene:
-    return series_orbit(Scene((10, -10), link=bar), AMPLITUDE, ORDER).start
+def _scene_on_orbit(bar: Link) -> Scene:
+    return series_orbit(Scene((10, -10), link=bar), AMPLITUDE, SERIES_ORDER).start
 
 
 def _repeats(quick: bool) -> int:
@@ -54,10 +54,10 @@ def _repeats(quick: bool) -> int:
 
 # Name → case; quick: fewer repeats, and 100 turns for 1,000. Each is made when it is needed: a paired start is a series.
 CASES: dict[str, Callable[[bool], Case]] = {
-    "displaced": _displaced,
-    "shock": _shocked,
-    "heavy": _heavy,
-    "long": _long,
+    "displaced": _displaced_case,
+    "shock": _shock_case,
+    "heavy": _heavy_case,
+    "long": _long_case,
 }
 
 

@@ -51,7 +51,7 @@ def chart_command(given: argparse.Namespace) -> int:
     check_folder(given.out)
     with progress(4) as step:
         found = benchmarks(given.quick, step)
-    data = as_data(found)
+    data = chart_data(found)
     text = json.dumps(data, indent=1, ensure_ascii=False)
     written = [write_text(given.out / "chart.json", text)]
     for one in found:
@@ -63,11 +63,11 @@ def chart_command(given: argparse.Namespace) -> int:
     if given.json:
         print(text)
     else:
-        print(in_words(found), *written, sep="\n")
+        print(chart_tables(found), *written, sep="\n")
     return 0
 
 
-def as_data(found: "list[Benchmark]") -> dict[str, Any]:
+def chart_data(found: "list[Benchmark]") -> dict[str, Any]:
     """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
@@ -90,9 +90,9 @@ def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
     }
 
 
-def in_words(found: "list[Benchmark]") -> str:
+def chart_tables(found: "list[Benchmark]") -> str:
     """The front of each scene, set-up times, failures, ratios, and other tools on record, as tables."""
-    from lagrotor.benchmark.runner import front, listed
+    from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
     parts = []
@@ -105,7 +105,7 @@ def in_words(found: "list[Benchmark]") -> str:
         parts += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
         slow = sorted(((s, name) for name, s in one.setup.items() if s > 0.2), reverse=True)
         parts += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
-        parts += [f"  left out: {failure}" for failure in listed(one.failures)]
+        parts += [f"  left out: {failure}" for failure in failure_sentences(one.failures)]
         parts += [""]
     compared = [
         (error, name, f"{1e3 * value:.3g} ms" if name in OURS else f"{value:.3g}")

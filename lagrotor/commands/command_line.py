@@ -26,7 +26,7 @@ class _Terminated(BaseException):
     """SIGTERM, which ends a run as an interrupt does: what it began is removed."""
 
 
-def _terminated(number: int, frame: Any) -> None:
+def _raise_terminated(number: int, frame: Any) -> None:
     raise _Terminated
 
 
@@ -36,7 +36,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     begin_process()
     with suppress(ValueError):  # not in the main thread: the caller keeps its signals
-        signal.signal(signal.SIGTERM, _terminated)
+        signal.signal(signal.SIGTERM, _raise_terminated)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
@@ -53,9 +53,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except SystemExit as done:  # --help, --version
-        return _flushed(int(done.code or 0))
+        return _flush(int(done.code or 0))
     except BrokenPipeError:
-        return _abandoned()
+        return _close_pipe()
     except _Terminated:
         return say("terminated", 143)
     except KeyboardInterrupt:
@@ -68,15 +68,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         return say(": ".join(str(part) for part in (error.filename, error.strerror) if part) or str(error), 2)
 
 
-def _flushed(status: int) -> int:
+def _flush(status: int) -> int:
     try:
         sys.stdout.flush()
     except BrokenPipeError:
-        return _abandoned()
+        return _close_pipe()
     return status
 
 
-def _abandoned() -> int:
+def _close_pipe() -> int:
     """The reader has left: what is still in the buffer goes nowhere, so that nothing complains at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _CLOSED_PIPE

@@ -66,7 +66,7 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--shock-body", type=int, metavar="N", help="rotor 1 (left) or 2 (default: 1)")
 
 
-def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
+def scene_from_options(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
     """The scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
     if given.scene:
         return _scene_of_file(given, shock)
@@ -79,7 +79,7 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
     }
     return Scene(
         spins=tuple(given.spins),
-        rotor=Rotor(**_given(given, ROTOR)),
+        rotor=Rotor(**_fields(given, ROTOR_OPTIONS)),
         link=_link(given),
         shock=shock,
         **start,
@@ -87,11 +87,11 @@ def scene_of(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
 
 
 # Field → the option's name in what was parsed.
-ROTOR = {"mass": "rotor_mass", "length": "rotor_length", "I1": "I1", "I3": "I3"}
-LINK = {"length": "link_length", "mass": "link_mass", "inertia": "link_inertia"}
+ROTOR_OPTIONS = {"mass": "rotor_mass", "length": "rotor_length", "I1": "I1", "I3": "I3"}
+LINK_OPTIONS = {"length": "link_length", "mass": "link_mass", "inertia": "link_inertia"}
 
 
-def _given(given: argparse.Namespace, options: dict[str, str]) -> dict[str, float]:
+def _fields(given: argparse.Namespace, options: dict[str, str]) -> dict[str, float]:
     """The fields whose options were given."""
     return {name: value for name, option in options.items() if (value := getattr(given, option)) is not None}
 
@@ -101,7 +101,10 @@ def _scene_of_file(given: argparse.Namespace, shock: Shock | None) -> Scene:
     from lagrotor.pair.scene_document import read_scene
 
     named = {"--spins": given.spins, "--shock": shock, "--no-link": given.no_link or None}
-    named |= {f"--{option.replace('_', '-')}": getattr(given, option) for option in (*ROTOR.values(), *LINK.values())}
+    named |= {
+        f"--{option.replace('_', '-')}": getattr(given, option)
+        for option in (*ROTOR_OPTIONS.values(), *LINK_OPTIONS.values())
+    }
     named |= {f"--{name}": vars(given).get(name) for name in ("axes", "rates")}
     if both := [name for name, value in named.items() if value is not None]:
         raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
@@ -110,13 +113,13 @@ def _scene_of_file(given: argparse.Namespace, shock: Shock | None) -> Scene:
 
 def _link(given: argparse.Namespace) -> Link | None:
     """The bar, if any. Raises InputError for one that is described and left out."""
-    bar = _given(given, LINK)
+    bar = _fields(given, LINK_OPTIONS)
     if given.no_link and bar:
         raise InputError(f"--no-link and --link-{next(iter(bar))}: a pair without a bar has none; leave one out")
     return None if given.no_link else Link(**bar)
 
 
-def shock_of(given: argparse.Namespace) -> Shock | None:
+def shock_from_options(given: argparse.Namespace) -> Shock | None:
     """The shock that the options describe, if any. Raises InputError when a part of it is missing."""
     parts = {"--shock-time": given.shock_time, "--shock-width": given.shock_width}
     if given.shock is None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagrotor.commands.options import Command, check_folder
-from lagrotor.commands.terminal import progress, say, table, wrapped
+from lagrotor.commands.terminal import progress, say, table, wrap
 from lagrotor.errors import InputError
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
         raise InputError(f"--jobs {given.jobs} must be at least 1: it is how many processes run")
     if given.jobs != 1 and not given.out.exists():  # nothing to take from: every step will run
         load_at_the_side()
-    from lagrotor.report.content import counted
+    from lagrotor.report.content import count_list
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce
 
@@ -105,10 +105,10 @@ def reproduce_command(given: argparse.Namespace) -> int:
     page = given.out / "index.html"
     if given.json:
         print(json.dumps(asdict(made) | {"report": str(page)}, indent=1, ensure_ascii=False))
-        return _compared(made.changes, bool(paper.recorded))
-    print(f"{_some(sum(made.equations.values()), 'equation')}: {counted(made.equations) or 'none'}")
+        return _say_changes(made.changes, bool(paper.recorded))
+    print(f"{_some(sum(made.equations.values()), 'equation')}: {count_list(made.equations) or 'none'}")
     if made.claims:
-        print(f"{_some(sum(made.claims.values()), 'claim')} tested: {counted(made.claims)}")
+        print(f"{_some(sum(made.claims.values()), 'claim')} tested: {count_list(made.claims)}")
     if made.taken == ["report"]:
         print("all taken from the last run (same inputs); to run it again, delete the folder")
     elif made.taken:
@@ -118,7 +118,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
     print(f"{_some(made.figures, 'figure')}; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
-    return _compared(made.changes, bool(paper.recorded))
+    return _say_changes(made.changes, bool(paper.recorded))
 
 
 def audit_command(given: argparse.Namespace) -> int:
@@ -126,7 +126,7 @@ def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.audit import NOT_YET
     from lagrotor.paper.catalogue import known_id
     from lagrotor.paper.readable import readable
-    from lagrotor.report.content import counted, word
+    from lagrotor.report.content import count_list, word
     from lagrotor.report.facts import note
 
     paper = _paper(given)
@@ -134,27 +134,27 @@ def audit_command(given: argparse.Namespace) -> int:
     with progress(len(identifiers) or len(paper.stating_scripts)) as step:
         found = None
         if not identifiers:
-            from lagrotor.report.job.whole_audit import audit
+            from lagrotor.report.job.whole_audit import audit_in_processes
 
-            found = audit(paper, step)
+            found = audit_in_processes(paper, step)
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
     waiting = found.waiting if found is not None else ()
     if given.json:
         print(verdict_text.to_json(shown, paper, waiting))
     elif identifiers:
         words = "\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown)
-        print("\n".join(wrapped(line, 13) for line in words.split("\n")))
+        print("\n".join(wrap(line, 13) for line in words.split("\n")))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}
         rows = [(v.id, word(v.verdict), readable(": ".join(filter(None, (titles[v.id], note(v)))))) for v in shown]
         rows += [(i, word(NOT_YET), titles[i]) for i in waiting]
         print(table(("id", "verdict", "equation: order, premises"), rows))
         if found is not None and waiting:
-            say(f"{len(found.ids)} equations: {counted(found.counts)}", 0)
+            say(f"{len(found.ids)} equations: {count_list(found.counts)}", 0)
     if given.record:
         return say(f"put on record in {paper.renew_record(shown)}", 0)
     changes = paper.changes({v.id: v.verdict for v in shown}, identifiers or paper.equations)
-    return _compared(changes, bool(paper.recorded))
+    return _say_changes(changes, bool(paper.recorded))
 
 
 def claims_command(given: argparse.Namespace) -> int:
@@ -174,18 +174,18 @@ def claims_command(given: argparse.Namespace) -> int:
     else:
         for result in results:
             identifier, finding = result.test.id, result.finding
-            print(wrapped(f"{identifier}  {readable(paper.claims[identifier].text)}", 5))
-            print(wrapped(f"     {word(finding.outcome)}: {readable(finding.explanation)}", 5), end="\n\n")
+            print(wrap(f"{identifier}  {readable(paper.claims[identifier].text)}", 5))
+            print(wrap(f"     {word(finding.outcome)}: {readable(finding.explanation)}", 5), end="\n\n")
     if untested := sorted(wanted - {result.test.id for result in results}):
         say(f"not yet tested: {', '.join(untested)}", 0)
     if given.record:
         return say(f"put on record in {paper.renew_record(results)}", 0)
     changes = paper.changes({r.test.id: r.finding.outcome for r in results}, [i for i in paper.claims if i in wanted])
-    return _compared(changes, bool(paper.recorded))
+    return _say_changes(changes, bool(paper.recorded))
 
 
 def figure_command(given: argparse.Namespace) -> int:
-    from lagrotor.pictures.figures import check_keys, draw
+    from lagrotor.pictures.figures import check_keys, draw_figure
 
     check_folder(given.out)
     scripts = _paper(given).scripts
@@ -193,7 +193,7 @@ def figure_command(given: argparse.Namespace) -> int:
     with progress(len(keys)) as step:
         for key in keys:
             step(f"figure {key}")
-            drawn.append(draw(key, given.out, scripts))
+            drawn.append(draw_figure(key, given.out, scripts))
             if not given.json:
                 print(drawn[-1].svg, drawn[-1].png, sep="\n")
     if given.json:
@@ -205,7 +205,7 @@ def figure_command(given: argparse.Namespace) -> int:
     return 0
 
 
-def _compared(changes: list[str], on_record: bool) -> int:
+def _say_changes(changes: list[str], on_record: bool) -> int:
     if not on_record:
         return say("no verdicts are on record yet: nothing to compare these with", 0)
     for change in changes:

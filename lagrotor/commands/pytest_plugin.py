@@ -23,7 +23,7 @@ def pytest_collection_modifyitems(session: pytest.Session, items: list[pytest.It
 
 
 class _OnePaper(pytest.Collector):
-    def collect(self) -> Iterator["OnRecord"]:
+    def collect(self) -> Iterator["RecordedAnswer"]:
         """The equations that are stated or on record, and the claims that are tested or on record."""
         from lagrotor.errors import LagrotorError
         from lagrotor.paper.papers import opened
@@ -35,10 +35,10 @@ class _OnePaper(pytest.Collector):
             raise pytest.UsageError(str(error)) from None
         ids = [i for i in (*paper.equations, *paper.claims) if i in known or i in recorded]
         for identifier in (*ids, *(i for i in recorded if i not in ids)):
-            yield OnRecord.from_parent(self, name=identifier, paper=paper)
+            yield RecordedAnswer.from_parent(self, name=identifier, paper=paper)
 
 
-class OnRecord(pytest.Item):
+class RecordedAnswer(pytest.Item):
     """One verdict, or the outcome of one claim, against the record."""
 
     def __init__(self, *, paper: "Paper", **rest: Any) -> None:
@@ -49,11 +49,11 @@ class OnRecord(pytest.Item):
         """Judge the equation, or test the claim."""
         row = self.paper.recorded.get(self.name)
         before = row.verdict if row else "nothing"
-        found, why = self._found()
+        found, why = self._answer_now()
         if found != before:
             raise ChangedError(f"{self.name}: recorded {before}, found {found}\n{why}")
 
-    def _found(self) -> tuple[str, str]:
+    def _answer_now(self) -> tuple[str, str]:
         """The verdict as it is now, and why."""
         from lagrotor.paper.verdict_text import in_words
 

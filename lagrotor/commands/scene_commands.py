@@ -13,8 +13,8 @@ from lagrotor.commands.options import (
     add_start,
     check_file,
     check_folder,
-    scene_of,
-    shock_of,
+    scene_from_options,
+    shock_from_options,
 )
 from lagrotor.commands.sweep_command import add_sweep, sweep_command
 from lagrotor.errors import InputError
@@ -125,15 +125,15 @@ def simulate_command(given: argparse.Namespace) -> int:
         from lagrotor.drawing.film import check_film
 
         check_film(given.out, given.t_end, 25.0)
-    scene = _started(scene_of(given, shock_of(given)), given)
+    scene = _scene_with_start(scene_from_options(given, shock_from_options(given)), given)
 
     import numpy as np
 
-    from lagrotor.commands.terminal import reached
+    from lagrotor.commands.terminal import show_time
     from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
-    with reached(given.t_end) as at:
+    with show_time(given.t_end) as at:
         run = simulate(scene, times, given.model, given.tol, given.engine, at)
     if given.out:
         run.save(given.out)
@@ -158,7 +158,7 @@ def simulate_command(given: argparse.Namespace) -> int:
     return 0
 
 
-def _started(scene: Scene, given: argparse.Namespace) -> Scene:
+def _scene_with_start(scene: Scene, given: argparse.Namespace) -> Scene:
     """The scene, on its paired precession with `--paired`, written with `--write-scene`. Raises InputError for two starts."""
     if given.paired is not None:
         if given.axes is not None or given.rates is not None:
@@ -192,7 +192,7 @@ def _run_table(run: dict[str, Any]) -> str:
 
 
 def rate_command(given: argparse.Namespace) -> int:
-    scene = scene_of(given)
+    scene = scene_from_options(given)
 
     from lagrotor.commands.terminal import table
     from lagrotor.theory.natural_rate import natural_rate, natural_rate_limits

@@ -7,7 +7,14 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from lagrotor.commands.options import add_pair, add_shock, add_start, check_folder, scene_of, shock_of
+from lagrotor.commands.options import (
+    add_pair,
+    add_shock,
+    add_start,
+    check_folder,
+    scene_from_options,
+    shock_from_options,
+)
 from lagrotor.errors import InputError
 from lagrotor.pair.scene import Scene
 
@@ -76,7 +83,7 @@ def sweep_command(given: argparse.Namespace) -> int:
         if given.out.suffix != ".csv":
             raise InputError(f"--out {given.out}: the name must end in .csv")
         check_folder(given.out.parent)
-    values, scene, change = _values(given), scene_of(given, shock_of(given)), _VARIED[given.vary][1]
+    values, scene, change = _values(given), scene_from_options(given, shock_from_options(given)), _VARIED[given.vary][1]
     family = [change(scene, value) for value in values]
 
     import numpy as np

@@ -23,7 +23,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def wrapped(text: str, indent: int) -> str:
+def wrap(text: str, indent: int) -> str:
     """Text in lines as wide as the terminal, or of 100 characters where there is none; all but the first indented."""
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _WIDTH
     return textwrap.fill(text, max(width, indent + _NARROWEST), subsequent_indent=" " * indent)
@@ -36,7 +36,7 @@ def say(message: str, status: int) -> int:
 
 
 @contextmanager
-def reached(t_end: float) -> Iterator[Callable[[float], None]]:
+def show_time(t_end: float) -> Iterator[Callable[[float], None]]:
     """A function to call with each time (s) that a run up to `t_end` reaches: shown after two seconds, then now and again.
 
     A terminal shows it in one line that is written over; elsewhere there is a line every ten seconds, on stderr.
@@ -59,10 +59,10 @@ def reached(t_end: float) -> Iterator[Callable[[float], None]]:
         yield at
     finally:
         if live:
-            _cleared()
+            _clear_line()
 
 
-def _cleared() -> None:
+def _clear_line() -> None:
     print(f"\r{'':<{shutil.get_terminal_size().columns - 1}}\r", end="", file=sys.stderr, flush=True)
 
 
@@ -85,4 +85,4 @@ def progress(total: int) -> Iterator[Callable[[str], None]]:
         yield step
     finally:
         if live and done:
-            _cleared()
+            _clear_line()

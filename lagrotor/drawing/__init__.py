@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.drawing.style import CORRECTED as CORRECTED
-    from lagrotor.drawing.style import EXACT as EXACT
-    from lagrotor.drawing.style import MODEL as MODEL
+    from lagrotor.drawing.style import CORRECTION_COLOUR as CORRECTION_COLOUR
+    from lagrotor.drawing.style import EXACT_COLOUR as EXACT_COLOUR
+    from lagrotor.drawing.style import MODEL_COLOUR as MODEL_COLOUR
     from lagrotor.drawing.style import OKABE_ITO as OKABE_ITO
-    from lagrotor.drawing.style import PAPER as PAPER
+    from lagrotor.drawing.style import PAPER_COLOUR as PAPER_COLOUR
     from lagrotor.drawing.style import paper_style as paper_style
     from lagrotor.drawing.style import with_residual as with_residual
     from lagrotor.drawing.wheel import BAR as BAR

@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from lagrotor.drawing.style import paper_style
-from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, carried, wheel
+from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, place_points, wheel
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.files import write_beside
 from lagrotor.numerics.rotations import Array
@@ -78,7 +78,7 @@ def animate(
     """
     target = Path(path)
     check_film(target, float(moving.t[-1] - moving.t[0]), fps)
-    return Film(write_film(target, _announced(_frames(moving), len(moving.t), fps, step), len(moving.t), fps))
+    return Film(write_film(target, _announce_seconds(_frames(moving), len(moving.t), fps, step), len(moving.t), fps))
 
 
 def write_film(target: Path, frames: Iterator[Pixels], count: int, fps: float) -> Path:
@@ -88,7 +88,9 @@ def write_film(target: Path, frames: Iterator[Pixels], count: int, fps: float) -
     return write_beside(target, lambda file: _write_mp4(file, frames, fps))
 
 
-def _announced(frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]) -> Iterator[Pixels]:
+def _announce_seconds(
+    frames: Iterator[Pixels], count: int, fps: float, step: Callable[[str], None]
+) -> Iterator[Pixels]:
     second = 0
     for i, frame in enumerate(frames):
         if i / fps >= second and (i < count - 1 or second == 0):
@@ -201,7 +203,7 @@ class _Stage:
 
     def _still(self, side: Axes, above: Axes, radius: float) -> None:
         moving, up = self.moving, self.camera
-        rim = up(carried(self.points, moving.rotations[:, :: max(len(moving.t) // 200, 1)].reshape(-1, 3, 3),
+        rim = up(place_points(self.points, moving.rotations[:, :: max(len(moving.t) // 200, 1)].reshape(-1, 3, 3),
                          moving.centres[:, :: max(len(moving.t) // 200, 1)].reshape(-1, 3)))  # fmt: skip
         seen = np.vstack([rim.reshape(-1, 2), self.paths.reshape(-1, 2), up(moving.joints)])
         low, high = seen.min(0), seen.max(0)
@@ -228,7 +230,7 @@ class _Stage:
     def __call__(self, i: int) -> list[Artist]:
         moving = self.moving
         order = np.argsort(self.camera.depth(moving.centres[:, i]))
-        points = self.camera(carried(self.points, moving.rotations[:, i], moving.centres[:, i]))
+        points = self.camera(place_points(self.points, moving.rotations[:, i], moving.centres[:, i]))
         spokes = len(self.points) - 2
         drawn: list[Artist] = []
         for k in (0, 1):

@@ -28,7 +28,7 @@ def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float
     """
     target = Path(path)
     check_film(target, float(t[-1] - t[0]), fps)
-    return write_film(target, _frames(t, [_seen(line, _flat(lines)) for line in lines], inks), len(t), fps)
+    return write_film(target, _frames(t, [_projection(line, _flat(lines)) for line in lines], inks), len(t), fps)
 
 
 def _flat(lines: Sequence[Array]) -> int | None:
@@ -37,7 +37,7 @@ def _flat(lines: Sequence[Array]) -> int | None:
     return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
 
 
-def _seen(line: Array, flat: int | None) -> Array:
+def _projection(line: Array, flat: int | None) -> Array:
     return Camera()(line) if flat is None else np.delete(line, flat, axis=-1)
 
 

@@ -23,10 +23,10 @@ OKABE_ITO = {
 }
 
 # What a curve means: the paper's own formula, its correction, the exact limit it is held to, a simulated model.
-PAPER = OKABE_ITO["vermillion"]
-CORRECTED = OKABE_ITO["bluish green"]
-EXACT = OKABE_ITO["black"]
-MODEL = OKABE_ITO["blue"]
+PAPER_COLOUR = OKABE_ITO["vermillion"]
+CORRECTION_COLOUR = OKABE_ITO["bluish green"]
+EXACT_COLOUR = OKABE_ITO["black"]
+MODEL_COLOUR = OKABE_ITO["blue"]
 
 HALO = [withStroke(linewidth=3, foreground="white")]  # round a label that lies on a line
 
@@ -50,7 +50,9 @@ _STYLE: dict[Any, Any] = {
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "axes.prop_cycle": cycler(color=[MODEL, PAPER, CORRECTED, OKABE_ITO["reddish purple"], OKABE_ITO["orange"]]),
+    "axes.prop_cycle": cycler(
+        color=[MODEL_COLOUR, PAPER_COLOUR, CORRECTION_COLOUR, OKABE_ITO["reddish purple"], OKABE_ITO["orange"]]
+    ),
     "axes.formatter.useoffset": False,
     "axes.xmargin": 0.0,
     "grid.color": _GRID,

@@ -39,7 +39,7 @@ def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDA
     return points, np.vstack([around, spokes, [[count, count + 1]]]).astype(np.intp)
 
 
-def carried(points: Array, rotation: Array, centre: Array) -> Array:
+def place_points(points: Array, rotation: Array, centre: Array) -> Array:
     """Xn = X Rᵀ + X_cm (the paper's listing): points (p, 3) with R (…, 3, 3), X_cm (…, 3) → (…, p, 3), in m."""
     moved: Array = points @ np.swapaxes(rotation, -1, -2) + centre[..., None, :]
     return moved

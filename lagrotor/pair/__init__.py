@@ -6,7 +6,7 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.pair.examples import DAMPING as DAMPING
-    from lagrotor.pair.examples import HEAVY as HEAVY
+    from lagrotor.pair.examples import HEAVY_LINK as HEAVY_LINK
     from lagrotor.pair.examples import LIGHT as LIGHT
     from lagrotor.pair.examples import SCENES as SCENES
     from lagrotor.pair.examples import SHOCK_PAIRED as SHOCK_PAIRED

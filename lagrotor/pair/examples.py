@@ -15,29 +15,31 @@ class Ready:
 
 
 # The bar of section 4: a rigid body of mass 1 kg and inertia 1 kg m²; that of 5.2.1 is a hundredth and a tenth of it.
-HEAVY, LIGHT = Link(length=1.0, mass=1.0, inertia=1.0), Link(length=1.0, mass=0.01, inertia=0.1)
+HEAVY_LINK, LIGHT = Link(length=1.0, mass=1.0, inertia=1.0), Link(length=1.0, mass=0.01, inertia=0.1)
 # The shock of section 4.2, 50 exp(−(50 (t − 2))²) N on the tip of rotor 1, and its twin across.
 SHOCK_X, SHOCK_Y = Shock((50.0, 0.0, 0.0), 2.0, 1 / 50), Shock((0.0, 50.0, 0.0), 2.0, 1 / 50)
 # The shock of section 5.2.1, whose push across is chosen so that the pair does not topple.
 SHOCK_PAIRED = Shock((40.0, -11.0, 0.0), 2.0, 1 / 20)
 
 SCENES: dict[str, Ready] = {
-    "same-spin": Ready(Scene((10.0, 10.0), link=HEAVY), 10.0, "equal spins, left alone: upright for ever"),
+    "same-spin": Ready(Scene((10.0, 10.0), link=HEAVY_LINK), 10.0, "equal spins, left alone: upright for ever"),
     "same-spin-shock": Ready(
-        Scene((10.0, 10.0), link=HEAVY, shock=SHOCK_X), 10.0, "equal spins, a shock along the bar: both precess alike"
+        Scene((10.0, 10.0), link=HEAVY_LINK, shock=SHOCK_X),
+        10.0,
+        "equal spins, a shock along the bar: both precess alike",
     ),
     "no-spin": Ready(
-        Scene((0.0, 0.0), link=HEAVY, shock=SHOCK_X),
+        Scene((0.0, 0.0), link=HEAVY_LINK, shock=SHOCK_X),
         4.8,
         "no spin, the same shock: the pair topples until all is in line",
     ),
     "anti-spin-shock-x": Ready(
-        Scene((10.0, -10.0), link=HEAVY, shock=SHOCK_X),
+        Scene((10.0, -10.0), link=HEAVY_LINK, shock=SHOCK_X),
         10.0,
         "opposite spins, a shock along the bar: held in x, drifting slowly in y",
     ),
     "anti-spin-shock-y": Ready(
-        Scene((10.0, -10.0), link=HEAVY, shock=SHOCK_Y),
+        Scene((10.0, -10.0), link=HEAVY_LINK, shock=SHOCK_Y),
         10.0,
         "opposite spins, a shock across the bar: held in x, toppling in y",
     ),

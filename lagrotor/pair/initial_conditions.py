@@ -14,7 +14,7 @@ Array = NDArray[np.floating[Any]]
 
 
 @generated(((),))
-def _constrained() -> str:
+def _constraint_equations() -> str:
     """(r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6), 57 numbers."""
     from lagrotor.numerics.codegen import Program, program_source
     from lagrotor.pair.lagrangians import axes_pair
@@ -47,7 +47,7 @@ def consistent_scene(
     from lagrotor.mechanics import project_position, project_velocity
 
     def parts(state: Array) -> Array:
-        return np.array(_constrained()(*state.tolist(), *scene.inertias, scene.k), dtype=float)
+        return np.array(_constraint_equations()(*state.tolist(), *scene.inertias, scene.k), dtype=float)
 
     def residual(state: Array) -> Array:
         return parts(state)[:3]

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from lagrotor.shown import raised
+from lagrotor.shown import superscript
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _SIGNS = {
@@ -45,7 +45,7 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
         return "0"
     if int(power) == 0:
         return f"{sign}{mantissa}"
-    ten = f"10{raised(int(power))}"
+    ten = f"10{superscript(int(power))}"
     return sign.replace("-", "−") + (ten if float(mantissa) == 1 else f"{mantissa}×{ten}")
 
 

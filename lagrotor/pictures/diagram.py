@@ -11,7 +11,7 @@ from matplotlib.patches import FancyArrowPatch
 from numpy.typing import ArrayLike
 
 from lagrotor.drawing.style import HALO
-from lagrotor.drawing.wheel import INK, MARK, Camera, carried, wheel
+from lagrotor.drawing.wheel import INK, MARK, Camera, place_points, wheel
 from lagrotor.numerics.rotations import Array
 
 
@@ -73,7 +73,7 @@ def draw_wheel(
 ) -> None:
     """A wheel of (radius, axle) in m carried by a body's rotation and centre, one spoke marked."""
     points, segments = wheel(*size, spokes, 8)
-    placed = carried(points, rotation, centre)
+    placed = place_points(points, rotation, centre)
     ends = camera(placed)[segments]
     near = camera.depth(placed)[segments].mean(1) >= camera.depth(centre)
     for front, alpha in ((False, 0.45), (True, 1.0)):

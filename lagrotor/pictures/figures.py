@@ -56,7 +56,7 @@ def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
     return wanted
 
 
-def draw(key: str, folder: Path, scripts: Scripts) -> Picture:
+def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
     """Draw one figure of `stems()` and write `<stem>.svg` and `<stem>.png` into `folder`: the same bytes every time.
 
     Raises InputError when the folder cannot be written to or a script lacks what every figure has, ScriptError where it fails.

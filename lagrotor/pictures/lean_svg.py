@@ -19,16 +19,16 @@ def lean_svg(source: str) -> str:
     text = re.sub(r'(id="|href="#|url\(#)([^")]+)', lambda match: f"{match[1]}_{short.get(match[2], match[2])}", text)
     text = text.replace("xlink:href", "href").replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', "")
     text = re.sub(r'style="[^"]+"', lambda match: match[0].replace(": ", ":").replace("; ", ";"), text)
-    text = re.sub(r'(<use [^>]*)transform="translate\(([-\d.]+)(?: ([-\d.]+))?\)"', _placed, text)
+    text = re.sub(r'(<use [^>]*)transform="translate\(([-\d.]+)(?: ([-\d.]+))?\)"', _position, text)
     text = re.sub(r' d="([^"]*)"', lambda match: f' d="{_relative(match[1])}"', text)
-    return re.sub(r' (x|y|transform)="([^"]*)"', _rounded, text)
+    return re.sub(r' (x|y|transform)="([^"]*)"', _round_numbers, text)
 
 
-def _placed(match: re.Match[str]) -> str:
+def _position(match: re.Match[str]) -> str:
     return f'{match[1]}x="{match[2]}"' + (f' y="{match[3]}"' if float(match[3] or 0) else "")
 
 
-def _rounded(match: re.Match[str]) -> str:
+def _round_numbers(match: re.Match[str]) -> str:
     if "scale" in match[2]:  # of letters: few, and each digit counts
         return match[0]
     numbers = re.sub(r"-?\d+\.\d+", lambda number: _short(float(number[0])), match[2])

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.style import CORRECTED, EXACT, MODEL, OKABE_ITO, PAPER
+from lagrotor.drawing.style import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
 from lagrotor.numerics.rotations import Array
 from lagrotor.paper.rotor_pair.shocked_runs import SPECTRUM_FROM
 
@@ -19,8 +19,8 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     """
     figure = Figure(figsize=(7.0, 7.0))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
-    upper.plot(data["t"], data["energy"], color=MODEL, linewidth=3)
-    upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT, linestyle="--", linewidth=1.2)
+    upper.plot(data["t"], data["energy"], color=MODEL_COLOUR, linewidth=3)
+    upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT_COLOUR, linestyle="--", linewidth=1.2)
     upper.set(ylabel="energy [J]", title="Energy")
     upper.margins(y=0.12)
     middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
@@ -31,7 +31,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
         lower.plot(
             data.get("exact_t", data["t"]),
             data["exact_centre"][:, j],
-            color=EXACT,
+            color=EXACT_COLOUR,
             linestyle="--",
             linewidth=1.0,
             label=exact,
@@ -39,7 +39,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     if "exact_t" in data:
         end = data["exact_t"][-1]
         for panel in (upper, lower):
-            panel.axvline(end, color=EXACT, linewidth=0.8, linestyle=":")
+            panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":")
         lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
     lower.set(ylabel="centre of rotor 1 [m]", xlabel="time [s]", title="Centre of mass of rotor 1")
     lower.margins(y=0.06)
@@ -64,23 +64,29 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
         height_ratios=(0.7, 1.7, 1.2, 1.4),
     )
     force, residual, heights = (panels[name] for name in ("force", "residual", "heights"))
-    force.plot(data["t"], data["force"], color=EXACT)
+    force.plot(data["t"], data["force"], color=EXACT_COLOUR)
     force.set(ylabel="force [N]", title="Force on tip 1 along x", xlabel="time [s]", xlim=(1.5, 10))
     for x, span, says in ((panels["first"], _FIRST, "The first swings"), (panels["last"], _LAST, "The last swings")):
-        x.plot(data["t"], data["exact"], color=EXACT, lw=2.4, label="exact model")
-        x.plot(data["t"], data["springs"], color=MODEL, lw=1.2, label="paper's method, stiff springs")
-        x.plot(data["t"], data["printed"], color=PAPER, ls="--", lw=1.2, label=f"sin {printed:g}(t − 2), scaled")
-        x.plot(data["t"], data["corrected"], color=CORRECTED, ls=":", lw=2, label="sine at the closed form's rate")
+        x.plot(data["t"], data["exact"], color=EXACT_COLOUR, lw=2.4, label="exact model")
+        x.plot(data["t"], data["springs"], color=MODEL_COLOUR, lw=1.2, label="paper's method, stiff springs")
+        x.plot(data["t"], data["printed"], color=PAPER_COLOUR, ls="--", lw=1.2, label=f"sin {printed:g}(t − 2), scaled")
+        x.plot(
+            data["t"], data["corrected"], color=CORRECTION_COLOUR, ls=":", lw=2, label="sine at the closed form's rate"
+        )
         x.set(xlim=span, xlabel="time [s]", ylabel="$x - x(0)$ [m]", title=f"x of tip 1: {says.lower()}")
     over = data["t"] > SPECTRUM_FROM
-    for name, colour, width in (("printed", PAPER, 1.6), ("springs", MODEL, 1.2), ("corrected", CORRECTED, 1.6)):
+    for name, colour, width in (
+        ("printed", PAPER_COLOUR, 1.6),
+        ("springs", MODEL_COLOUR, 1.2),
+        ("corrected", CORRECTION_COLOUR, 1.6),
+    ):
         residual.plot(data["t"][over], (data[name] - data["exact"])[over], color=colour, lw=width)
     residual.set(xlabel="time [s]", ylabel="residual [m]", xlim=(1.5, 10))
     residual.set_title("Residual against the exact model, from the end of the shock")
-    heights.plot(data["rate"], data["exact_amplitude"], color=EXACT)
-    heights.plot(data["rate"], data["springs_amplitude"], color=MODEL, lw=1.2)
-    heights.axvline(printed, color=PAPER, ls="--", lw=1.2)
-    heights.axvline(data["closed_form_rate"][0], color=CORRECTED, ls=":", lw=2)
+    heights.plot(data["rate"], data["exact_amplitude"], color=EXACT_COLOUR)
+    heights.plot(data["rate"], data["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
+    heights.axvline(printed, color=PAPER_COLOUR, ls="--", lw=1.2)
+    heights.axvline(data["closed_form_rate"][0], color=CORRECTION_COLOUR, ls=":", lw=2)
     heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", title="Spectrum of x after the shock")
     heights.set(xlim=(printed - 5, printed + 5), ylim=(0, None))
     handles, labels = panels["first"].get_legend_handles_labels()

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from lagrotor.benchmark.runner import Benchmark, Point, Work, front, listed
+from lagrotor.benchmark.runner import Benchmark, ChartPoint, Work, failure_sentences, front
 from lagrotor.drawing.style import OKABE_ITO
 
 _MARKS = "osD^vp*XP<>hd"
@@ -32,7 +32,9 @@ _ACROSS: dict[Work, str] = {
 def speed_chart(chart: Benchmark) -> Figure:
     """Error against seconds and against nfev, with the front, a colour a family; under it what failed."""
     failures = [
-        line for failure in listed(chart.failures) for line in textwrap.wrap(failure, _WRAP, subsequent_indent="   ")
+        line
+        for failure in failure_sentences(chart.failures)
+        for line in textwrap.wrap(failure, _WRAP, subsequent_indent="   ")
     ]
     figure = Figure(figsize=(12.0, 7.2 + 0.13 * len(failures)))
     lines: list[tuple[Line2D, bool]] = []
@@ -73,7 +75,7 @@ def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]
     return lines
 
 
-def _curve(axes: Axes, points: list[Point], work: Work, number: int, look: dict[str, Any]) -> Line2D:
+def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: dict[str, Any]) -> Line2D:
     """One method's curve, with its number at its most accurate point."""
     across, errors = [getattr(p, work) for p in points], [p.error for p in points]
     (line,) = axes.loglog(across, errors, markersize=4, linewidth=0.9, **look)

@@ -32,7 +32,7 @@ _UNITS = "Angles in rad, lengths in m, masses in kg, times in s, unless a line s
 
 
 @dataclass(frozen=True)
-class Entry:
+class ApiEntry:
     """A public name: where it is imported from, its call, its docstring, and (call, first line) of its members."""
 
     name: str
@@ -42,7 +42,7 @@ class Entry:
     members: tuple[tuple[str, str], ...]
 
 
-def entries() -> Iterator[Entry]:
+def entries() -> Iterator[ApiEntry]:
     """Every public name of the package, then those beside it, in alphabetical order."""
     for name in lagrotor.__all__:
         yield _entry(name, "lagrotor", getattr(lagrotor, name))
@@ -50,12 +50,12 @@ def entries() -> Iterator[Entry]:
         yield _entry(name, module, getattr(import_module(module), name))
 
 
-def _entry(name: str, module: str, thing: Any) -> Entry:
+def _entry(name: str, module: str, thing: Any) -> ApiEntry:
     members: tuple[tuple[str, str], ...] = ()
     if inspect.isclass(thing):
         public = [(n, value) for n, value in vars(thing).items() if not n.startswith("_") and _documented(value)]
         members = tuple((_call(n, value), _first_line(value)) for n, value in public)
-    return Entry(name, module, _call(name, thing), inspect.getdoc(thing) or "", members)
+    return ApiEntry(name, module, _call(name, thing), inspect.getdoc(thing) or "", members)
 
 
 def _documented(value: Any) -> bool:

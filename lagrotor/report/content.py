@@ -184,7 +184,7 @@ def word(answer: str) -> str:
     return answer.replace("-", " ")
 
 
-def counted(counts: dict[str, int]) -> str:
+def count_list(counts: dict[str, int]) -> str:
     """Counts as people read them: 9 confirmed, 3 refuted."""
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 

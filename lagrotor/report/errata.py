@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.verdicts import Relation, Statement, Verdict
-from lagrotor.report.latex import END, head, printed, prose, tidy
+from lagrotor.report.latex import END, displayed_formula, head, prose, tidy
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 cited=entry.cited,
                 title=entry.title,
                 printed=entry.latex,
-                corrected=corrected(statement),
+                corrected=correction_lines(statement),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "undecided").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
@@ -52,7 +52,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
             )
 
 
-def corrected(statement: Statement) -> tuple[str, ...]:
+def correction_lines(statement: Statement) -> tuple[str, ...]:
     """The correction of an equation in LaTeX, a line for each of its relations."""
     return tuple(_line(relation.quantity, relation) for relation in statement.correction)
 
@@ -111,8 +111,8 @@ def latex_block(e: Erratum) -> str:
     return "\n\n".join(
         [
             rf"\subsection*{{{e.id}\quad {prose(e.title)}}}",
-            rf"\textbf{{Printed.}} {printed(e.printed)}",
-            rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(printed, e.corrected)),
+            rf"\textbf{{Printed.}} {displayed_formula(e.printed)}",
+            rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(displayed_formula, e.corrected)),
             rf"\textbf{{What was wrong.}} {prose(e.wrong)}",
             rf"Used by: {used}. {prose(e.reach).capitalize()}.",
         ]

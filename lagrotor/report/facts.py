@@ -9,7 +9,7 @@ from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
-from lagrotor.report.errata import corrected
+from lagrotor.report.errata import correction_lines
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
     if statement.correction:
         answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
-        yield Fact("Correction", (answer,), sources=corrected(statement))
+        yield Fact("Correction", (answer,), sources=correction_lines(statement))
     if verdict.reaches_result is not None:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
     if verdict.evidence:

@@ -100,7 +100,7 @@ def _letter(match: re.Match[str]) -> str:
     return f"${drawn}_{{{''.join(_LOW[digit] for digit in index)}}}$" if index else f"${drawn}$"
 
 
-def printed(source: str) -> str:
+def displayed_formula(source: str) -> str:
     """A printed formula on its own line, broken where it is too wide."""
     clean = tidy(source)
     return rf"\fit{{{clean}}}{{\broken{{{_loose(clean)}}}}}"
@@ -113,22 +113,22 @@ def tidy(source: str) -> str:
     return _LONE.sub(r" \1 ", clean)
 
 
-def derived(expression: sp.Basic) -> str:
+def displayed_expression(expression: sp.Basic) -> str:
     """An expression on its own line; a matrix that is too wide as a list of its elements; the longest are only named."""
     source = latex(expression)
     if len(source) > _LONGEST:
         return f"An expression of {len(source)} characters: it is given in full in verdicts.json."
     if not isinstance(expression, sp.MatrixBase):
-        return printed(source)
+        return displayed_formula(source)
     rows, columns = expression.shape
     elements = []
     for i, j in ((i, j) for i in range(rows) for j in range(columns)):
         index = f"{i + 1}" if columns == 1 else f"{i + 1}{j + 1}"
-        elements.append(rf"\broken{{[\,\cdot\,]_{{{index}}} = {_loose(inline(expression[i, j]))}}}")
-    return rf"\fit{{{inline(expression)}}}{{{' '.join(elements)}}}"
+        elements.append(rf"\broken{{[\,\cdot\,]_{{{index}}} = {_loose(latex_inline(expression[i, j]))}}}")
+    return rf"\fit{{{latex_inline(expression)}}}{{{' '.join(elements)}}}"
 
 
-def inline(expression: sp.Basic) -> str:
+def latex_inline(expression: sp.Basic) -> str:
     """An expression without dollar signs; a matrix has room for its fractions."""
     source = _LONE.sub(r" \1 ", latex(expression))
     tall = r"\begin{matrix}" in source and r"\frac" in source
@@ -158,7 +158,7 @@ def _length(cell: str) -> int:
     return len(re.sub(r"\\hyperlink\{.*?\}|\\\w+|[{}$\\]", "", cell))
 
 
-def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+def latex_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     """A table over as many pages as it needs, of cells that are LaTeX already, its columns as wide as they need."""
     lines = list(rows)
     most = 130 // len(head)

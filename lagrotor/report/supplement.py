@@ -25,7 +25,7 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import errata, latex_block
 from lagrotor.report.facts import Fact, facts, figure_facts, linked_facts, note
-from lagrotor.report.latex import END, derived, head, inline, printed, prose, table
+from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_inline, latex_table, prose
 from lagrotor.report.results import Headline, balance, headlines, opening
 
 
@@ -56,12 +56,12 @@ def _summary(report: Report) -> list[str]:
     tried = [(word(answer), str(count), prose(CLAIM_MEANINGS[answer])) for answer, count in report.outcomes.items()]
     changes = "Changed against the record: " + "; ".join(map(prose, report.changes)) if report.changes else ""
     blocks = [changes, prose(balance(report)), *map(_headline, headlines(report))]
-    blocks.append(table(("Equations", "How many", "What it means"), rows))
-    return [*blocks, table(("Claims", "How many", "What it means"), tried) if tried else ""]
+    blocks.append(latex_table(("Equations", "How many", "What it means"), rows))
+    return [*blocks, latex_table(("Claims", "How many", "What it means"), tried) if tried else ""]
 
 
 def _headline(headline: Headline) -> str:
-    formula = printed(headline.formula) if headline.formula else ""
+    formula = displayed_formula(headline.formula) if headline.formula else ""
     shown = f"Shown in {_links(headline.ids)}." if headline.ids else ""
     return f"{_titled(headline.title, headline.text)} {formula} {shown}"
 
@@ -71,7 +71,7 @@ def _verdicts(report: Report) -> list[str]:
         (_link(v.id), prose(report.paper.equation(v.id).title), word(v.verdict), prose(note(v)))
         for v in report.verdicts
     ]
-    return [table(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)]
+    return [latex_table(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)]
 
 
 def _paper(report: Report, name: str) -> list[str]:
@@ -80,10 +80,10 @@ def _paper(report: Report, name: str) -> list[str]:
 
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = report.paper.equation(verdict.id), verdict.statement
-    found = map(printed, derived_lines(statement.relations))
+    found = map(displayed_formula, derived_lines(statement.relations))
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
-        rf"\textbf{{As printed.}} {printed(entry.latex)}",
+        rf"\textbf{{As printed.}} {displayed_formula(entry.latex)}",
         rf"\textbf{{{derived_heading(statement.relations)}.}} {' '.join(found) or 'nothing to derive'}",
         *(_fact(fact) for fact in facts(verdict, report)),
     ]
@@ -92,9 +92,9 @@ def _equation(verdict: Verdict, report: Report) -> str:
 
 def _fact(fact: Fact) -> str:
     words = [*map(prose, fact.texts), _links(fact.ids)]
-    words += [f"${inline(letter)}$" for letter in fact.formulas if letter.is_Symbol]
-    shown = (derived(formula) for formula in fact.formulas if not formula.is_Symbol)
-    return " ".join([rf"\textbf{{{fact.label}.}}", *filter(None, words), *shown, *map(printed, fact.sources)])
+    words += [f"${latex_inline(letter)}$" for letter in fact.formulas if letter.is_Symbol]
+    shown = (displayed_expression(formula) for formula in fact.formulas if not formula.is_Symbol)
+    return " ".join([rf"\textbf{{{fact.label}.}}", *filter(None, words), *shown, *map(displayed_formula, fact.sources)])
 
 
 def _claim(result: Result, report: Report) -> str:
@@ -118,7 +118,7 @@ def _shown(part: ShownPart, report: Report) -> list[str]:
 
 def _side_by_side(shown: Table, report: Report) -> str:
     rows = [tuple(_cell(cell, report) for cell in row) for row in shown.rows]
-    return f"{_titled(shown.title, '')}\n\n{table(tuple(map(prose, shown.head)), rows)}\n\n{prose(shown.note)}"
+    return f"{_titled(shown.title, '')}\n\n{latex_table(tuple(map(prose, shown.head)), rows)}\n\n{prose(shown.note)}"
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -127,7 +127,7 @@ def _cell(cell: Cell, report: Report) -> str:
     if isinstance(cell, FigureLink):
         drawn = any(picture.key == cell.key for picture in report.pictures)
         return _link(f"figure {cell.key}") if drawn else prose(f"figure {cell.key}")
-    return derived(cell) if isinstance(cell, sp.Basic) else prose(cell)
+    return displayed_expression(cell) if isinstance(cell, sp.Basic) else prose(cell)
 
 
 def _picture(picture: Picture, report: Report) -> str:
@@ -144,7 +144,7 @@ def _picture(picture: Picture, report: Report) -> str:
 
 def _numbers(title: str, measured: Iterable[tuple[str, float]]) -> str:
     rows = [(prose(name), f"{value:.6g}") for name, value in measured]
-    return table((prose(title), "Value"), rows) if rows else ""
+    return latex_table((prose(title), "Value"), rows) if rows else ""
 
 
 def _cite(report: Report) -> list[str]:
@@ -155,12 +155,12 @@ def _cite(report: Report) -> list[str]:
 def _made(report: Report) -> list[str]:
     versions = [(prose(name), prose(number)) for name, number in report.versions]
     inputs = [(prose(name), prose(digest)) for name, digest in report.inputs]
-    blocks = [made_beside(prose), table(("What", "Version"), versions) if versions else ""]
-    return [*blocks, table(("Input", "SHA-256"), inputs) if inputs else ""]
+    blocks = [made_beside(prose), latex_table(("What", "Version"), versions) if versions else ""]
+    return [*blocks, latex_table(("Input", "SHA-256"), inputs) if inputs else ""]
 
 
 def _waiting(report: Report) -> list[str]:
-    return [table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])]
+    return [latex_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])]
 
 
 def _titled(title: str, text: str) -> str:
@@ -184,15 +184,17 @@ _PARTS: dict[str, Callable[[Report], list[str]]] = {
     "summary": _summary,
     "verdicts": _verdicts,
     "notation": lambda report: [
-        table(
+        latex_table(
             ("Symbol", "Meaning", "Unit"),
-            [(f"${inline(s)}$", prose(meaning), prose(unit)) for s, meaning, unit in notation(report)],
+            [(f"${latex_inline(s)}$", prose(meaning), prose(unit)) for s, meaning, unit in notation(report)],
         )
     ],
     "errata": lambda report: [latex_block(e) for e in errata(report.verdicts, report.paper)],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
     "derivations": lambda report: [
-        table(("Derivation", "Script"), [(prose(name), prose(f"{stem}.py")) for stem, name, _ in report.derivations])
+        latex_table(
+            ("Derivation", "Script"), [(prose(name), prose(f"{stem}.py")) for stem, name, _ in report.derivations]
+        )
     ],
     "waiting": _waiting,
     "cite": _cite,

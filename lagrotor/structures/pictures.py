@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.drawing.style import HALO, MODEL, OKABE_ITO, PAPER, paper_style
+from lagrotor.drawing.style import HALO, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR, paper_style
 from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
@@ -67,7 +67,7 @@ def structure_picture(s: Assembly) -> Figure:
             roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
             return figure
         found, standing = small_motion(s).roots, stands(s)
-        for grows, ink in ((False, MODEL), (True, PAPER)):
+        for grows, ink in ((False, MODEL_COLOUR), (True, PAPER_COLOUR)):
             part = found[(found.real > 0) == grows]
             roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
         roots.margins(0.15)

@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
     from lagrotor.theory.toppling import toppling_residual as toppling_residual
     from lagrotor.theory.toppling import toppling_threshold as toppling_threshold
-    from lagrotor.theory.toppling import turning as turning
     from lagrotor.theory.toppling import twisted_lagrangian as twisted_lagrangian
+    from lagrotor.theory.toppling import uniform_toppling as uniform_toppling
 
 __getattr__, __dir__, __all__ = face(__name__)

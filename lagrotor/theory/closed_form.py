@@ -67,9 +67,9 @@ class ClosedForm:
 
         Raises InputError for a wrong number of arguments, DomainError where a value is outside the domain.
         """
-        flat, shape = self._checked(values)
+        flat, shape = self._check_arguments(values)
         rows = in_blocks(self._functions[0], flat, len(self.outputs), prod(shape))
-        return self._shaped(rows, shape)
+        return self._in_shape(rows, shape)
 
     def error(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
         """Bounds of the outputs' errors at these argument values, in the form of the outputs; rounding is not counted.
@@ -77,7 +77,7 @@ class ClosedForm:
         Zero for an exact form (order None), under its assumptions. Raises as a call does, InputError for a series of
         which no bound is known, and DomainError where the series is beyond its range.
         """
-        flat, shape = self._checked(values)
+        flat, shape = self._check_arguments(values)
         if self.order is None:
             bounds = np.zeros(1)
         elif self.bound is None:
@@ -86,13 +86,13 @@ class ClosedForm:
             )
         else:
             bounds = self.bound(*(np.broadcast_to(v, prod(shape)) for v in flat))
-        return self._shaped(np.broadcast_to(bounds, (len(self.outputs), prod(shape))).copy(), shape)
+        return self._in_shape(np.broadcast_to(bounds, (len(self.outputs), prod(shape))).copy(), shape)
 
-    def _shaped(self, rows: Array, shape: tuple[int, ...]) -> Array | tuple[Array, ...]:
+    def _in_shape(self, rows: Array, shape: tuple[int, ...]) -> Array | tuple[Array, ...]:
         results = tuple(row.reshape(shape) for row in rows)
         return results if len(results) > 1 else results[0]
 
-    def _checked(self, values: tuple[ArrayLike, ...]) -> tuple[list[float | Array], tuple[int, ...]]:
+    def _check_arguments(self, values: tuple[ArrayLike, ...]) -> tuple[list[float | Array], tuple[int, ...]]:
         """The arguments as numbers or rows, and the shape that they broadcast to; refused outside the domain."""
         if len(values) != len(self.arguments):
             raise InputError(

@@ -42,7 +42,7 @@ class ImpulseMatrices:
 @cache
 def impulse_matrices() -> ImpulseMatrices:
     """The matrices of the response to a unit impulse, from the linear pair (symbols a, b, G_1, G_2)."""
-    linear = _ordered(linear_pair())
+    linear = _in_plane_order(linear_pair())
     M, C = linear.mass, linear.gyroscopic
     inverse = M.inv().applyfunc(sp.factor)
     squared = natural_frequency().expressions[0] ** 2
@@ -56,7 +56,7 @@ def impulse_matrices() -> ImpulseMatrices:
     return ImpulseMatrices(M, C, null, drift, displacement, swing, sp.factor(squared))
 
 
-def _ordered(linear: LinearSystem) -> LinearSystem:
+def _in_plane_order(linear: LinearSystem) -> LinearSystem:
     """The linear pair with its coordinates in the order (x, y_1, y_2), read off the basis (rows x_1, y_1, …, z_2)."""
     rows = [linear.basis.row(i) for i in (0, 1, 4)]
     change = sp.Matrix.vstack(*rows).inv()

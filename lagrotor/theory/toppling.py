@@ -40,7 +40,7 @@ def twisted_lagrangian() -> sp.Expr:
     return mercator_lagrangian().xreplace(rates).xreplace(where)
 
 
-def turning(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
+def uniform_toppling(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
     """The state of uniform toppling: U = Delta = 0 and at rest, alpha' = rate, no acceleration."""
     still: dict[sp.Symbol, sp.Expr] = dict.fromkeys((*TWISTED.q, *TWISTED.v, *TWISTED.a), sp.Integer(0))
     return still | {TWISTED.v[2]: rate}
@@ -48,7 +48,7 @@ def turning(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
 
 def toppling_residual() -> tuple[sp.Expr, ...]:
     """What the equations of motion leave of uniform turning, (U, Delta, alpha): zero exactly if (G_1 + G_2) nu = 0."""
-    return tuple(sp.expand(e) for e in euler_lagrange(twisted_lagrangian(), TWISTED).subs(turning()))
+    return tuple(sp.expand(e) for e in euler_lagrange(twisted_lagrangian(), TWISTED).subs(uniform_toppling()))
 
 
 @cache
@@ -59,7 +59,7 @@ def linear_toppling() -> LinearSystem:
     """
     L = twisted_lagrangian()
     q, v = list(TWISTED.q), list(TWISTED.v)
-    second = hessian(L, q + v).subs(turning()).applyfunc(sp.factor)
+    second = hessian(L, q + v).subs(uniform_toppling()).applyfunc(sp.factor)
     qq, vq, vv = second[:3, :3], second[3:, :3], second[3:, 3:]
     return LinearSystem(vv, (vq - vq.T).applyfunc(sp.factor), -qq, sp.eye(3))
 

@@ -12,7 +12,7 @@ import mpmath as mp
 import numpy as np
 
 from lagrotor import Scene
-from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, ORDER
+from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, SERIES_ORDER
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics import compile_program
 from lagrotor.theory import series_orbit
@@ -52,7 +52,7 @@ def states(module: Any, scene: Scene, seconds: int) -> list[list[Any]]:
 
 def renew() -> None:
     mp.mp.dps = 30
-    scene = series_orbit(Scene((10, -10)), AMPLITUDE, ORDER).start
+    scene = series_orbit(Scene((10, -10)), AMPLITUDE, SERIES_ORDER).start
     one = states(minimal, scene, 10)
     axes = minimal.MODEL.observe(scene, np.array(one, dtype=float)).axes
     other = np.array(states(spheres, scene, 10), dtype=float)

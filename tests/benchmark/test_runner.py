@@ -13,9 +13,9 @@ from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
 from lagrotor.benchmark.chart_constants import SAMPLE
 from lagrotor.benchmark.method import Case, Method
-from lagrotor.benchmark.runner import Failure, Point, benchmark, front, listed, work_at
+from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark, failure_sentences, front, work_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
-from lagrotor.commands.benchmark_commands import as_data, in_words
+from lagrotor.commands.benchmark_commands import chart_data, chart_tables
 from lagrotor.errors import LagrotorError
 
 
@@ -75,9 +75,9 @@ def test_what_fails_or_is_absent_is_listed() -> None:
     ]
     assert set(found.setup) == {"minimal", "halfway", "lost"}
     assert min(p.error for p in found.points) >= found.floor
-    words = in_words([found])
+    words = chart_tables([found])
     assert "left out: broken: does not do this" in words
-    assert json.loads(json.dumps(as_data([found])))["charts"][0]["scene"] == "small"
+    assert json.loads(json.dumps(chart_data([found])))["charts"][0]["scene"] == "small"
 
 
 def test_a_method_that_takes_long_is_not_run_at_finer_settings(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -93,7 +93,7 @@ def test_a_method_that_takes_long_is_not_run_at_finer_settings(monkeypatch: pyte
 
 def test_the_same_failure_is_listed_once() -> None:
     failures = [Failure("a", (), "why"), Failure("b", (1e-3,), "why"), Failure("c", (), "why")]
-    assert listed(failures) == ["a; c: why", "b at 0.001: why"]
+    assert failure_sentences(failures) == ["a; c: why", "b at 0.001: why"]
 
 
 def test_a_first_run_that_compiles_neither_ends_a_method_nor_counts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -115,8 +115,8 @@ def test_a_short_run_is_repeated_until_a_sample_is_full_and_a_long_one_is_not(mo
     assert [p.seconds / SAMPLE.value for p in found.points] == pytest.approx([0.3, 3])
 
 
-def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
-    return Point(name, family, 1, error, evaluations, seconds, seconds)
+def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> ChartPoint:
+    return ChartPoint(name, family, 1, error, evaluations, seconds, seconds)
 
 
 def test_the_front_keeps_what_nothing_beats() -> None:

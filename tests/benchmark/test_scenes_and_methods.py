@@ -12,7 +12,7 @@ from lagrotor import Scene, simulate
 from lagrotor.benchmark import scenes_and_methods as module
 from lagrotor.benchmark.method import TOLERANCES, Case
 from lagrotor.benchmark.reference import reference
-from lagrotor.benchmark.runner import Failure, Point, benchmark
+from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing import paper_style
@@ -117,8 +117,8 @@ def test_only_what_is_offered_is_left_out(group: str) -> None:
     assert set(module._LEFT_OUT[group]) <= set(METHODS)
 
 
-def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> Point:
-    return Point(name, family, 1, error, evaluations, seconds, seconds)
+def point(name: str, error: float, evaluations: int, seconds: float, family: Any = "core") -> ChartPoint:
+    return ChartPoint(name, family, 1, error, evaluations, seconds, seconds)
 
 
 def test_ratios_compare_at_equal_error() -> None:

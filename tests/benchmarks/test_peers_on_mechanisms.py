@@ -14,14 +14,14 @@ from benchmarks.mechanisms.deciding import PAIRS
 from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.tool import Ready, Tool
 from lagrotor.benchmark import records
-from lagrotor.benchmark.mechanism_tables import HEAD, WANTED_HEAD, decided_rows, rows, wanted
-from lagrotor.benchmark.records import LINKS, Decided, Kind, Measured, recorded_mechanisms
+from lagrotor.benchmark.mechanism_tables import MECHANISM_HEAD, TARGET_HEAD, decision_rows, mechanism_rows, target_rows
+from lagrotor.benchmark.records import LINKS, Decided, Measured, MechanismKind, recorded_mechanisms
 from lagrotor.errors import LagrotorError
 
-CASES: tuple[tuple[Kind, int], ...] = (("rods", 2), ("gyroscopes", 1))
+CASES: tuple[tuple[MechanismKind, int], ...] = (("rods", 2), ("gyroscopes", 1))
 
 
-def prepared(name: str, kind: Kind, n: int) -> Ready:
+def prepared(name: str, kind: MechanismKind, n: int) -> Ready:
     for module in (TOOLS[name].module, *TOOLS[name].others):
         pytest.importorskip(module, reason=f"{name} is not installed: pip install {TOOLS[name].install}")
     return TOOLS[name].prepare(kind, n)
@@ -29,7 +29,7 @@ def prepared(name: str, kind: Kind, n: int) -> Ready:
 
 @pytest.mark.parametrize("name", [name for name in TOOLS if name != "lagrotor"])
 @pytest.mark.parametrize(("kind", "n"), CASES)
-def test_every_tool_has_the_same_right_hand_side(name: str, kind: Kind, n: int) -> None:
+def test_every_tool_has_the_same_right_hand_side(name: str, kind: MechanismKind, n: int) -> None:
     ready = prepared(name, kind, n)
     y = np.random.default_rng(2).uniform(-0.5, 0.5, 2 * n * JOINTS[kind])
     ours = np.asarray(chain(kind, n).rhs(VALUES)(0.0, y))
@@ -91,20 +91,22 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
     kane = replace(own, tool="KanesMethod", ready=0.2, rhs=5e-6)
     slow = Measured("rods", 6, "LagrangesMethod", reason="over 90 s")
     decided = [Decided("a pair", 0.01, "zero", 3.0, "zero"), Decided("another", 0.01, "zero", 60.0, "did not end")]
-    assert rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1e-06", "0e+00")
-    assert rows([slow])[0] == ("6 rods", "LagrangesMethod", "—", "—", "—", "over 90 s", "—")
-    assert [row[-1] for row in decided_rows(decided)] == ["300", "over 6000"]
+    assert mechanism_rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1e-06", "0e+00")
+    assert mechanism_rows([slow])[0] == ("6 rods", "LagrangesMethod", "—", "—", "—", "over 90 s", "—")
+    assert [row[-1] for row in decision_rows(decided)] == ["300", "over 6000"]
     counts, ready = (
         {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]},
         {"rods": [0.1, 0.2, 0.3, 0.9], "gyroscopes": [0.1]},
     )
-    table = wanted([own, kane, slow], decided, counts, ready)
+    table = target_rows([own, kane, slow], decided, counts, ready)
     assert [row[1:] for row in table[:3]] == [("15", "20.0"), ("4", "5.0"), ("3", "—")]
     assert [row[-1] for row in table[6:8]] == ["2.00, 2.05, 2.20", "2.00, 1.50, 3.00"] and table[-1][1:] == (
         "20",
         "300",
     )
-    assert all(len(row) == len(WANTED_HEAD) for row in table) and all(len(row) == len(HEAD) for row in rows([own]))
+    assert all(len(row) == len(TARGET_HEAD) for row in table) and all(
+        len(row) == len(MECHANISM_HEAD) for row in mechanism_rows([own])
+    )
 
 
 def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import structure_comparison
 from benchmarks.structure_comparison import begun, staircase, tools
-from lagrotor.benchmark.records import CHAIN_ERROR, ROTORS, recorded_structures
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, recorded_structures
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 
@@ -16,7 +16,7 @@ def test_the_table_is_the_record() -> None:
     record, found = recorded_structures()
     table = PAPER.scripts.run("derivations", "b4_chains_of_rotors")["table"]
     assert len(table.rows) == len(found) and record["machine"]["processor"] in table.note
-    assert {x.n for x in found if x.tool == "lagrotor, fast"} == set(ROTORS)
+    assert {x.n for x in found if x.tool == "lagrotor, fast"} == set(CHAIN_SIZES)
     assert all(x.error <= CHAIN_ERROR for x in found if x.seconds) and all(x.reason for x in found if not x.seconds)
     own = next(x for x in found if (x.n, x.tool) == (16, "lagrotor, fast"))
     row = next(row for row in table.rows if row[:2] == ("16", "lagrotor, fast"))

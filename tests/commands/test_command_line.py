@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 
 import lagrotor
 from lagrotor.benchmark import scenes_and_methods as chart_module
-from lagrotor.benchmark.runner import Benchmark, Point
+from lagrotor.benchmark.runner import Benchmark, ChartPoint
 from lagrotor.commands import terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
@@ -434,7 +434,7 @@ def test_figure_writes_the_same_bytes_twice(work: Path) -> None:
 def test_chart_names_what_it_wrote(
     work: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    points = tuple(Point("minimal", "core", tol, tol, 10, 0.1, 0.1) for tol in (1e-3, 1e-6))
+    points = tuple(ChartPoint("minimal", "core", tol, tol, 10, 0.1, 0.1) for tol in (1e-3, 1e-6))
     found = Benchmark("displaced", "a scene", points, (), {"minimal": 0.0}, 1e-12)
     monkeypatch.setattr(chart_module, "benchmarks", lambda quick, step: [found])
     assert main(["chart"]) == 0
@@ -481,7 +481,7 @@ def test_interrupted_report_leaves_the_last_good_one(
     def interrupted(*_: object) -> None:
         raise stop
 
-    monkeypatch.setattr(figures, "draw", interrupted)
+    monkeypatch.setattr(figures, "draw_figure", interrupted)
     if stop is KeyboardInterrupt:
         assert main(["reproduce", "--jobs", "1"]) == 130
         assert capsys.readouterr().err.splitlines()[-1] == "lagrotor: interrupted"
@@ -540,7 +540,7 @@ def test_report_without_the_converter_says_so(
 
 def test_interrupted_swap_puts_the_old_report_back(work: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = work / "report"
-    with folder.replaced(target) as made:
+    with folder.replacement(target) as made:
         (made / "index.html").write_text("good")
     for name in folder.CONTENTS - {"index.html"}:
         (target / name).touch()
@@ -552,7 +552,7 @@ def test_interrupted_swap_puts_the_old_report_back(work: Path, monkeypatch: pyte
         return rename(path, to)
 
     monkeypatch.setattr(Path, "rename", failing)
-    with pytest.raises(KeyboardInterrupt), folder.replaced(target) as made:
+    with pytest.raises(KeyboardInterrupt), folder.replacement(target) as made:
         (made / "index.html").write_text("new")
     assert (target / "index.html").read_text() == "good"
     assert [path.name for path in work.iterdir()] == ["report"]
@@ -562,7 +562,7 @@ def test_two_runs_at_once_do_not_touch_each_other(work: Path) -> None:
     """The folder of a run that lives is left alone: here that of the process that runs the tests' parent."""
     other = work / f".report.new-{os.getppid()}"
     other.mkdir()
-    with folder.replaced(work / "report") as made:
+    with folder.replacement(work / "report") as made:
         assert made != other
         (made / "index.html").write_text("mine")
     assert other.is_dir()
@@ -580,7 +580,7 @@ def test_killed_swap_is_mended_by_the_next_run(work: Path) -> None:
     (work / ".report.old").mkdir()
     (work / ".report.old" / "index.html").write_text("good")
     (work / ".report.new-999999999").mkdir()
-    with pytest.raises(RuntimeError), folder.replaced(work / "report"):
+    with pytest.raises(RuntimeError), folder.replacement(work / "report"):
         raise RuntimeError
     assert (work / "report" / "index.html").read_text() == "good"
     assert [path.name for path in work.iterdir()] == ["report"]
@@ -608,7 +608,7 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
 
 
 def test_a_second_run_into_the_same_folder_is_refused(work: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with folder.replaced(work / "report") as made:
+    with folder.replacement(work / "report") as made:
         assert main(["reproduce", "--jobs", "1"]) == 2
         assert "is being written by another run" in capsys.readouterr().err
         for name in ("index.html", "verdicts.json"):
@@ -616,7 +616,7 @@ def test_a_second_run_into_the_same_folder_is_refused(work: Path, capsys: pytest
     assert (work / "report" / "index.html").read_text() == "mine"
     assert [path.name for path in work.iterdir()] == ["report"], "the lock is gone"
     (work / ".report.lock").write_text("999999999")  # of a run that was killed
-    with folder.replaced(work / "report"):
+    with folder.replacement(work / "report"):
         pass
 
 

@@ -11,7 +11,7 @@ from lagrotor import Scene, paired_scene, read_scene, simulate
 from lagrotor.commands import command_line
 from lagrotor.commands.command_line import main
 from lagrotor.commands.options import Parser
-from lagrotor.commands.terminal import reached, wrapped
+from lagrotor.commands.terminal import show_time, wrap
 from lagrotor.errors import LagrotorWarning
 
 PAIR = ["--spins", "10", "-10"]
@@ -70,7 +70,7 @@ def test_what_makes_no_sense_is_refused_in_a_line(capsys, tmp_path, words: list[
 def test_a_run_that_takes_long_says_where_it_is(capsys, monkeypatch) -> None:
     seconds = iter(range(100))
     monkeypatch.setattr("time.perf_counter", lambda: next(seconds))
-    with reached(10.0) as at:
+    with show_time(10.0) as at:
         for t in (*[1.0] * 256, *[2.0] * 256, *[0.5] * 256):
             at(t)
     assert capsys.readouterr().err == "[2 s] integration 1: t = 2 of 10 s\n"
@@ -87,6 +87,6 @@ def test_a_warning_is_a_line(capsys, monkeypatch) -> None:
 
 
 def test_a_long_line_of_a_verdict_goes_on_under_its_text() -> None:
-    first, *more = wrapped(f"  wrong      {'word ' * 40}", 13).split("\n")
+    first, *more = wrap(f"  wrong      {'word ' * 40}", 13).split("\n")
     assert first.startswith("  wrong      word") and len(more) == 2
     assert all(line.startswith(" " * 13 + "word") and len(line) <= 100 for line in more)

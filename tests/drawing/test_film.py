@@ -14,7 +14,7 @@ from lagrotor import Scene, Shock, consistent_scene, paired_frequency, simulate
 from lagrotor.commands.command_line import main
 from lagrotor.drawing import Camera
 from lagrotor.drawing.film import SIZE, frame_times
-from lagrotor.drawing.wheel import carried, wheel
+from lagrotor.drawing.wheel import place_points, wheel
 from lagrotor.errors import InputError, LagrotorError
 from lagrotor.numerics import between_samples, body_rotations, turn_between
 from lagrotor.pair import SCENES
@@ -127,7 +127,7 @@ def test_wheel_stays_rigid_along_a_run():
     run = simulate(ready.scene, np.linspace(0, 10, 501))
     moving = run.motion(run.t[::10])
     points, segments = wheel(0.4, run.scene.rotor.length, 7)
-    placed = carried(points, moving.rotations, moving.centres)
+    placed = place_points(points, moving.rotations, moving.centres)
     lengths = np.linalg.norm(placed[..., segments[:, 0], :] - placed[..., segments[:, 1], :], axis=-1)
     still = np.linalg.norm(points[segments[:, 0]] - points[segments[:, 1]], axis=-1)
     assert np.abs(lengths - still).max() < 1e-12

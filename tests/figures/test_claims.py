@@ -439,7 +439,7 @@ def test_drawn_twice_is_the_same_bytes(tmp_path):
     folders = [tmp_path / name for name in ("one", "two")]
     for folder in folders:
         folder.mkdir()
-    first, second = (figures.draw("17", folder, PAPER.scripts) for folder in folders)
+    first, second = (figures.draw_figure("17", folder, PAPER.scripts) for folder in folders)
     assert first.svg.read_bytes() == second.svg.read_bytes()
     assert first.png.read_bytes() == second.png.read_bytes()
     assert first.measured == second.measured

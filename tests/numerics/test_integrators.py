@@ -17,7 +17,7 @@ from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.rhs import make_rhs
 from lagrotor.numerics.segment import Array, Segment, StopError
-from lagrotor.pair import HEAVY
+from lagrotor.pair import HEAVY_LINK
 
 TIMES = np.linspace(0.3, 20, 57)
 
@@ -109,7 +109,7 @@ def test_the_adams_pair_finds_its_step_at_once(error: float, ceiling: int) -> No
     assert adams(segment(), error).nfev < ceiling
 
 
-@pytest.mark.parametrize("link", [Link(), HEAVY, Link(0.8), Link(1.3, 0.2, 0.1)])
+@pytest.mark.parametrize("link", [Link(), HEAVY_LINK, Link(0.8), Link(1.3, 0.2, 0.1)])
 @pytest.mark.parametrize("module", [minimal, spheres])
 def test_the_rate_is_the_compiled_program(module, link) -> None:
     scene = Scene((10, -7), link=link, rates=((0.4, 1, 0), (0.4, -0.5, 0)))

@@ -9,7 +9,7 @@ import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures, lean_svg
-from lagrotor.pictures.figures import draw
+from lagrotor.pictures.figures import draw_figure
 
 DRAWN = ("3", "18")  # a diagram with arrows, curves on axes
 STEP = re.compile(r"([MLQCzmlqc])([^MLQCzmlqc]*)")
@@ -20,7 +20,7 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """Figures as matplotlib writes them."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(figures, "lean_svg", str)
-        return [draw(key, tmp_path_factory.mktemp("drawn"), PAPER.scripts).svg.read_text() for key in DRAWN]
+        return [draw_figure(key, tmp_path_factory.mktemp("drawn"), PAPER.scripts).svg.read_text() for key in DRAWN]
 
 
 def points(path: str) -> np.ndarray:
@@ -70,6 +70,6 @@ def test_ids_are_kept_where_they_are_used(sources: list[str]) -> None:
 
 
 def test_a_saved_figure_is_lean(sources: list[str], tmp_path: Path) -> None:
-    saved = draw(DRAWN[0], tmp_path, PAPER.scripts).svg.read_text()
+    saved = draw_figure(DRAWN[0], tmp_path, PAPER.scripts).svg.read_text()
     assert saved == lean_svg.lean_svg(sources[0])
     assert len(saved) < 0.75 * len(sources[0])

@@ -16,7 +16,7 @@ from lagrotor.paper import FigureLink, Relation, Statement, Table, chain, claim_
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
-from lagrotor.report.latex import END, derived, head, printed, prose, table
+from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_table, prose
 from lagrotor.report.supplement import supplement
 
 HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
@@ -125,13 +125,13 @@ def test_it_compiles(report: Report) -> None:
 
 
 def test_every_printed_equation_compiles(tmp_path: Path) -> None:
-    pages = "\n\n".join(printed(entry.latex) for entry in PAPER.equations.values())
+    pages = "\n\n".join(displayed_formula(entry.latex) for entry in PAPER.equations.values())
     assert complaints(compiled(head("A test") + pages + END, tmp_path)) == []
 
 
 def test_long_expressions_fit_the_page(tmp_path: Path) -> None:
     wide = [LONG, M / LONG, sp.sqrt(LONG), sp.Matrix([LONG, 1]), sp.Matrix([[LONG, 1], [1, LONG]]), M * (LONG + 1) ** 2]
-    log = compiled(head("A test") + "\n\n".join(map(derived, wide)) + END, tmp_path)
+    log = compiled(head("A test") + "\n\n".join(map(displayed_expression, wide)) + END, tmp_path)
     assert complaints(log) == []
 
 
@@ -151,17 +151,17 @@ def test_text_is_text() -> None:
 
 def test_brackets_of_a_broken_formula_keep_their_size() -> None:
     short, broken = re.fullmatch(
-        r"\\fit\{(.*)\}\{\\broken\{(.*)\}\}", printed(r"\left(\frac{a}{b}\right)+\left(c\right).")
+        r"\\fit\{(.*)\}\{\\broken\{(.*)\}\}", displayed_formula(r"\left(\frac{a}{b}\right)+\left(c\right).")
     ).groups()
     assert short == r"\left(\frac{a}{b}\right)+\left(c\right)", "the sentence's full stop is gone"
     assert broken == r"\Bigl(\frac{a}{b}\Bigr)+(c)"
 
 
 def test_the_longest_expressions_are_named_not_printed() -> None:
-    assert "verdicts.json" in derived(sp.Add(*sp.symbols("x_1:900")))
+    assert "verdicts.json" in displayed_expression(sp.Add(*sp.symbols("x_1:900")))
 
 
 def test_columns_share_the_width() -> None:
-    shares = re.findall(r"\\dimexpr ([0-9.]+)\\linewidth", table(("a", "b"), [("x", "y" * 60)]))
+    shares = re.findall(r"\\dimexpr ([0-9.]+)\\linewidth", latex_table(("a", "b"), [("x", "y" * 60)]))
     assert sum(map(float, shares)) == pytest.approx(1, abs=1e-3)
     assert float(shares[0]) < float(shares[1])

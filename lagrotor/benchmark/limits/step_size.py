@@ -14,7 +14,7 @@ from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import RigidBody
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
-from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 
 
@@ -53,9 +53,9 @@ def step_limits(quick: bool) -> list[Limit]:
     """The longest stable step of the paper's method: each kind of joint by itself, and all together."""
     systems = {
         "a ground joint alone": paper_system(Scene((0.0, 0.0), link=None), STIFFNESS, DAMPING),
-        "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY),
+        "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY_LINK),
         "a tip joint alone, bar of 0.01 kg": _bar_on_rotor(LIGHT),
-        "all joints, bar of 1 kg": paper_system(Scene((10.0, -10.0), link=HEAVY), STIFFNESS, DAMPING),
+        "all joints, bar of 1 kg": paper_system(Scene((10.0, -10.0), link=HEAVY_LINK), STIFFNESS, DAMPING),
         "all joints, bar of 0.01 kg": paper_system(Scene((10.0, -10.0), link=LIGHT), STIFFNESS, DAMPING),
     }
     law = "4/(w D + sqrt((w D)² + 4 w S)), w the largest mobility"

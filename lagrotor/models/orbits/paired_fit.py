@@ -16,7 +16,7 @@ from lagrotor.models.estimate_constants import OPPOSITE
 from lagrotor.models.model import Answer, Array
 from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
 from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.shown import raised
+from lagrotor.shown import superscript
 from lagrotor.theory.natural_rate import natural_rate
 
 if TYPE_CHECKING:
@@ -203,5 +203,5 @@ def _orbit_answer(waves: Waves, frequency: float, unknowns: Array, order: int, e
         seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
         return seen[0], seen[1]
 
-    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{raised(order)}"
+    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{superscript(order)}"
     return Answer(error, reason, motion)

@@ -10,7 +10,7 @@ from lagrotor.models.spring_link.run import SpringRun, run_steps
 from lagrotor.numerics.curves import peak, spectrum
 from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.numerics.pulse import PULSE_REACH
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
@@ -22,7 +22,9 @@ Array = NDArray[np.float64]
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 
 
-def shocked_scene(spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY, width: float = 1 / 50) -> Scene:
+def shocked_scene(
+    spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY_LINK, width: float = 1 / 50
+) -> Scene:
     """A pair at rest, rotor 1 pushed by `force` (N) ten widths (s) after t = 0: the paper's two seconds of rest left out."""
     return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
 

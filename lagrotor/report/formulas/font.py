@@ -10,7 +10,7 @@ from argparse import ArgumentParser
 from base64 import b64encode
 from pathlib import Path
 
-FAMILY = "Lagrotor Math"
+FONT_FAMILY = "Lagrotor Math"
 FILE = Path(__file__).with_name("fonts") / "lagrotor-math.woff2"
 
 # Upright letters and signs as they are typed, blanks and invisible operators first.
@@ -36,8 +36,8 @@ def characters() -> frozenset[str]:
 def font_face() -> str:
     """Two CSS rules: the font, with its data inside, and that formulas are drawn with it."""
     data = b64encode(FILE.read_bytes()).decode("ascii")
-    face = f'@font-face {{ font-family: "{FAMILY}"; src: url(data:font/woff2;base64,{data}) format("woff2"); }}'
-    return f'{face}\nmath {{ font-family: "{FAMILY}", math; }}'
+    face = f'@font-face {{ font-family: "{FONT_FAMILY}"; src: url(data:font/woff2;base64,{data}) format("woff2"); }}'
+    return f'{face}\nmath {{ font-family: "{FONT_FAMILY}", math; }}'
 
 
 def subset(source: Path, target: Path = FILE) -> None:
@@ -54,8 +54,8 @@ def subset(source: Path, target: Path = FILE) -> None:
     chosen.subset(font)
     for record in font["name"].names:
         if record.nameID in (1, 3, 4, 6):
-            record.string = FAMILY if record.nameID in (1, 4) else FAMILY.replace(" ", "")
-    font["CFF "].cff.fontNames = [FAMILY.replace(" ", "")]
+            record.string = FONT_FAMILY if record.nameID in (1, 4) else FONT_FAMILY.replace(" ", "")
+    font["CFF "].cff.fontNames = [FONT_FAMILY.replace(" ", "")]
     font.flavor = "woff2"
     font.save(target)
 

@@ -43,19 +43,19 @@ def converter() -> str:
         return ""
 
 
-def from_latex(source: str, display: bool = True) -> str | None:
+def mathml(source: str, display: bool = True) -> str | None:
     """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed.
 
     What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
     """
     try:
-        return _converted(source, display)
+        return _convert(source, display)
     except ModuleNotFoundError:
         return None
 
 
 @cache
-def _converted(source: str, display: bool) -> str:
+def _convert(source: str, display: bool) -> str:
     from latex2mathml.converter import Converter
 
     made = []
@@ -108,12 +108,17 @@ def _tidy(element: Element) -> None:
         if child.tag == "mtable":
             child.set("displaystyle", "true")
         if child.tag in ("msup", "msubsup"):
-            _raised(child)
+            _raise_prime(child)
         if element.tag in _SCRIPTS:
             continue
-        if _named(child) and before is not None and before.tag not in ("mo", "mspace"):
+        if _is_function_name(child) and before is not None and before.tag not in ("mo", "mspace"):
             _space(element, child)
-        if before is not None and _named(before) and child.tag not in ("mo", "mspace") and not _bracket(child):
+        if (
+            before is not None
+            and _is_function_name(before)
+            and child.tag not in ("mo", "mspace")
+            and not _is_bracket(child)
+        ):
             _space(element, child)
         before = child
 
@@ -121,7 +126,9 @@ def _tidy(element: Element) -> None:
 def _leaf(child: Element, text: str, before: Element | None) -> None:
     variant = child.attrib.pop("mathvariant", "")
     if variant and variant != "normal":
-        child.text = "".join(_styled(letter, variant.upper().replace("BOLD-ITALIC", "BOLD ITALIC")) for letter in text)
+        child.text = "".join(
+            _styled_letter(letter, variant.upper().replace("BOLD-ITALIC", "BOLD ITALIC")) for letter in text
+        )
     elif variant or (child.tag == "mi" and len(text) == 1 and text in "ΓΔΘΛΞΠΣΥΦΨΩ∞"):
         child.set("mathvariant", "normal")
     if child.tag == "mo" and text in _SIGNS:
@@ -140,7 +147,7 @@ def _leaf(child: Element, text: str, before: Element | None) -> None:
         child.attrib |= {"lspace": "0.278em", "rspace": "0.278em"}
 
 
-def _raised(child: Element) -> None:
+def _raise_prime(child: Element) -> None:
     """A prime is raised by the font already; over an accent a power is set no higher than over a letter."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
@@ -159,13 +166,13 @@ def _accent(child: Element) -> None:
         mark.set("style", "font-size: .65em")
 
 
-def _named(element: Element) -> bool:
+def _is_function_name(element: Element) -> bool:
     """Whether an element is the name of a function, perhaps with a power."""
     core = element[0] if element.tag in ("msup", "msub") and len(element) else element
     return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
 
 
-def _bracket(element: Element) -> bool:
+def _is_bracket(element: Element) -> bool:
     first = element[0] if element.tag in ("mrow", "msup") and len(element) else element
     first = first[0] if first.tag == "mrow" and len(first) else first
     return first.tag == "mo" and (first.text or "") in _OPEN
@@ -175,7 +182,7 @@ def _space(parent: Element, child: Element) -> None:
     parent.insert(list(parent).index(child), Element("mspace", {"width": _THIN}))
 
 
-def _styled(character: str, style: str) -> str:
+def _styled_letter(character: str, style: str) -> str:
     """A letter or digit in bold, double-struck …: browsers know no other `mathvariant` than normal."""
     name = unicodedata.name(character, "").replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
     try:

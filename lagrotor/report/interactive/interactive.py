@@ -47,7 +47,7 @@ from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
 
-ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
+PAGE_ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
 _BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _HERE = Path(__file__).parent
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
@@ -65,12 +65,12 @@ def pair_section() -> str:
     def part(name: str) -> str:
         return (_HERE / f"interactive{name}").read_text(encoding="utf-8")
 
-    lines = [formulas(), *(part(f"_{name}.js") for name in ("motion", "drawing", "controls"))]
+    lines = [javascript_formulas(), *(part(f"_{name}.js") for name in ("motion", "drawing", "controls"))]
     script = "\n".join(["(() => {", '"use strict";', *lines, 'show(document.getElementById("model"));', "})();"])
     return part(".html").replace("/* style */", part(".css")).replace("/* script */", script)
 
 
-def formulas() -> str:
+def javascript_formulas() -> str:
     """The generated part of the script: the series' order, and one function a program."""
     return str(_formulas()())
 
@@ -78,13 +78,15 @@ def formulas() -> str:
 @generated(((),))
 def _formulas() -> str:
     """() → what `formulas` returns."""
-    text = "\n".join([f"const ORDER = {ORDER};", *(javascript(program, name) for name, program in programs().items())])
+    text = "\n".join(
+        [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
+    )
     rows = "".join(f"        {line!r},\n" for line in text.splitlines())
     return f"def formulas():\n    return '\\n'.join([\n{rows}    ])"
 
 
 @cache
-def programs() -> dict[str, Program]:
+def page_programs() -> dict[str, Program]:
     """What the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
 
     constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
@@ -98,7 +100,7 @@ def programs() -> dict[str, Program]:
     bar_length    (r_1, r_2, ell) → m
     """
     found = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
-    found |= {"series": _series(), "orbit": horner.program(ORDER)}
+    found |= {"series": _series(), "orbit": horner.program(PAGE_ORDER)}
     for ratio in _BARS:
         found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
         found[f"slopes_{ratio}"] = _slopes(ratio)
@@ -156,8 +158,8 @@ def _small_motion() -> Program:
 
 def _series() -> Program:
     """Symbols r_n stand for the powers r_0**n, so that one function serves every order: those beyond it are put to 0."""
-    orbit, cosine = paired_series(ORDER), sp.Symbol("c", real=True)
-    powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, ORDER + 1))]
+    orbit, cosine = paired_series(PAGE_ORDER), sp.Symbol("c", real=True)
+    powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, PAGE_ORDER + 1))]
     stages: list[Stage] = []
 
     def sizes(of: FourierSeries, name: str) -> Iterator[tuple[int, sp.Symbol]]:
@@ -168,7 +170,7 @@ def _series() -> Program:
 
     outputs: list[sp.Expr] = []
     for name, of, scale in (("x", orbit.x, 1), ("y", orbit.Y, sp.sqrt(shape)), ("z", orbit.z, 1)):
-        sums = [sp.Integer(0)] * (ORDER + 1)
+        sums = [sp.Integer(0)] * (PAGE_ORDER + 1)
         for h, size in sizes(of, name):
             # cos h Phi = T_h(c), sin h Phi = s U_(h−1)(c).
             wave = sp.chebyshevt(h, cosine) if h >= 0 else sp.chebyshevu(-h - 1, cosine)

@@ -239,8 +239,8 @@ function show(root) {
   });
   part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
   part("link").addEventListener("click", () => {
-    const struck = shocks.map((shock) => ["shock", shock.map((x) => Number(x.toPrecision(6))).join(",")]);
-    history.replaceState(null, "", `#model?${new URLSearchParams([...settings.map((name) => [name, chosen(name)]), ...struck])}`);
+    const pairs = shocks.map((shock) => ["shock", shock.map((x) => Number(x.toPrecision(6))).join(",")]);
+    history.replaceState(null, "", `#model?${new URLSearchParams([...settings.map((name) => [name, chosen(name)]), ...pairs])}`);
     copied(location.href, "The link is on the clipboard:");
   });
   part("again").addEventListener("click", () => {

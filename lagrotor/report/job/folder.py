@@ -85,17 +85,17 @@ def _alone(target: Path) -> Iterator[None]:
 
 
 @contextmanager
-def replaced(target: Path) -> Iterator[Path]:
+def replacement(target: Path) -> Iterator[Path]:
     """A new folder that takes the place of `target` when the block ends well, and is removed when it does not.
 
     Raises InputError where another run is writing into `target`.
     """
     target = check_target(target)
     with _alone(target):
-        yield from _replaced(target)
+        yield from _rename_over(target)
 
 
-def _replaced(target: Path) -> Iterator[Path]:
+def _rename_over(target: Path) -> Iterator[Path]:
     new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
     for left in target.parent.glob(f".{target.name}.new-*"):
         if not _alive(left.name.rpartition("-")[2]):

@@ -12,7 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from lagrotor.about import __version__
-from lagrotor.faces import handed_on
+from lagrotor.faces import names_of_face
 from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
@@ -50,7 +50,7 @@ def _text(path: Path) -> str:
 def _face(package: str) -> dict[str, str]:
     """Name → module, of what a room or the package hands on; empty for a module and for a paper's folder."""
     file = _PACKAGE.joinpath(*package.split(".")[1:], "__init__.py")
-    return handed_on(file) if package.startswith("lagrotor") and file.is_file() else {}
+    return names_of_face(file) if package.startswith("lagrotor") and file.is_file() else {}
 
 
 @cache
@@ -81,24 +81,24 @@ def _stems(paper: Paper) -> frozenset[str]:
 
 
 @cache
-def named(path: Path, paper: Paper) -> tuple[str, ...]:
+def scripts_named(path: Path, paper: Paper) -> tuple[str, ...]:
     """Stems of the derivations that a script names: it may run them."""
     stems = _texts(path) & _stems(paper)
     return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
 
 
-def taken_from(stem: str, paper: Paper) -> frozenset[str]:
+def values_taken(stem: str, paper: Paper) -> frozenset[str]:
     """Names that other scripts may take from a derivation: the strings in those that name it."""
     others = (path for kind in ("derivations", "figures") for path in (paper.scripts.base / kind).glob("*.py"))
-    return frozenset(text for path in others if stem in named(path, paper) for text in _texts(path))
+    return frozenset(text for path in others if stem in scripts_named(path, paper) for text in _texts(path))
 
 
 def _named_scripts(path: Path, paper: Paper) -> frozenset[Path]:
-    return frozenset(paper.scripts.path("derivations", stem) for stem in named(path, paper))
+    return frozenset(paper.scripts.path("derivations", stem) for stem in scripts_named(path, paper))
 
 
 @cache
-def reached(path: Path, paper: Paper) -> tuple[Path, ...]:
+def files_reached(path: Path, paper: Paper) -> tuple[Path, ...]:
     """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each of them and
     in the paper's folder."""
     found, left = {path}, [path]
@@ -123,9 +123,9 @@ def _file_digest(path: Path) -> str:
     return digest(path.read_bytes())
 
 
-def made_from(path: Path, paper: Paper) -> str:
+def source_digest(path: Path, paper: Paper) -> str:
     """Digest of all that a script's product is made from."""
-    files = sorted((_place(file, paper), _file_digest(file)) for file in reached(path, paper))
+    files = sorted((_place(file, paper), _file_digest(file)) for file in files_reached(path, paper))
     return digest(
         *(part for file in files for part in file), *map(str, versions().items()), platform.machine(), platform.system()
     )

@@ -25,20 +25,20 @@ from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import reach
-from lagrotor.report.job.folder import TIMES, check_target, replaced
+from lagrotor.report.job.folder import TIMES, check_target, replacement
 from lagrotor.report.job.kept import Kept
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
-from lagrotor.report.job.steps import Derived, Step, steps
+from lagrotor.report.job.steps import Derived, JobStep, steps
 from lagrotor.report.markdown import errata_blocks, markdown
 from lagrotor.report.page.whole_page import page
 from lagrotor.report.supplement import supplement
 
-Progress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
+StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class JobOutcome:
     """What a run found, in numbers: verdict → how many, claims likewise; a sentence for each change; what was taken.
 
     taken: names of the steps whose product is that of the last run; ["report"] when all of it is.
@@ -53,7 +53,7 @@ class Outcome:
     seconds: float
 
 
-def reproduce(paper: Paper, target: Path, progress: Progress, jobs: int | None = None) -> Outcome:
+def reproduce(paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None) -> JobOutcome:
     """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
 
     jobs: how many processes; None: as many as there are cores, one in a debugger. `progress(total)` gives the function that
@@ -64,8 +64,8 @@ def reproduce(paper: Paper, target: Path, progress: Progress, jobs: int | None =
     made_from = json.dumps([reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter()])
     whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
-        return Outcome(**found, taken=["report"], seconds=time.perf_counter() - began)
-    with replaced(target) as new:
+        return JobOutcome(**found, taken=["report"], seconds=time.perf_counter() - began)
+    with replacement(target) as new:
         kept = Kept(old, new)
         (new / "figures").mkdir()
         products, seconds = _make(kept, list(steps(paper)), progress, jobs or cores())
@@ -83,21 +83,23 @@ def reproduce(paper: Paper, target: Path, progress: Progress, jobs: int | None =
         kept.write()
         seconds["report"] = round(time.perf_counter() - start, 3)
         _write_json(new / TIMES, {"seconds": seconds, "taken from the last run": kept.taken})
-    return Outcome(**found, taken=kept.taken, seconds=time.perf_counter() - began)
+    return JobOutcome(**found, taken=kept.taken, seconds=time.perf_counter() - began)
 
 
-def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tuple[dict[str, Any], dict[str, float]]:
+def _make(
+    kept: Kept, wanted: list[JobStep], progress: StepProgress, jobs: int
+) -> tuple[dict[str, Any], dict[str, float]]:
     """Every step's product by name, in the order of the steps, and how long each that was made took, in s."""
     products: dict[str, Any] = dict.fromkeys(step.name for step in wanted)
     products |= {step.name: kept.take(step.name, step.made_from) for step in wanted if step.name in kept}
     left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(kept.old))
     seconds: dict[str, float] = {}
 
-    def given(step: Step) -> tuple[dict[str, dict[str, Any]]] | None:
+    def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
         needed = {stem: products[f"derivation {stem}"] for stem in step.needs}
         return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
 
-    timed = partial(_timed, folder=kept.new / "figures")
+    timed = partial(_run_timed, folder=kept.new / "figures")
     with progress(len(left) + 1) as begins:
         for step, (product, took) in results(left, timed, min(jobs, max(len(left), 1)), _named(begins), given):
             products[step.name], seconds[step.name] = product, round(took, 3)
@@ -108,11 +110,11 @@ def _make(kept: Kept, wanted: list[Step], progress: Progress, jobs: int) -> tupl
     return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}
 
 
-def _named(begins: Callable[[str], None]) -> Callable[[Step], None]:
+def _named(begins: Callable[[str], None]) -> Callable[[JobStep], None]:
     return lambda step: begins(step.name)
 
 
-def _timed(step: Step, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
+def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
     """The step's product and how long it took, with the values that it takes from other derivations."""
     began = time.perf_counter()
     with step.paper.scripts.ran_elsewhere(given):
@@ -120,7 +122,7 @@ def _timed(step: Step, given: dict[str, dict[str, Any]], folder: Path) -> tuple[
     return product, time.perf_counter() - began
 
 
-def _longest_first(old: Path) -> Callable[[Step], float]:
+def _longest_first(old: Path) -> Callable[[JobStep], float]:
     """The steps in falling order of what they took last; in their own order where nothing is known."""
     try:
         took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
@@ -133,7 +135,7 @@ def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
     """Everything that the report says; its pictures lie in `folder`."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
     verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
-    tested = _tested(paper, products)
+    tested = _claim_results(paper, products)
     answers = {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in tested}
     drawn = [product for name, product in products.items() if name.startswith("figure ")]
     pictures = [replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in drawn]
@@ -163,7 +165,7 @@ def _part(part: Part, derived: list[Derived], pictures: list[Picture]) -> ShownP
     )
 
 
-def _tested(paper: Paper, products: dict[str, Any]) -> list[Result]:
+def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
     """Every claim with its measured numbers, decided anew."""
     tests = paper.claim_tests
     return [Result(test, products[f"claim {i}"], test.decide(products[f"claim {i}"]), 0.0) for i, test in tests.items()]

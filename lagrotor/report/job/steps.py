@@ -12,7 +12,7 @@ from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
 from lagrotor.report.job.processes import values
-from lagrotor.report.job.reach import made_from, named, taken_from
+from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
 from lagrotor.report.page.derivation_pages import derivation_html, title
 
 
@@ -31,7 +31,7 @@ class Derived:
 
 
 @dataclass(frozen=True)
-class Step:
+class JobStep:
     """One step: `run(paper, part, folder)` makes its product, writing its files into the folder of the figures."""
 
     name: str
@@ -43,12 +43,12 @@ class Step:
     @property
     def needs(self) -> tuple[str, ...]:
         """Stems of the derivations whose values the step takes."""
-        return named(self.source, self.paper)
+        return scripts_named(self.source, self.paper)
 
     @property
     def made_from(self) -> str:
         """Digest of all that the product is made from."""
-        return made_from(self.source, self.paper)
+        return source_digest(self.source, self.paper)
 
 
 def derive(paper: Paper, stem: str, folder: Path) -> Derived:
@@ -58,7 +58,7 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
-    taken = values(script.names, taken_from(stem, paper))
+    taken = values(script.names, values_taken(stem, paper))
     return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, taken)
 
 
@@ -67,9 +67,9 @@ def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
     return dict(paper.measured(identifier).measured)
 
 
-def draw(paper: Paper, key: str, folder: Path) -> figures.Picture:
+def draw_step(paper: Paper, key: str, folder: Path) -> figures.Picture:
     """Draw one figure."""
-    return figures.draw(key, folder, paper.scripts)
+    return figures.draw_figure(key, folder, paper.scripts)
 
 
 def model(paper: Paper, module: str, folder: Path) -> str:
@@ -78,16 +78,16 @@ def model(paper: Paper, module: str, folder: Path) -> str:
         return str(import_module(module).interactive())
 
 
-def steps(paper: Paper) -> Iterator[Step]:
+def steps(paper: Paper) -> Iterator[JobStep]:
     """Every step of the main job."""
     scripts = paper.scripts
     for stem in scripts.names("derivations"):
-        yield Step(f"derivation {stem}", derive, paper, stem, scripts.path("derivations", stem))
+        yield JobStep(f"derivation {stem}", derive, paper, stem, scripts.path("derivations", stem))
     for identifier, test in paper.claim_tests.items():
-        yield Step(f"claim {identifier}", measure, paper, identifier, Path(test.measure.__code__.co_filename))
+        yield JobStep(f"claim {identifier}", measure, paper, identifier, Path(test.measure.__code__.co_filename))
     for key, stem in figures.stems(scripts).items():
-        yield Step(f"figure {key}", draw, paper, key, scripts.path("figures", stem))
+        yield JobStep(f"figure {key}", draw_step, paper, key, scripts.path("figures", stem))
     if paper.about.model:
         with paper.importable():
             source = Path(str(import_module(paper.about.model).__file__))
-        yield Step("model", model, paper, paper.about.model, source)
+        yield JobStep("model", model, paper, paper.about.model, source)

@@ -7,12 +7,12 @@ from lagrotor.paper.audit import Audit
 from lagrotor.paper.papers import Paper, Progress
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.report.job.processes import JUDGING, cores, results, values
-from lagrotor.report.job.reach import named, taken_from
+from lagrotor.report.job.reach import scripts_named, values_taken
 
 _FEW = 8  # scripts that are judged before other processes would have begun
 
 
-def audit(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
+def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
     """Judge every equation; jobs: how many processes, None: as many as there are cores, one for few scripts.
 
     `progress` is called with the name of each script before it runs. Raises what `Paper.audit` raises.
@@ -22,19 +22,19 @@ def audit(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
     if jobs == 1:
         return paper.audit(progress=progress)
     paper.check_scripts()
-    needs = {stem: set(named(paper.scripts.path("derivations", stem), paper)) & set(stems) for stem in stems}
+    needs = {stem: set(scripts_named(paper.scripts.path("derivations", stem), paper)) & set(stems) for stem in stems}
     found: dict[str, tuple[list[Verdict], dict[str, Any]]] = {}
 
     def given(stem: str) -> tuple[dict[str, dict[str, Any]]] | None:
         return ({needed: found[needed][1] for needed in needs[stem]},) if needs[stem] <= found.keys() else None
 
-    for stem, product in results(stems, partial(_judged, paper), jobs, progress, given, JUDGING):
+    for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given, JUDGING):
         found[stem] = product
     return paper.audit_of(verdict for stem in stems for verdict in found[stem][0])
 
 
-def _judged(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
+def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
     """The verdicts on what one script states, and the values that others take from it."""
     with paper.scripts.ran_elsewhere(given):
         verdicts = paper.judged(stem)
-        return verdicts, values(paper.scripts.executed("derivations", stem).names, taken_from(stem, paper))
+        return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

@@ -15,7 +15,7 @@ from lagrotor.paper.scripts import Script
 from lagrotor.paper.stating import Stated
 from lagrotor.paper.tables import Table
 from lagrotor.report.content import Report, anchor
-from lagrotor.report.page.page_pieces import badge, link, prose, rows, typeset
+from lagrotor.report.page.page_pieces import badge, html_table, link, prose, typeset
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     """One derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
     prose = (re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "" for cell in script.cells)
-    shown = ("".join(_shown(value, answers) for value in cell.shown) for cell in script.cells)
-    return "".join(written(text) + found for text, found in zip(prose, shown, strict=True))
+    shown = ("".join(_value_html(value, answers) for value in cell.shown) for cell in script.cells)
+    return "".join(markdown_html(text) + found for text, found in zip(prose, shown, strict=True))
 
 
 def title(script: Script, stem: str) -> str:
@@ -34,7 +34,7 @@ def title(script: Script, stem: str) -> str:
     return text.splitlines()[0].lstrip("# ")
 
 
-def written(text: str) -> str:
+def markdown_html(text: str) -> str:
     """Markdown with formulas between dollars as HTML; unchanged where markdown-it is not installed."""
     try:
         renderer = _renderer()
@@ -56,15 +56,15 @@ def _renderer() -> Any:
 
 
 def _formula(source: str, options: Mapping[str, Any]) -> str:
-    from lagrotor.report.formulas.mathml_latex import from_latex
+    from lagrotor.report.formulas.mathml_latex import mathml
 
-    drawn = from_latex(source, display=bool(options["display_mode"]))
+    drawn = mathml(source, display=bool(options["display_mode"]))
     return drawn or f"<code>{escape(source)}</code>"
 
 
-def _shown(value: Any, answers: Mapping[str, str]) -> str:
+def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, tuple | list):
-        return "".join(_shown(part, answers) for part in value)
+        return "".join(_value_html(part, answers) for part in value)
     if isinstance(value, Step):
         says = f"<p><small>Proved: {prose(value.says)}.</small></p>" if value.says else ""
         return f'<div class="step">{typeset(value.tex)}{says}</div>'
@@ -76,7 +76,7 @@ def _shown(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, Remark):
         return f"<p><b>{prose(value.title)}.</b> {prose(value.text)}</p>"
     if isinstance(value, Table):
-        return rows(value.head, (tuple(_cell(cell) for cell in row) for row in value.rows))
+        return html_table(value.head, (tuple(_cell(cell) for cell in row) for row in value.rows))
     if isinstance(value, sp.Basic | sp.MatrixBase):
         return typeset(Formula(value).tex)
     from lagrotor.drawing.run_figure import RunFigure
@@ -107,7 +107,7 @@ def _cell(cell: Any) -> str:
     return typeset(Formula(cell).tex) if isinstance(cell, sp.Basic) else prose(str(getattr(cell, "key", cell)))
 
 
-def reached_in(identifier: str, report: Report) -> str:
+def link_to_derivation(identifier: str, report: Report) -> str:
     """A link to where an equation is derived on the page; nothing where its derivation is not in the report."""
     stem, _ = report.paper.scripts.stating.get(identifier, ("", 0))
     there = any(stem == shown for shown, _, _ in report.derivations)

@@ -8,7 +8,7 @@ from lagrotor.pictures.figures import Picture
 _ESCAPED = {"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"}
 
 
-def embedded(picture: Picture) -> str:
+def data_address(picture: Picture) -> str:
     """The `data:` address of a picture."""
     source = picture.svg.read_text(encoding="utf-8")
     for character, escaped in _ESCAPED.items():

@@ -8,8 +8,8 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, as_read, derived_heading, derived_lines
 from lagrotor.report.errata import Erratum
 from lagrotor.report.facts import facts, figure_facts, linked_facts
-from lagrotor.report.page.derivation_pages import reached_in
-from lagrotor.report.page.embed import embedded, size
+from lagrotor.report.page.derivation_pages import link_to_derivation
+from lagrotor.report.page.embed import data_address, size
 from lagrotor.report.page.page_pieces import (
     badge,
     code,
@@ -18,7 +18,7 @@ from lagrotor.report.page.page_pieces import (
     heading,
     link,
     links,
-    numbers,
+    number_list,
     prose,
     typeset,
 )
@@ -41,7 +41,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{reached_in(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
 
 
@@ -71,14 +71,14 @@ def claim_entry(result: Result, report: Report) -> str:
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
         f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
         f"{fact_list(linked_facts(result, report))}"
-        f"{fold(f'Measured ({result.test.model})', numbers('What', result.measured.items()))}</article>"
+        f"{fold(f'Measured ({result.test.model})', number_list('What', result.measured.items()))}</article>"
     )
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
     """The figure with its caption, what it belongs to, and the numbers read off it."""
     place = anchor(f"figure {picture.key}")
-    measured = fold("Measured", numbers("What", picture.measured.items())) if picture.measured else ""
+    measured = fold("Measured", number_list("What", picture.measured.items())) if picture.measured else ""
     return (
         f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
         f"{_image(picture)}"
@@ -89,7 +89,7 @@ def picture_entry(picture: Picture, report: Report) -> str:
 def _image(picture: Picture) -> str:
     """The drawing alone; a click opens it large (page.js)."""
     width, height = size(picture)
-    return f'<img src="{embedded(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
+    return f'<img src="{data_address(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
 
 
 def headline_entry(headline: Headline, report: Report) -> str:

@@ -11,7 +11,7 @@ from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.report.content import Report, anchor, word
 from lagrotor.report.facts import Fact
-from lagrotor.report.formulas.mathml_latex import from_latex
+from lagrotor.report.formulas.mathml_latex import mathml
 
 # Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.
 _INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+)")
@@ -24,7 +24,7 @@ def prose(text: str) -> str:
     plain, *rest = text.split("$")
     parts = [_plain(plain)]
     for n, part in enumerate(rest):
-        formula = from_latex(part, display=False) if n % 2 == 0 and n + 1 < len(rest) else None
+        formula = mathml(part, display=False) if n % 2 == 0 and n + 1 < len(rest) else None
         parts.append(formula or _plain(part))
     return "".join(parts)
 
@@ -35,7 +35,7 @@ def _plain(text: str) -> str:
     return _POWER.sub(r"<sup>\1</sup>", _INDEX.sub(r"\1<sub>\2</sub>", found))
 
 
-def rows(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
+def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
     """A table of cells that are HTML already; the first of each line names it."""
     heads = [escape(readable(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
@@ -50,16 +50,18 @@ def _under(head: str, cell: str) -> str:
     return f'<td data-head="{head}">{cell}</td>' if head else f"<td>{cell}</td>"
 
 
-def numbers(what: str, measured: Iterable[tuple[str, float]]) -> str:
+def number_list(what: str, measured: Iterable[tuple[str, float]]) -> str:
     """Measured numbers by name, six digits of each."""
-    return rows((what, "Value"), ((prose(name.replace("_", " ")), prose(f"{value:.6g}")) for name, value in measured))
+    return html_table(
+        (what, "Value"), ((prose(name.replace("_", " ")), prose(f"{value:.6g}")) for name, value in measured)
+    )
 
 
 def side_by_side(table: Table, report: Report) -> str:
     """A table of the derivations under its title, with its note."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
-    return f'<div class="table"><h3>{prose(table.title)}</h3>{rows(table.head, lines)}{note}</div>'
+    return f'<div class="table"><h3>{prose(table.title)}</h3>{html_table(table.head, lines)}{note}</div>'
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -81,12 +83,12 @@ def _fact(fact: Fact) -> str:
     symbols = "".join(f" {inline(letter)}" for letter in fact.formulas if letter.is_Symbol)
     parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
     parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
-    parts.append(formulas(formula for formula in fact.formulas if not formula.is_Symbol))
+    parts.append(formula_list(formula for formula in fact.formulas if not formula.is_Symbol))
     parts += map(typeset, fact.sources)
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
 
 
-def formulas(expressions: Iterable[sp.Basic]) -> str:
+def formula_list(expressions: Iterable[sp.Basic]) -> str:
     """Each expression on a line of its own."""
     return "".join(typeset(latex(expression)) for expression in expressions)
 
@@ -94,12 +96,12 @@ def formulas(expressions: Iterable[sp.Basic]) -> str:
 def inline(expression: sp.Basic) -> str:
     """An expression within a line; its LaTeX where the converter is not installed."""
     source = latex(expression)
-    return from_latex(source, display=False) or f"<code>{escape(source)}</code>"
+    return mathml(source, display=False) or f"<code>{escape(source)}</code>"
 
 
 def typeset(source: str) -> str:
     """LaTeX as a formula; its source, with a note, where the converter is not installed."""
-    formula = from_latex(source)
+    formula = mathml(source)
     if formula is None:
         return f"{code(source)}<p><small>LaTeX: install latex2mathml to have it typeset.</small></p>"
     return f'<div class="wide">{formula}</div>'

@@ -33,11 +33,11 @@ from lagrotor.report.page.page_pieces import (
     code,
     file_link,
     fold,
+    html_table,
     inline,
     link,
     links,
     prose,
-    rows,
     side_by_side,
 )
 from lagrotor.report.results import balance, headlines, opening
@@ -111,14 +111,14 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return _SEARCH + rows(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
+    return _SEARCH + html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
     lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
     head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
-    rest = fold("All other letters", rows(head, lines[first:])) if lines[first:] else ""
-    return rows(head, lines[:first]) + rest
+    rest = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
+    return html_table(head, lines[:first]) + rest
 
 
 def _derivations(report: Report) -> str:
@@ -144,7 +144,7 @@ def _shown(part: ShownPart, report: Report) -> str:
 
 
 def _waiting(report: Report) -> str:
-    return rows(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])
+    return html_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])
 
 
 def _cite(report: Report) -> str:
@@ -153,12 +153,12 @@ def _cite(report: Report) -> str:
 
 
 def _made(report: Report) -> str:
-    versions = rows(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
+    versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
         "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
         f"<p>{made_beside(file_link)}</p>"
-        f"{versions}{rows(('Input', 'SHA-256'), inputs)}"
+        f"{versions}{html_table(('Input', 'SHA-256'), inputs)}"
     )
 
 

@@ -10,12 +10,12 @@ from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.pair.notation import Phi, k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
-from lagrotor.theory.paired_precession.orbit_harmonics import joint_line_momentum
+from lagrotor.theory.paired_precession.orbit_harmonics import harmonic_momentum
 from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, check_order, paired_series
 
 _ORBIT_DOMAIN = (sp.Gt(r0, -1), sp.Lt(r0, 1))
-Given = dict[sp.Symbol, Array]
+Values = dict[sp.Symbol, Array]
 
 
 @cache
@@ -39,7 +39,7 @@ def paired_frequency(order: int = 3) -> ClosedForm:
     return with_error(form, _frequency, lambda series, amplitude: series.remainder(amplitude).frequency)
 
 
-def _frequency(series: PairedSeries, given: Given) -> Array:
+def _frequency(series: PairedSeries, given: Values) -> Array:
     return np.array([[series.relative_frequency(float(v)) for v in given[r0]]])
 
 
@@ -69,7 +69,7 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     return with_error(form, _axes)
 
 
-def _axes(series: PairedSeries, given: Given) -> Array:
+def _axes(series: PairedSeries, given: Values) -> Array:
     axes = series.axes(float(given[r0][0]), given[Phi])
     return np.moveaxis(axes, -1, 1).reshape(6, -1)
 
@@ -95,7 +95,7 @@ def corrected_inclinations(order: int = 2) -> ClosedForm:
         r0,
     )
 
-    def sines(series: PairedSeries, given: Given) -> Array:
+    def sines(series: PairedSeries, given: Values) -> Array:
         axes = series.axes(float(given[r0][0]), given[Phi])
         return np.hypot(axes[..., 0], axes[..., 1])
 
@@ -144,10 +144,10 @@ def _scaled_inertias(series: PairedSeries) -> tuple[float, float]:
     return (root + 1 / root) / 2, (root - 1 / root) / 2
 
 
-def _momentum(series: PairedSeries, given: Given) -> Array:
+def _momentum(series: PairedSeries, given: Values) -> Array:
     inertias = _scaled_inertias(series)
     found = [(series.harmonics(r), series.relative_frequency(r)) for r in given[r0].tolist()]
-    return np.array([[joint_line_momentum(harmonics, rate, inertias, 1.0) for harmonics, rate in found]])
+    return np.array([[harmonic_momentum(harmonics, rate, inertias, 1.0) for harmonics, rate in found]])
 
 
 def _momentum_rest(series: PairedSeries, amplitude: float) -> float:

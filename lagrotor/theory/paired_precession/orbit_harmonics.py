@@ -49,7 +49,7 @@ def speed_of(harmonics: Array) -> float:
     return float(np.linalg.norm(np.arange(len(harmonics)) @ np.abs(harmonics)))
 
 
-def joint_line_momentum(harmonics: Array, frequency: float, inertias: tuple[float, float], momentum: float) -> float:
+def harmonic_momentum(harmonics: Array, frequency: float, inertias: tuple[float, float], momentum: float) -> float:
     """P about the joint line of the motion at `frequency`, inertias (a, b) and G of rotor 1, evaluated at Phi = 0.
 
     P = sum_i (r_i × (a r_i' + b r_j'))_x + G (x_1 − x_2).

@@ -20,7 +20,7 @@ _ROUNDED = 1e-3  # of the largest error of an output: the rounding of both, and 
 
 # (series, the form's arguments by symbol, one amplitude and bar) → the outputs (outputs, n); and (series, r_0) → the
 # bound of their error.
-Reference = Callable[[PairedSeries, dict[sp.Symbol, Array]], Array]
+SeriesReference = Callable[[PairedSeries, dict[sp.Symbol, Array]], Array]
 Rest = Callable[[PairedSeries, float], float]
 
 
@@ -29,7 +29,7 @@ def of_axes(series: PairedSeries, amplitude: float) -> float:
     return series.remainder(amplitude).axes
 
 
-def with_error(form: ClosedForm, reference: Reference, rest: Rest = of_axes) -> ClosedForm:
+def with_error(form: ClosedForm, reference: SeriesReference, rest: Rest = of_axes) -> ClosedForm:
     """The form with a bound of its error; where its `arguments` have no sigma it is 1."""
     assert form.order is not None
     order = max(form.order + MORE_ORDERS, 9)

@@ -32,7 +32,7 @@ from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of
 # The remainder of a series is estimated as a geometric series; calibrated by tests/models/test_orbit_errors.py on random
 # bars and amplitudes. LARGEST_RATIO: of consecutive pairs of orders, beyond which no estimate is given. OF_AXES: the
 # least size, in those of the axes, of the terms of a frequency or an exponent, of which single ones may vanish.
-GROWTH_OF_RATIO, SAFETY, LARGEST_RATIO, OF_AXES = 1.3, 2.5, 0.9, 0.25
+GROWTH_OF_RATIO, SERIES_SAFETY, LARGEST_RATIO, OF_AXES = 1.3, 2.5, 0.9, 0.25
 _MOST_WITH_SYMBOLS, _MOST_OF_NUMBERS = 16, 32  # orders that take seconds, not minutes
 
 
@@ -148,7 +148,7 @@ def rest_of(terms: Array) -> float:
     # From order 3 on: below, the terms say little about those that follow.
     ratios = pairs[3:] / np.maximum(pairs[1:-2], np.finfo(float).tiny)
     fall = GROWTH_OF_RATIO * float(ratios[-4:].max())
-    return SAFETY * float(pairs[-1]) * fall / (1 - fall) if fall < LARGEST_RATIO else inf
+    return SERIES_SAFETY * float(pairs[-1]) * fall / (1 - fall) if fall < LARGEST_RATIO else inf
 
 
 def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
@@ -229,11 +229,11 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact:
             f"the series of the paired precession: order = {order} is above {most}, from where it takes minutes and more; "
             "for one pair lagrotor.precession_orbit gives the exact orbit at any amplitude"
         )
-    return _solved(order, shape, ratio, exact)
+    return _solve_series(order, shape, ratio, exact)
 
 
 @lru_cache(maxsize=32)
-def _solved(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> PairedSeries:
+def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> PairedSeries:
     field = field_of(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)

@@ -9,12 +9,12 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import DomainError
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
-from lagrotor.shown import Shown, raised
+from lagrotor.shown import Shown, superscript
 from lagrotor.theory.natural_rate import natural_rate
-from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, joint_line_momentum, speed_of, start_of
+from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, harmonic_momentum, speed_of, start_of
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
-ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
+SERIES_ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,7 +63,7 @@ class PrecessionOrbit(Shown):
     @property
     def momentum(self) -> float:
         """P about the joint line, kg m²/s."""
-        return joint_line_momentum(self.harmonics, self.frequency, self.scene.inertias, self.scene.momenta[0])
+        return harmonic_momentum(self.harmonics, self.frequency, self.scene.inertias, self.scene.momenta[0])
 
     @property
     def momentum_error(self) -> float:
@@ -116,8 +116,8 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
         scene,
         amplitude,
         copysign(natural * series.relative_frequency(amplitude), scene.spins[0]),
-        natural * (rest.frequency + ROUNDING),
-        rest.axes + ROUNDING,
-        f"series through r₀{raised(order)}",
+        natural * (rest.frequency + SERIES_ROUNDING),
+        rest.axes + SERIES_ROUNDING,
+        f"series through r₀{superscript(order)}",
         series.harmonics(amplitude),
     )

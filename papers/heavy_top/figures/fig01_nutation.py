@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from symbols import I_1, I_3, g, l, m
 from top import VALUES, top
 
-from lagrotor.drawing import CORRECTED, EXACT, PAPER
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 
 TITLE = "Nutation of a top released at rest"
 CAPTION = "cos θ₀ − cos θ over two nutations at 60 rad/s, exact, and by (3.1) with the printed and the corrected extent (3.2)."
@@ -30,7 +30,11 @@ def figure() -> Figure:
     """The three curves."""
     found, drawn = data(), Figure(figsize=(6, 3), layout="constrained")
     axes = drawn.subplots()
-    for name, colour, line in (("exact", EXACT, "-"), ("printed", PAPER, "--"), ("corrected", CORRECTED, ":")):
+    for name, colour, line in (
+        ("exact", EXACT_COLOUR, "-"),
+        ("printed", PAPER_COLOUR, "--"),
+        ("corrected", CORRECTION_COLOUR, ":"),
+    ):
         axes.plot(found["t"], found[name], line, color=colour, label=name)
     axes.set(xlabel="$t$ [s]", ylabel=r"$\cos\theta_0-\cos\theta$ [1]", title=TITLE)
     axes.legend(loc="upper right")

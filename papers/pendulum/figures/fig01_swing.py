@@ -7,7 +7,7 @@ import sympy as sp
 from matplotlib.figure import Figure
 from symbols import c, g, l, m
 
-from lagrotor.drawing import EXACT, PAPER
+from lagrotor.drawing import EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.mechanics import System
 
 TITLE = "A swing of 0.2 rad"
@@ -30,8 +30,8 @@ def figure() -> Figure:
     """Both curves."""
     found, drawn = data(), Figure(figsize=(6, 3), layout="constrained")
     axes = drawn.subplots()
-    axes.plot(found["t"], found["exact"], color=EXACT, label="exact")
-    axes.plot(found["t"], found["printed"], "--", color=PAPER, label="as printed")
+    axes.plot(found["t"], found["exact"], color=EXACT_COLOUR, label="exact")
+    axes.plot(found["t"], found["printed"], "--", color=PAPER_COLOUR, label="as printed")
     axes.set(xlabel="$t$ [s]", ylabel=r"$\theta$ [rad]", title=TITLE)
     axes.legend(loc="upper right")
     return drawn

@@ -12,8 +12,8 @@ import pytest
 from lagrotor.mechanics.glossary import latex
 from lagrotor.pair.notation import GLOSSARY
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.formulas.font import FAMILY, FILE, characters, font_face
-from lagrotor.report.formulas.mathml_latex import from_latex
+from lagrotor.report.formulas.font import FILE, FONT_FAMILY, characters, font_face
+from lagrotor.report.formulas.mathml_latex import mathml
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
 pytest.importorskip("brotli", reason="brotli unpacks WOFF2")
@@ -56,13 +56,13 @@ def drawn(formula: str) -> set[str]:
 def formulas() -> Iterator[str]:
     """Everything that the page sets as mathematics."""
     for entry in PAPER.equations.values():
-        yield from filter(None, [from_latex(entry.latex)])
+        yield from filter(None, [mathml(entry.latex)])
     for stem in PAPER.scripts.names("derivations", "s"):
         for statement in PAPER.statements(stem):
             for relation in (*statement.relations, *statement.correction):
                 line = f"{relation.quantity} = {relation.written or latex(relation.derived)}"
-                yield from filter(None, [from_latex(line)])
-    yield from filter(None, (from_latex(latex(letter)) for letter in GLOSSARY))
+                yield from filter(None, [mathml(line)])
+    yield from filter(None, (mathml(latex(letter)) for letter in GLOSSARY))
 
 
 @pytest.fixture(scope="module")
@@ -89,9 +89,9 @@ def test_letters_are_read_as_they_are_drawn() -> None:
 def test_the_font_is_what_it_says(covered: set[str]) -> None:
     assert characters() <= covered
     font = ttlib.TTFont(FILE)
-    assert font["name"].getDebugName(1) == FAMILY
+    assert font["name"].getDebugName(1) == FONT_FAMILY
     assert "SIL Open Font License" in font["name"].getDebugName(13)
-    assert "STIX" not in FAMILY, "the subset does not go by the trademark"
+    assert "STIX" not in FONT_FAMILY, "the subset does not go by the trademark"
 
 
 def test_roots_brackets_and_sums_grow() -> None:
@@ -109,7 +109,7 @@ def test_the_page_carries_the_whole_file() -> None:
     assert match
     assert b64decode(match[1]) == FILE.read_bytes()
     assert len(match[1]) < 200_000
-    assert f'math {{ font-family: "{FAMILY}"' in font_face()
+    assert f'math {{ font-family: "{FONT_FAMILY}"' in font_face()
 
 
 def test_the_licence_lies_beside_it() -> None:

@@ -42,7 +42,7 @@ theta, phi = ROTOR.q[0], ROTOR.q[1]
 @pytest.fixture(scope="module")
 def printed() -> dict[str, str]:
     pytest.importorskip("latex2mathml", reason="latex2mathml reads the printed formulas")
-    return {entry.id: mathml_latex.from_latex(entry.latex) or "" for entry in PAPER.equations.values()}
+    return {entry.id: mathml_latex.mathml(entry.latex) or "" for entry in PAPER.equations.values()}
 
 
 def tree(formula: str) -> Element:
@@ -52,7 +52,7 @@ def tree(formula: str) -> Element:
 def latex(source: str) -> str:
     """One formula within a line, without the outer elements."""
     pytest.importorskip("latex2mathml", reason="latex2mathml reads the printed formulas")
-    found = mathml_latex.from_latex(source, display=False)
+    found = mathml_latex.mathml(source, display=False)
     assert found
     return bare(found)
 
@@ -63,7 +63,7 @@ def bare(formula: str) -> str:
 
 def lines(source: str) -> list[Element]:
     """The `<math>` elements of a formula on lines of its own."""
-    return list(tree(f"<div>{mathml_latex.from_latex(source)}</div>"))
+    return list(tree(f"<div>{mathml_latex.mathml(source)}</div>"))
 
 
 def test_every_printed_equation_is_whole_and_in_the_words_of_browsers(printed: dict[str, str]) -> None:
@@ -79,7 +79,7 @@ def test_every_printed_equation_is_whole_and_in_the_words_of_browsers(printed: d
 
 def test_without_the_converter_there_is_no_formula(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "latex2mathml.converter", None)
-    assert mathml_latex.from_latex("x") is None
+    assert mathml_latex.mathml("x") is None
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_what_a_wide_space_parts_stands_on_a_line_of_its_own() -> None:
     assert len(lines(r"a = \text{x \quad y}")) == 1, "not within braces"
     assert len(lines(r"\begin{aligned} a &= b \quad c \\ d &= e \end{aligned}")) == 1, "nor within an environment"
     assert len(lines("a = b")) == 1
-    assert mathml_latex.from_latex(r"a \quad b", display=False).count("<math>") == 1
+    assert mathml_latex.mathml(r"a \quad b", display=False).count("<math>") == 1
 
 
 def test_brackets_that_grow_and_matrices_stay_the_converters() -> None:

@@ -26,7 +26,13 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import compile_program, measured_order
 from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.interactive.interactive import ORDER, formulas, interactive, pair_section, programs
+from lagrotor.report.interactive.interactive import (
+    PAGE_ORDER,
+    interactive,
+    javascript_formulas,
+    page_programs,
+    pair_section,
+)
 from lagrotor.theory import series_orbit
 from tests.report.interactive.in_node import NODE, value_of
 
@@ -74,7 +80,7 @@ def choice(
     bar: tuple[float, float],
     ell: float,
     spins: tuple[float, float],
-    order: int = ORDER,
+    order: int = PAGE_ORDER,
     printed: bool = False,
 ) -> str:
     """The argument of the script's `motion`."""
@@ -184,7 +190,7 @@ def test_every_generated_function_says_the_same_as_python_and_a_changed_sign_is_
     """That of the series, which takes seconds to derive, against the precession's orbit above."""
     if not series:
         monkeypatch.setattr(model, "_series", lambda: None)
-    made = {name: program for name, program in programs.__wrapped__().items() if program}
+    made = {name: program for name, program in page_programs.__wrapped__().items() if program}
     random, python, calls = np.random.default_rng(7), {}, []
     for name, program in made.items():
         rows = random.uniform(0.05, 0.45, (5, len(program.arguments))).tolist()
@@ -339,7 +345,7 @@ def test_the_fragment_is_one_section_that_needs_nothing_else() -> None:
     assert all(attrs.get("aria-label") for attrs, _ in reader.all("canvas"))
     # What the words say of the rotors and what the orders offer is what is computed.
     assert Rotor() == Rotor(mass=1, length=1, I1=1, I3=1)
-    assert re.findall(r'<option value="(\d)"', text)[-1] == str(ORDER)
+    assert re.findall(r'<option value="(\d)"', text)[-1] == str(PAGE_ORDER)
     # Only this section is styled.
     style = re.search(r"<style>(.*?)</style>", text, re.DOTALL)
     assert style
@@ -356,7 +362,7 @@ def test_the_fragment_is_the_same_in_every_process() -> None:
         env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[3]), "PYTHONUTF8": "1"},
     )  # fmt: skip
     assert ran.stdout == interactive()
-    assert formulas() in pair_section()
+    assert javascript_formulas() in pair_section()
 
 
 # ---- in a browser

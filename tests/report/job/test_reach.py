@@ -9,7 +9,7 @@ import lagrotor
 from lagrotor.paper import Paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.job import reach
-from lagrotor.report.job.reach import digest, imports, made_from, reached
+from lagrotor.report.job.reach import digest, files_reached, imports, source_digest
 
 PACKAGE = Path(lagrotor.__file__).parent
 
@@ -26,8 +26,8 @@ def clear() -> None:
         reach._text,
         reach._face,
         reach.imports,
-        reach.named,
-        reach.reached,
+        reach.scripts_named,
+        reach.files_reached,
         reach._file_digest,
         reach._data_in,
         reach._place,
@@ -40,7 +40,7 @@ def derivation(stem: str) -> Path:
 
 
 def places(path: Path) -> set[str]:
-    return {reach._place(file, PAPER) for file in reached(path, PAPER)}
+    return {reach._place(file, PAPER) for file in files_reached(path, PAPER)}
 
 
 def test_a_derivation_reaches_its_modules_and_their_data() -> None:
@@ -59,7 +59,7 @@ def test_a_derivation_reaches_its_modules_and_their_data() -> None:
 def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
-    assert PACKAGE / "models" / "simulate.py" in reached(script, PAPER)
+    assert PACKAGE / "models" / "simulate.py" in files_reached(script, PAPER)
     assert imports(script, PAPER.folder) == {PACKAGE / "models" / "simulate.py"}
     script.write_text("from lagrotor.theory import twist_growth\n", encoding="utf-8")
     clear()
@@ -68,18 +68,18 @@ def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
 
 def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:
     path = derivation("p1_past_the_paper")
-    assert {stem[:2] for stem in reach.named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {"t1"}
-    assert {"measured", "edges"} <= reach.taken_from("t5_floquet", PAPER)
-    assert "values" not in reach.taken_from("t5_floquet", PAPER)  # twin: a name that nobody takes
+    assert {stem[:2] for stem in reach.scripts_named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {"t1"}
+    assert {"measured", "edges"} <= reach.values_taken("t5_floquet", PAPER)
+    assert "values" not in reach.values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes
 
 
 def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text('run("derivations", "s5_2a_single_rotor")', encoding="utf-8")
-    assert derivation("s5_2a_single_rotor") in reached(script, PAPER)
+    assert derivation("s5_2a_single_rotor") in files_reached(script, PAPER)
     script.write_text('run("derivations", "no_such_script")', encoding="utf-8")
     clear()
-    assert not any(file.parent.name == "derivations" for file in reached(script, PAPER))
+    assert not any(file.parent.name == "derivations" for file in files_reached(script, PAPER))
 
 
 @pytest.mark.parametrize(
@@ -98,16 +98,16 @@ def test_a_product_is_made_from_what_is_reached_only(
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "derivations", "figures"))
     for kind in ("derivations", "figures"):
         shutil.copytree(PAPER.scripts.base / kind, copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
-    here = made_from(derivation("s5_2a_single_rotor"), PAPER)
+    here = source_digest(derivation("s5_2a_single_rotor"), PAPER)
     monkeypatch.setattr(reach, "_PACKAGE", copy)
     installed = Paper(copy / "paper" / "rotor_pair", scripts_in=copy)
     clear()
     there = copy / "derivations" / "s5_2a_single_rotor.py"
-    assert made_from(there, installed) == here, "an installed package has the digests of the checkout"
+    assert source_digest(there, installed) == here, "an installed package has the digests of the checkout"
     with (copy / file).open("a", encoding="utf-8") as appended:
         appended.write("\n# changed\n")
     clear()
-    assert (made_from(there, installed) != here) == matters
+    assert (source_digest(there, installed) != here) == matters
 
 
 def test_no_two_lists_have_one_digest() -> None:

@@ -17,9 +17,9 @@ import pytest
 from lagrotor.paper import decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.content import Report, derived_lines
-from lagrotor.report.errata import corrected
-from lagrotor.report.formulas.font import FAMILY, font_face
-from lagrotor.report.formulas.mathml_latex import from_latex
+from lagrotor.report.errata import correction_lines
+from lagrotor.report.formulas.font import FONT_FAMILY, font_face
+from lagrotor.report.formulas.mathml_latex import mathml
 from lagrotor.report.page.whole_page import page
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -58,7 +58,7 @@ window.onload = async () => {
   document.body.innerHTML = "<pre id=found></pre>";
   document.getElementById("found").textContent = JSON.stringify(found);
 };
-""".replace("FAMILY", FAMILY)
+""".replace("FAMILY", FONT_FAMILY)
 
 
 def looked_at(pages: dict[str, str], folder: Path) -> Seen:
@@ -95,7 +95,9 @@ def looked_at(pages: dict[str, str], folder: Path) -> Seen:
 
 def sheet(formulas: Iterator[str]) -> str:
     """The formulas alone, each in a box as wide as the page's text, with the page's font."""
-    style = f"{font_face()} math {{ font: 1.1rem '{FAMILY}' }} main {{ max-width: 58rem }} div {{ overflow-x: auto }}"
+    style = (
+        f"{font_face()} math {{ font: 1.1rem '{FONT_FAMILY}' }} main {{ max-width: 58rem }} div {{ overflow-x: auto }}"
+    )
     boxes = "".join(f"<div>{formula}</div>" for formula in formulas)
     view = '<meta name="viewport" content="width=device-width">'
     return f'<!DOCTYPE html><html><head><meta charset="utf-8">{view}<style>{style}</style></head><main>{boxes}</main></html>'
@@ -104,11 +106,11 @@ def sheet(formulas: Iterator[str]) -> str:
 def every_formula() -> Iterator[str]:
     """The printed equations, and every expression that the derivations state as derived or as a correction."""
     for entry in PAPER.equations.values():
-        yield from filter(None, [from_latex(entry.latex)])
+        yield from filter(None, [mathml(entry.latex)])
     for stem in PAPER.scripts.names("derivations", "s"):
         for statement in PAPER.statements(stem):
-            lines = (*derived_lines(statement.relations), *corrected(statement))
-            yield from filter(None, map(from_latex, lines))
+            lines = (*derived_lines(statement.relations), *correction_lines(statement))
+            yield from filter(None, map(mathml, lines))
 
 
 def wrong() -> str:

@@ -6,7 +6,7 @@ from base64 import b64decode
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.page.derivation_pages import derivation_html, title, written
+from lagrotor.report.page.derivation_pages import derivation_html, markdown_html, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 
@@ -31,5 +31,5 @@ def test_a_script_without_a_run_has_no_picture() -> None:
 )
 def test_a_displayed_formula_is_one_wherever_it_stands(text: str) -> None:
     pytest.importorskip("mdit_py_plugins.dollarmath", reason="markdown-it reads the prose")
-    html = written(text)
+    html = markdown_html(text)
     assert "$" not in html and html.count('display="block"') >= 1 and "<math><" in html

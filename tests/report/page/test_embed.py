@@ -8,8 +8,8 @@ import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
-from lagrotor.pictures.figures import draw
-from lagrotor.report.page.embed import embedded, size
+from lagrotor.pictures.figures import draw_figure
+from lagrotor.report.page.embed import data_address, size
 
 # With 39 figures of this size the page would still be under 5 MB; most are half of it.
 LARGEST = 100_000
@@ -18,12 +18,12 @@ DRAWN = ("3", "14", "16", "18")
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory: pytest.TempPathFactory) -> list[Picture]:
-    return [draw(key, tmp_path_factory.mktemp("drawn"), PAPER.scripts) for key in DRAWN]
+    return [draw_figure(key, tmp_path_factory.mktemp("drawn"), PAPER.scripts) for key in DRAWN]
 
 
 def test_pictures_are_small_and_whole(pictures: list[Picture]) -> None:
     for picture in pictures:
-        address = embedded(picture)
+        address = data_address(picture)
         assert len(address) <= LARGEST
         assert not set('"<>#& ') & set(address.removeprefix("data:image/svg+xml,").replace(" ", ""))
         kind, _, data = address.partition(",")

@@ -289,7 +289,7 @@ def test_page_shows_the_source_as_printed(report: Report) -> None:
 
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_pieces, "from_latex", lambda source, display=True: None)
+    monkeypatch.setattr(page_pieces, "mathml", lambda source, display=True: None)
     assert "install latex2mathml" in page(report)
     assert faults(page(report)) == []
 

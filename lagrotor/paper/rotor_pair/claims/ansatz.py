@@ -7,7 +7,7 @@ import numpy as np
 
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.numerics.curves import measured_order
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -55,7 +55,7 @@ def deviations(run: Trajectory) -> tuple[float, float, float]:
 
 def _drift_of_b(spins: Spins, seconds: float = 0.5) -> float:
     """Largest change of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume it, on the orbit."""
-    scene, _ = precession(spins, PAPER_R0, HEAVY)
+    scene, _ = precession(spins, PAPER_R0, HEAVY_LINK)
     system = paper_system(scene, STIFFNESS, DAMPING)
     B = []
     for _ in range(round(seconds / STEP)):

@@ -9,7 +9,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import join_bar, paper_bodies, paper_system
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
-from lagrotor.pair.examples import DAMPING, HEAVY, LIGHT, STEP, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -49,7 +49,7 @@ def _jump(scene: Scene) -> float:
 def measure_c08(case: tuple[Spins, float]) -> dict[str, float]:
     """Energies before and after a shock along x (spins in rad/s, force in N) by three ways; which n give the same."""
     spins, force = case
-    scene, light = (shocked_scene(spins, (force, 0, 0), bar) for bar in (HEAVY, LIGHT))
+    scene, light = (shocked_scene(spins, (force, 0, 0), bar) for bar in (HEAVY_LINK, LIGHT))
     at = shock_of(scene).at
     first = np.round(at + np.arange(0.14, 0.25, 0.02), 3)  # seven widths after the peak the shock is over
     springs = _spring_energy(scene, N, np.append(first, at + SECONDS))
@@ -102,9 +102,9 @@ def _momenta(run: Trajectory) -> tuple[Array, Array]:
     scene, (r1, r2), (v1, v2) = run.scene, run.axes, run.rates
     rotor, R = scene.rotor, scene.rotor.length
     p = [rotor.mass * R / 2 * v for v in (v1, v2)]
-    e, e_rate = np.array([1.0, 0, 0]) + R / HEAVY.length * (r2 - r1), R / HEAVY.length * (v2 - v1)
-    bar_p = HEAVY.mass * R / 2 * (v1 + v2)
-    L = np.cross(R / 2 * (r1 + r2), bar_p) + HEAVY.inertia * np.cross(e, e_rate)
+    e, e_rate = np.array([1.0, 0, 0]) + R / HEAVY_LINK.length * (r2 - r1), R / HEAVY_LINK.length * (v2 - v1)
+    bar_p = HEAVY_LINK.mass * R / 2 * (v1 + v2)
+    L = np.cross(R / 2 * (r1 + r2), bar_p) + HEAVY_LINK.inertia * np.cross(e, e_rate)
     for joint, r, v, G, own in zip(run.joints, run.axes, run.rates, scene.momenta, p, strict=True):
         L = L + rotor.J * np.cross(r, v) + G * r + np.cross(joint, own)
     return p[0] + p[1] + bar_p, L

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import harmonics_at
-from lagrotor.pair.examples import HEAVY
+from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.notation import G_1, G_2, a, b, k
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -97,7 +97,7 @@ def _counted(scene: Scene) -> dict[str, float]:
 
 def measure_c24(spins: Spins) -> dict[str, float]:
     """The counts, and a run after 0.5 N along x and 0.3 N along y fitted by a constant, a slope and the natural rate."""
-    scene = Scene(spins, link=HEAVY, shock=Shock((0.5, 0.3, 0), 0.2, 1 / 50))
+    scene = Scene(spins, link=HEAVY_LINK, shock=Shock((0.5, 0.3, 0), 0.2, 1 / 50))
     run = simulate(scene, np.linspace(0.4, 8, 200), "spheres", 1e-11)
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     fit = harmonics_at(run.t, x_y, natural_rate(scene), 1)
@@ -140,7 +140,7 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
 # No spins change the count of C14: a rotor at rest about its axis keeps that freedom. Without its bar the pair has 6 and 4.
 C14 = ClaimTest(
     "C14",
-    HEAVY,
+    HEAVY_LINK,
     {FIVE: None, THREE: None},
     "exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
     measure_c14,

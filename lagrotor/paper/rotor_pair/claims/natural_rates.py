@@ -9,7 +9,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.numerics.harmonic_fit import best_harmonics
-from lagrotor.pair.examples import HEAVY, LIGHT, STEP
+from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
@@ -18,7 +18,7 @@ from lagrotor.theory.natural_rate import natural_rate
 Spins = tuple[float, float]
 # The paper's "..." leave the bar of 5.3 open. Those of its listings are the first two; the third has the mass of the one
 # and the inertia of the other.
-BARS = {"m_1_K_1": HEAVY, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
+BARS = {"m_1_K_1": HEAVY_LINK, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
 PAPER, SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
 PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 SINGLE, HALF_UNIT = 16.0, 0.5  # rad/s, printed without decimals
@@ -81,10 +81,10 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
 
 def measure_c21(spins: Spins) -> dict[str, float]:
     """The rate of the pair by four choices of the springs, exactly, and after a small shock; the constant in five ways."""
-    rate, _ = rate_of_run(spins, HEAVY, PAPER)
+    rate, _ = rate_of_run(spins, HEAVY_LINK, PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
     natural = {name: rate_of_run(spins, bar, SMALL)[0] for name, bar in BARS.items()}
-    by_n = {n: _rate_of_springs(spins, HEAVY, n) for n in OF_SPRINGS}
+    by_n = {n: _rate_of_springs(spins, HEAVY_LINK, n) for n in OF_SPRINGS}
     J, G = Scene(spins).rotor.J, abs(spins[0])
     return {
         **{f"rate_springs_n_{n}_rad_per_s": seen for n, seen in by_n.items()},
@@ -96,10 +96,10 @@ def measure_c21(spins: Spins) -> dict[str, float]:
         "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
         "rate_of_one_rotor_rad_per_s": single,
         "constant": natural["m_1_K_1"] / single,
-        "constant_at_half_the_spins": rate_of_run(half, HEAVY, SMALL)[0] / natural_rate(Scene(half, link=None)),
+        "constant_at_half_the_spins": rate_of_run(half, HEAVY_LINK, SMALL)[0] / natural_rate(Scene(half, link=None)),
         "constant_light_bar": natural["m_0.01_K_0.1"] / single,
         "constant_bar_K_0.1": natural["m_1_K_0.1"] / single,
-        "J_over_J_plus_half_m": J / (J + HEAVY.mass / 2),
+        "J_over_J_plus_half_m": J / (J + HEAVY_LINK.mass / 2),
         "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED + HALF_TENTH) - J),
         "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED - HALF_TENTH) - J),
     }
@@ -148,7 +148,7 @@ def measure_c22(spins: Spins) -> dict[str, float]:
             found[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
     J, G = Scene(spins).rotor.J, spins[0]
     return found | {
-        "rate_springs_m_1_K_1": _rate_of_springs(spins, HEAVY),
+        "rate_springs_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
         "inertia_that_mass_1_needs_kg_m2": ((G / OPPOSITE_RATE) ** 2 / (J + 0.5) - J) / 2,
         "rate_of_equal_spins_m_1": abs(G) / (J + 0.5),
     }

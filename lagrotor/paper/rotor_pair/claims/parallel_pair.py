@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.curves import mean_between
-from lagrotor.pair.examples import HEAVY
+from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
@@ -35,7 +35,7 @@ ONE_GYROSCOPE = "the pair is one gyroscope of spin ω₁ + ω₂"
 AS_WITHOUT_SPIN = "opposite spins respond as if there were none"
 
 
-def _shocked(spins: Spins, force: Vector, seconds: float, bar: Link = HEAVY) -> Trajectory:
+def _shocked(spins: Spins, force: Vector, seconds: float, bar: Link = HEAVY_LINK) -> Trajectory:
     return after_shock(shocked_scene(spins, force, bar), seconds)
 
 
@@ -131,4 +131,4 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
 EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 # C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes.
 C01 = ClaimTest("C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, EXACT, measure_c01, decide_c01)
-C02 = ClaimTest("C02", HEAVY, {AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, EXACT, measure_c02, decide_c02)
+C02 = ClaimTest("C02", HEAVY_LINK, {AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, EXACT, measure_c02, decide_c02)

@@ -19,7 +19,7 @@ from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.rotations import cross_matrix
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
@@ -89,7 +89,7 @@ def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
     start = np.array([0.3, 0.5, 1.0]) * SPINS[0]
     body = RigidBody(np.zeros(3), [[0, 0, 1]], inertia, np.eye(3), 1.0, start, np.zeros(3))  # type: ignore[arg-type]
     free = RigidBodySystem([body], 1.0, 0.0, transform=transform)
-    paper = paper_system(Scene(SPINS, link=HEAVY), STIFFNESS, DAMPING, transform=transform)
+    paper = paper_system(Scene(SPINS, link=HEAVY_LINK), STIFFNESS, DAMPING, transform=transform)
     with ExitStack() as stack:
         counters = [stack.enter_context(patch.object(np.linalg, k, wraps=getattr(np.linalg, k))) for k in INVERTERS]
         for system in (free, paper):

@@ -10,7 +10,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_solver
 from lagrotor.numerics.curves import measured_order
-from lagrotor.pair.examples import DAMPING, HEAVY, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -133,7 +133,7 @@ def fall(spins: Spins, force: Vector, seconds: float) -> float:
         began += run.t[-1]
         if began - at > seconds - 1e-6:
             return inf
-        now = Scene(spins, link=HEAVY, axes=run.axes[:, -1], rates=run.rates[:, -1])  # type: ignore[arg-type]
+        now = Scene(spins, link=HEAVY_LINK, axes=run.axes[:, -1], rates=run.rates[:, -1])  # type: ignore[arg-type]
         run = simulate(now, np.linspace(0, min(2.0, at + seconds - began), 81), "spheres", 1e-9)
 
 
@@ -159,7 +159,7 @@ def measure_c11(spins: Spins) -> dict[str, float]:
             f"turned_about_joint_line_rad_{name}": turned[-1],
             f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, turned, 1)[0],
         }
-    rate = natural_rate(Scene(spins, link=HEAVY))
+    rate = natural_rate(Scene(spins, link=HEAVY_LINK))
     found["period_of_the_natural_rate_s"] = 2 * pi / rate if rate else PAPER_RUN  # without swing, the whole run
     if min(falls.values()) < PAPER_RUN or falls["-y"] == inf:
         return found

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.curves import mean_between, measured_order
-from lagrotor.pair.examples import HEAVY
+from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -40,7 +40,7 @@ def measure_c12(K: float) -> dict[str, float]:
     for name, inertia in (("own", K), *((f"K_{K}", K) for K in STIFFER)):
         scene = shocked_scene(OPPOSITE, (50, 0, 0), Link(mass=1, inertia=inertia))
         run = after_shock(scene, 2.4)
-        bar = (run.tips[1] - run.tips[0]) / HEAVY.length
+        bar = (run.tips[1] - run.tips[0]) / HEAVY_LINK.length
         found |= {
             f"largest_x_over_unspun_{name}": abs(run.axes[..., 0]).max() / unspun,
             f"largest_angle_of_axes_rad_{name}": angle_between(run.axes).max(),
@@ -127,7 +127,7 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
 # C12: a bar of 1000 kg m² does not twist; then the axes stay parallel and (7) holds. C13: a quarter of a cycle is no average.
 C12 = ClaimTest(
     "C12",
-    HEAVY.inertia,
+    HEAVY_LINK.inertia,
     {FAILS: 1000.0, TWISTS: 1000.0, PARTS: 1000.0},
     "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²",
     measure_c12,

@@ -10,7 +10,7 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.pair.examples import DAMPING, HEAVY, STEP, STIFFNESS
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.shown import scientific
@@ -44,7 +44,7 @@ def measure_c06(case: MisplacedBar) -> dict[str, float]:
 
     The paper's z starts at the rotors' centres, ours at the ground joints: its mistaken 1 is our 1.5.
     """
-    scene, t = Scene(case.spins, link=HEAVY), np.round(np.arange(601) * STEP, 6)
+    scene, t = Scene(case.spins, link=HEAVY_LINK), np.round(np.arange(601) * STEP, 6)
     wrong = run_steps(paper_system(scene, STIFFNESS, case.damping, case.height), None, t, STEP).paper_energy
     right = run_steps(paper_system(scene, STIFFNESS, case.damping), None, t, STEP).paper_energy
     excess = abs(wrong - wrong[-1])
@@ -107,7 +107,7 @@ def measure_c07(size: float) -> dict[str, float]:
     while high - low > 0.01:
         middle = (low + high) / 2
         low, high = (middle, high) if _is_nan(printed_rotation, 10**middle) else (low, middle)
-    scene = Scene(SPINS, link=HEAVY, shock=Shock((50, 0, 0), 0.56, 1 / 50))
+    scene = Scene(SPINS, link=HEAVY_LINK, shock=Shock((50, 0, 0), 0.56, 1 / 50))
     ends = np.round(np.arange(1, 201) * STEP, 6)
     return {
         "omega_rad_per_s": size,
