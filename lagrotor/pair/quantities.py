@@ -6,6 +6,7 @@ from math import isfinite, nan
 from lagrotor.errors import InputError
 
 Vector = tuple[float, float, float]
+Spins = tuple[float, float]  # axial angular velocities of the two rotors, rad/s
 SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
 
 

@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 # The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
 # ones of section 5 by the second, after which spectra are.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
+PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 
 
 def shocked_scene(

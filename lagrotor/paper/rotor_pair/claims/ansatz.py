@@ -8,6 +8,7 @@ import numpy as np
 from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -18,7 +19,6 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     OPPOSITE,
     PAPER_BAR,
     PAPER_R0,
-    Spins,
     once_round,
     precession,
 )
@@ -26,7 +26,7 @@ from lagrotor.shown import scientific
 
 WITHIN = 0.05  # "agrees", "constant": to one part in twenty, the difference that two curves drawn over each other do not show
 VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order
-ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms
+_ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms
 
 AZIMUTHS, SPIN_ANGLES = "φ₁′ = −φ₂′", "ψ₁′ = −ψ₂′"
 A_CONSTANT, B_CONSTANT = "A is a constant of the motion", "B is a constant of the motion"
@@ -112,7 +112,7 @@ def decide_c15(m: Mapping[str, float]) -> Finding:
         _small(m, "azimuth"),
         _small(m, "spin"),
         Part(A_CONSTANT, max(massless, light) < WITHIN, needs if massless < WITHIN else ""),
-        Part(B_CONSTANT, m["drift_of_B_relative"] < ROUNDING),
+        Part(B_CONSTANT, m["drift_of_B_relative"] < _ROUNDING),
     )
     how = (
         f"At r₀ = {PAPER_R0} φ₁′ + φ₂′ reaches {m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′ "

@@ -10,25 +10,26 @@ from lagrotor.models.spring_link.paper_bodies import join_bar, paper_bodies, pap
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
 from lagrotor.paper.rotor_pair.shocked_runs import after_shock, shock_of, shocked_scene
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
-Spins = tuple[float, float]
 PRINTED = {"before": 100.0, "after": 100.45}  # J
-HALF_UNIT = 0.5  # J: 100 is printed without decimals
+_HALF_UNIT = 0.5  # J: 100 is printed without decimals
 LAST_DIGIT = 0.01  # J: "about 100.45" is read off a graph, to one unit of its last digit; "constant" to the same
 OMEGA_S, N = 10.0, 20  # rad/s, the spin; what the paper leaves open in S = 2000 (M/n) ω_s², D = 500 (M/n) ω_s
 TRIED = (5, 8, 10, 20, 40, 80, 160)  # values of n
 SECONDS = 8.0  # of the paper's run after the shock
-SPINS, FORCE = (10.0, 10.0), 50.0
+_FORCE = 50.0
 CONSERVED = 1e-6  # of the impulse, a thousand times the error of the exact runs
 FREED = 1e-3  # of the impulse: the dampers are not central and change the angular momentum, by less than this
 
-FROM_100, TO_100_45, CONSTANT = "the energy starts at 100 J", "it rises to about 100.45 J", "it then stays constant"
+FROM_100, TO_100_45, _CONSTANT = "the energy starts at 100 J", "it rises to about 100.45 J", "it then stays constant"
 MOMENTUM, ANGULAR = "the total momentum is not conserved", "the total angular momentum is not conserved"
 BY_GROUNDS = "the cause is what the grounds exert: without them both are conserved"
 
@@ -82,9 +83,9 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
     drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if kept else ""
     return Finding(
         (
-            Part(FROM_100, abs(m["before_J"] - PRINTED["before"]) < HALF_UNIT),
+            Part(FROM_100, abs(m["before_J"] - PRINTED["before"]) < _HALF_UNIT),
             Part(TO_100_45, all(after)),
-            Part(CONSTANT, kept and m["lost_in_8_s_springs_J"] < LAST_DIGIT, drained),
+            Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < LAST_DIGIT, drained),
         ),
         f"From {m['before_J']:.2f} to {m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, "
         f"{m['after_closed_form_J']:.4f} J by P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to "
@@ -112,7 +113,7 @@ def _momenta(run: Trajectory) -> tuple[Array, Array]:
 
 def measure_c09(grounded: bool) -> dict[str, float]:
     """Over the impulse, for 2.4 s after the shock: how far the total momenta swing, with the grounds and without them."""
-    scene = shocked_scene(SPINS, (FORCE, 0, 0))
+    scene = shocked_scene(EQUAL, (_FORCE, 0, 0))
     exact, impulse = after_shock(scene, 2.4, 1e-11), float(np.linalg.norm(shock_of(scene).impulse))
     freed = RigidBodySystem(paper_bodies(scene), STIFFNESS, DAMPING)
     join_bar(freed)
@@ -157,8 +158,8 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
 
 C08 = ClaimTest(
     "C08",
-    (SPINS, FORCE),
-    {FROM_100: ((5.0, 5.0), FORCE), TO_100_45: (SPINS, 45.0)},
+    (EQUAL, _FORCE),
+    {FROM_100: ((5.0, 5.0), _FORCE), TO_100_45: (EQUAL, 45.0)},
     "spring-linked bodies, the exact pair, the closed form",
     measure_c08,
     decide_c08,

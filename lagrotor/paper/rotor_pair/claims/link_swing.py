@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.curves import measured_order
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.claims.precession_runs import (
@@ -16,7 +17,6 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     MASSLESS,
     OPPOSITE,
     PAPER_R0,
-    Spins,
     once_round,
     precession,
 )

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from lagrotor.numerics.curves import mean_between
 from lagrotor.pair.examples import HEAVY_LINK
-from lagrotor.pair.quantities import Vector
+from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -22,13 +22,12 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
 from lagrotor.shown import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
-Spins = tuple[float, float]
-ALONG, ACROSS, WEAK = (50.0, 0.0, 0.0), (0.0, 50.0, 0.0), (10.0, 0.0, 0.0)
+_ALONG, _ACROSS, _WEAK = (50.0, 0.0, 0.0), (0.0, 50.0, 0.0), (10.0, 0.0, 0.0)
 CYCLES = 5  # over which a mean is taken
-PARTED = 0.1  # rad, 6°: an angle between the axes that is seen
-STEADY = 0.01  # "remains": the mean of the last cycles is that of the first ones to one part in a hundred
+_PARTED = 0.1  # rad, 6°: an angle between the axes that is seen
+_STEADY = 0.01  # "remains": the mean of the last cycles is that of the first ones to one part in a hundred
 DISPLACED = 0.1  # a mean below a tenth of the swing about it would not be seen as a displacement
-ALIKE = 0.1  # "as", "as if": to one part in ten, the accuracy to which a graph is compared with another
+_ALIKE = 0.1  # "as", "as if": to one part in ten, the accuracy to which a graph is compared with another
 
 SAME_SENSE, REMAINS = "both axes precess in the same direction", "a displacement of both axes remains"
 ONE_GYROSCOPE = "the pair is one gyroscope of spin ω₁ + ω₂"
@@ -47,19 +46,19 @@ def _centre(run: Trajectory, start: float) -> NDArray[np.float64]:
 
 def measure_c01(spins: Spins) -> dict[str, float]:
     """Mean rates of precession about the mean axes; these at the start and at the end; how far the axes part."""
-    run = _shocked(spins, ALONG, 12.0)
+    run = _shocked(spins, _ALONG, 12.0)
     end = run.t[-1] - run.t[0] - CYCLES * 2 * pi / natural_rate(run.scene)
     first, last = _centre(run, 0.0), _centre(run, end)
     off = run.axes[..., :2] - last[:, None, :2]
     turning = off[..., 0] * run.rates[..., 1] - off[..., 1] * run.rates[..., 0]
     sense = turning.mean(1) / (off**2).sum(-1).mean(1)
-    across = _shocked(spins, ACROSS, 12.0)
+    across = _shocked(spins, _ACROSS, 12.0)
     parted = angle_between(across.axes)
     found = {
         "displacement_by_equation_7": shock_of(run.scene).impulse[0] / (abs(spins[0]) + abs(spins[1])),
         "angle_of_axes_shock_along_bar_rad": angle_between(run.axes).max(),
         "angle_of_axes_shock_across_bar_rad": parted.max(),
-        "seconds_until_axes_part_by_0.1_shock_across_bar": across.t[np.argmax(parted > PARTED)]
+        "seconds_until_axes_part_by_0.1_shock_across_bar": across.t[np.argmax(parted > _PARTED)]
         - shock_of(across.scene).at,
     }
     for i in (0, 1):
@@ -75,7 +74,7 @@ def measure_c01(spins: Spins) -> dict[str, float]:
 def decide_c01(m: Mapping[str, float]) -> Finding:
     """The senses of both precessions, and of both axes the displacement at the end against that at the start."""
     last = [m[f"displacement_{i}_last_cycles"] for i in (1, 2)]
-    stays = [abs(last[i] / m[f"displacement_{i + 1}_first_cycles"] - 1) < STEADY for i in (0, 1)]
+    stays = [abs(last[i] / m[f"displacement_{i + 1}_first_cycles"] - 1) < _STEADY for i in (0, 1)]
     seen = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
     return Finding(
         (
@@ -87,21 +86,23 @@ def decide_c01(m: Mapping[str, float]) -> Finding:
         f"(in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
         f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock "
         f"along the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one "
-        f"tip parts them by {PARTED} rad within {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.2f} s and by "
+        f"tip parts them by {_PARTED} rad within {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.2f} s and by "
         f"{m['angle_of_axes_shock_across_bar_rad']:.2f} rad within 12 s: equal spins do not keep the axes parallel.",
     )
 
 
 def _drift_over_7(spins: Spins, bar: Link) -> float:
     """Mean displacement after a weak shock, so that squares of the amplitude do not show, over that of (7)."""
-    run = _shocked(spins, WEAK, 8.0, bar)
+    run = _shocked(spins, _WEAK, 8.0, bar)
     return float(_centre(run, 0.0)[:, 1].mean() * sum(spins) / shock_of(run.scene).impulse[0])
 
 
 def measure_c02(bar: Link) -> dict[str, float]:
     """With a given bar: displacements over (7), and responses of opposite spins over those without spins."""
-    farthest, unspun = (abs(_shocked(s, ALONG, 2.4, bar).axes[..., 0]).max() for s in ((10, -10), (0, 0)))
-    turned, freely = (abs(turned_about_joint_line(_shocked(s, ACROSS, 2.4, bar).axes)[-1]) for s in ((10, -10), (0, 0)))
+    farthest, unspun = (abs(_shocked(s, _ALONG, 2.4, bar).axes[..., 0]).max() for s in ((10, -10), (0, 0)))
+    turned, freely = (
+        abs(turned_about_joint_line(_shocked(s, _ACROSS, 2.4, bar).axes)[-1]) for s in ((10, -10), (0, 0))
+    )
     return {
         "largest_x": farthest,
         "largest_x_without_spins": unspun,
@@ -118,8 +119,8 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
     responses = m["ratio_in_x"], m["ratio_of_turning_about_joint_line_shock_along_y"]
     return Finding(
         (
-            Part(ONE_GYROSCOPE, all(abs(ratio - 1) < ALIKE for ratio in drifts)),
-            Part(AS_WITHOUT_SPIN, all(abs(ratio - 1) < ALIKE for ratio in responses)),
+            Part(ONE_GYROSCOPE, all(abs(ratio - 1) < _ALIKE for ratio in drifts)),
+            Part(AS_WITHOUT_SPIN, all(abs(ratio - 1) < _ALIKE for ratio in responses)),
         ),
         f"The displacement after a weak shock over that of (7) is {drifts[0]:.3f} for spins 10 and 10 rad/s, "
         f"{drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x = "
@@ -128,7 +129,7 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
     )
 
 
-EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
+_EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 # C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes.
-C01 = ClaimTest("C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, EXACT, measure_c01, decide_c01)
-C02 = ClaimTest("C02", HEAVY_LINK, {AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, EXACT, measure_c02, decide_c02)
+C01 = ClaimTest("C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, _EXACT, measure_c01, decide_c01)
+C02 = ClaimTest("C02", HEAVY_LINK, {AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, _EXACT, measure_c02, decide_c02)

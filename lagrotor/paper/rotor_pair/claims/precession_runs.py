@@ -8,10 +8,10 @@ from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.pair.examples import LIGHT
 from lagrotor.pair.initial_conditions import consistent_scene
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 
-Spins = tuple[float, float]
 OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
 MASSLESS, PAPER_BAR = Link(), LIGHT  # the bar of the theory, and that of the listing in 5.2.1
 PAPER_R0 = 0.204  # the amplitude of figure 21

@@ -7,6 +7,7 @@ import numpy as np
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.harmonic_fit import best_harmonics
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -16,7 +17,6 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     EQUAL,
     MASSLESS,
     OPPOSITE,
-    Spins,
     once_round,
     precession,
 )

@@ -22,12 +22,12 @@ from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
 from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
-SPINS = (10.0, 10.0)
-ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
+_ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
 ENFORCED = 0.1  # a joint is kept where its gap, and the error of the axes, are below a tenth of the motion
 INVERTERS = ("inv", "solve", "pinv", "lstsq", "tensorinv", "tensorsolve")  # numpy's ways to invert a matrix
 
@@ -47,9 +47,9 @@ def _stretch(step: Array) -> float:
 
 def measure_c03(dt: float) -> dict[str, float]:
     """Both rotations over one step dt (s) of a rotor that spins, and what 10,000 of them do to a length."""
-    Omega = np.array([[0.0, 0.0, SPINS[0]]])
+    Omega = np.array([[0.0, 0.0, EQUAL[0]]])
     first_order, rodrigues = np.eye(3) + dt * cross_matrix(Omega)[0], finite_rotation(Omega, dt)[0]
-    n, angle = Omega[0] / SPINS[0], SPINS[0] * dt
+    n, angle = Omega[0] / EQUAL[0], EQUAL[0] * dt
     P = np.outer(Omega, Omega)  # (3.16) to the letter: not divided by |Ω|²
     printed = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * cross_matrix(n[None])[0]
     return {
@@ -65,8 +65,8 @@ def decide_c03(m: Mapping[str, float]) -> Finding:
     """How far each rotation of one step is from orthogonal, against rounding."""
     return Finding(
         (
-            Part(NOT_ORTHOGONAL, m["first_order_off_orthogonal"] > ROUNDING),
-            Part(ORTHOGONAL, m["rodrigues_off_orthogonal"] < ROUNDING),
+            Part(NOT_ORTHOGONAL, m["first_order_off_orthogonal"] > _ROUNDING),
+            Part(ORTHOGONAL, m["rodrigues_off_orthogonal"] < _ROUNDING),
         ),
         f"One step is off orthogonal by {scientific(m['first_order_off_orthogonal'])} to first order and by "
         f"{scientific(m['rodrigues_off_orthogonal'])} by Rodrigues; in 10,000 steps the first stretches a body by "
@@ -86,10 +86,10 @@ def inverted_each_time(R: Array, inverse_inertia: Array) -> Array:
 def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
     """Inversions in a hundred steps of the paper's bodies and of a free one of unequal inertia; Ω of the free one."""
     inertia = np.diag([1.0, 2.0, 2.5])
-    start = np.array([0.3, 0.5, 1.0]) * SPINS[0]
+    start = np.array([0.3, 0.5, 1.0]) * EQUAL[0]
     body = RigidBody(np.zeros(3), [[0, 0, 1]], inertia, np.eye(3), 1.0, start, np.zeros(3))  # type: ignore[arg-type]
     free = RigidBodySystem([body], 1.0, 0.0, transform=transform)
-    paper = paper_system(Scene(SPINS, link=HEAVY_LINK), STIFFNESS, DAMPING, transform=transform)
+    paper = paper_system(Scene(EQUAL, link=HEAVY_LINK), STIFFNESS, DAMPING, transform=transform)
     with ExitStack() as stack:
         counters = [stack.enter_context(patch.object(np.linalg, k, wraps=getattr(np.linalg, k))) for k in INVERTERS]
         for system in (free, paper):
@@ -113,7 +113,7 @@ def decide_c04(m: Mapping[str, float]) -> Finding:
     return Finding(
         (
             Part(NO_INVERSION, m["inversions_in_200_steps"] == 0),
-            Part(SOLVED, m["off_the_solved_omega_relative"] < ROUNDING),
+            Part(SOLVED, m["off_the_solved_omega_relative"] < _ROUNDING),
         ),
         f"{m['inversions_in_200_steps']:.0f} inversions in 200 steps, while the inertia changed by "
         f"{m['inertia_changed_by_kg_m2']:.2f} kg m²; Ω agrees with the solved one to "
@@ -124,7 +124,7 @@ def decide_c04(m: Mapping[str, float]) -> Finding:
 
 def measure_c05(stiffness: float) -> dict[str, float]:
     """The shocked equal pair joined by springs of a quarter, half and the whole stiffness (N/m), against the exact pair."""
-    scene = shocked_scene(SPINS, (50, 0, 0))
+    scene = shocked_scene(EQUAL, (50, 0, 0))
     t = np.round(np.arange(0, 1.2005, 2e-3), 3)
     exact = simulate(scene, t, "spheres", 1e-9)
     stiffnesses = stiffness * np.array([0.25, 0.5, 1.0])

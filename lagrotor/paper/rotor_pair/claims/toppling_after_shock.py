@@ -11,10 +11,11 @@ from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_solver
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
-from lagrotor.pair.quantities import Vector
+from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import (
+    PAPER_RUN,
     after_shock,
     angle_between,
     paper_run,
@@ -26,8 +27,6 @@ from lagrotor.shown import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
-Spins = tuple[float, float]
-PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 FALLEN = 0.5  # |x| of an axis that is 30° from upright
 TILTED, FLAT = 75.0, 90.0  # degrees: toppled along x, where 90° is a dead point, and across it
 IN_PLANE = 0.01  # a y of an axis that would not be seen: the pair stays in the X-Z plane
@@ -36,7 +35,7 @@ SLOW = 1.0  # rad in one turn of the natural rate: the pair swings in x before i
 WATCHED = 40.0  # s over which a fall is waited for
 SIDE, SPRINGS = 1.0, {"1e4": 1e4, "1e5": 1e5, "1e6": 1e6}  # N, N/m
 PAPER_SHOCKS: dict[str, Vector] = {"+x": (50, 0, 0), "-x": (-50, 0, 0), "+y": (0, 50, 0), "-y": (0, -50, 0)}
-ALONG, ACROSS, SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.0)  # N, besides the paper's 50 N
+ALONG, ACROSS, _SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.0)  # N, besides the paper's 50 N
 
 TOPPLES, TURNS = "the pair topples after the shock", "it turns around the line through the two grounds"
 STABLE, TOPPLES_YZ, SLOWLY = "it stays stable in x", "it topples in the Y-Z plane", "it topples slowly"
@@ -171,14 +170,14 @@ def _powers(spins: Spins, plus_x: float, minus_y: float) -> dict[str, float]:
     times_x = [plus_x, *(fall(spins, (f, 0, 0), WATCHED) for f in ALONG)]
     times_y = [minus_y, *(fall(spins, (0, -f, 0), WATCHED) for f in ACROSS)]
     rates = []
-    for f in SMALL:
+    for f in _SMALL:
         run = after_shock(shocked_scene(spins, (f, 0, 0)), 12.0)
         rates.append(abs(np.polyfit(run.t, turned_about_joint_line(run.axes), 1)[0]))
     return {
         "fallen_in_x_after_s_-y_springs": _fall_of_springs(spins, PAPER_SHOCKS["-y"], 1.1 * minus_y),
         "power_of_shock_in_time_x": measured_order((50.0, *ALONG), times_x),
         "power_of_shock_in_time_minus_y": measured_order((50.0, *ACROSS), times_y),
-        "power_of_shock_in_toppling_rate_x": measured_order(SMALL, rates),
+        "power_of_shock_in_toppling_rate_x": measured_order(_SMALL, rates),
         "toppling_rate_48_N_rad_per_s": rates[-1],
     }
 
@@ -220,10 +219,10 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
     )
 
 
-EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
+_EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 C10 = ClaimTest(
-    "C10", (0, 0), {TOPPLES: (10, 10), TURNS: (10, 10)}, f"{EXACT}; spring-linked bodies", measure_c10, decide_c10
+    "C10", (0, 0), {TOPPLES: (10, 10), TURNS: (10, 10)}, f"{_EXACT}; spring-linked bodies", measure_c10, decide_c10
 )
 C11 = ClaimTest(
-    "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, EXACT, measure_c11, decide_c11
+    "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, _EXACT, measure_c11, decide_c11
 )

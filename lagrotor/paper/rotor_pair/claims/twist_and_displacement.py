@@ -11,13 +11,11 @@ from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.shocked_runs import after_shock, angle_between, shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.claims.precession_runs import OPPOSITE
+from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, after_shock, angle_between, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
-Spins = tuple[float, float]
-OPPOSITE: Spins = (10, -10)
-PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 ALIKE = 0.1  # (7) holds to one part in ten, the accuracy to which a graph is compared with another
 PARTED = 0.1  # rad, 6°: an angle that is seen
 STIFFER = (10, 100, 1000)  # kg m², bars that resist twisting more and more

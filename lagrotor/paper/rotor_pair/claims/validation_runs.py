@@ -13,13 +13,13 @@ from lagrotor.models.spring_link.run import run_steps
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
 PRINTED_ENERGY = 100.0  # J
-HALF_UNIT = 0.5  # J: 100 is printed without decimals
+_HALF_UNIT = 0.5  # J: 100 is printed without decimals
 START = 0.1  # s, a hundredth of the paper's 10 s: what figure 8 shows at its left edge
-SPINS = (10.0, 10.0)
 
 SPIKES, DECAYS, STAYS = (
     "the energy spikes at the start",
@@ -27,7 +27,7 @@ SPIKES, DECAYS, STAYS = (
     "with the bar placed right it stays at 100 J",
 )
 NAN, EDGE = "Ω is not zero, |Ω|² rounds to zero, and the rotation is NaN", "the NaN begins where |Ω|² rounds to zero"
-LOST = "the state of the run turns to NaN"
+_LOST = "the state of the run turns to NaN"
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class MisplacedBar:
 
     height: float = 1.5
     damping: float = DAMPING
-    spins: tuple[float, float] = SPINS
+    spins: tuple[float, float] = EQUAL
 
 
 def measure_c06(case: MisplacedBar) -> dict[str, float]:
@@ -69,11 +69,11 @@ def decide_c06(m: Mapping[str, float]) -> Finding:
     """The height of the peak and when it comes, the energy at the end, and the energy with the bar placed right."""
     return Finding(
         (
-            Part(SPIKES, m["peak_J"] > m["start_J"] + HALF_UNIT and m["peak_at_s"] < START),
-            Part(DECAYS, abs(m["after_0.6_s_J"] - m["start_J"]) < HALF_UNIT),
+            Part(SPIKES, m["peak_J"] > m["start_J"] + _HALF_UNIT and m["peak_at_s"] < START),
+            Part(DECAYS, abs(m["after_0.6_s_J"] - m["start_J"]) < _HALF_UNIT),
             Part(
                 STAYS,
-                abs(m["placed_right_J"] - PRINTED_ENERGY) < HALF_UNIT and m["placed_right_swing_J"] < HALF_UNIT,
+                abs(m["placed_right_J"] - PRINTED_ENERGY) < _HALF_UNIT and m["placed_right_swing_J"] < _HALF_UNIT,
             ),
         ),
         f"Placed half a metre too high the energy rises from {m['start_J']:.0f} to {m['peak_J']:.1f} J at "
@@ -107,7 +107,7 @@ def measure_c07(size: float) -> dict[str, float]:
     while high - low > 0.01:
         middle = (low + high) / 2
         low, high = (middle, high) if _is_nan(printed_rotation, 10**middle) else (low, middle)
-    scene = Scene(SPINS, link=HEAVY_LINK, shock=Shock((50, 0, 0), 0.56, 1 / 50))
+    scene = Scene(EQUAL, link=HEAVY_LINK, shock=Shock((50, 0, 0), 0.56, 1 / 50))
     ends = np.round(np.arange(1, 201) * STEP, 6)
     return {
         "omega_rad_per_s": size,
@@ -133,7 +133,7 @@ def decide_c07(m: Mapping[str, float]) -> Finding:
         (
             Part(NAN, rounded and bool(m["nan_at_that_omega"])),
             Part(EDGE, edge),
-            Part(LOST, m["nan_at_s_printed_rotation"] > 0 and not m["nan_with_cured_rotation"]),
+            Part(_LOST, m["nan_at_s_printed_rotation"] > 0 and not m["nan_with_cured_rotation"]),
         ),
         f"At |Ω| = {scientific(m['omega_rad_per_s'])} rad/s the printed rotation "
         f"{'is' if m['nan_at_that_omega'] else 'is not'} NaN; it is NaN up to "
