@@ -1,4 +1,6 @@
-"""The commands about a paper: init, reproduce, audit, claims, figure. Exit status 1 when a verdict is not as recorded.
+"""The commands about a paper: init, readings, check, reproduce, audit, claims, figure.
+
+Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
 Without --paper they are about the paper that lagrotor was written for.
 """
@@ -19,12 +21,32 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """init, reproduce, audit, claims, figure."""
+    """init, readings, check, reproduce, audit, claims, figure."""
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
-    added.description = "Begin a paper of your own: a folder with one worked equation, claim and figure."
-    added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder")
-    source = "take the displayed equations of a .tex or .md file, and of the print what sympy can read"
+    added.description = (
+        "Begin a paper of your own: a folder with one worked equation, claim and figure, or with the equations of a source.\n"
+        "Again with --from: the source has changed; what is confirmed or derived stays."
+    )
+    added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder, or the one to make again")
+    source = "take the displayed equations of a .tex, .md or .ipynb file, and read them"
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
+
+    added = command(
+        "readings", readings_command, "compare readings with the print", "lagrotor readings my-paper --confirm 3 5a"
+    )
+    added.description = "How each equation was read, beside its print; what you confirm can be judged."
+    added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
+    added.add_argument("--confirm", nargs="+", metavar="ID", help="these readings are what is printed")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+
+    added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
+    added.description = (
+        "Check a source without any derivation: each step of a chain, equations against those before, units, letters.\n"
+        "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
+    )
+    added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
+    added.add_argument("--json", action="store_true", help="print a JSON list of {equation, step, line, verdict, why}")
+    added.add_argument("--all", action="store_true", help="show what agrees, and what was not read, too")
 
     added = command(
         "reproduce",
@@ -72,17 +94,77 @@ def _paper(given: argparse.Namespace) -> "Paper":
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.new_paper.printed import can_read
-    from lagrotor.paper.new_paper.start import begin
+    from lagrotor.paper.source.start import begin
 
     made = begin(given.folder, given.source)
-    print(
-        f"{made.folder}: {made.equations} equation{'s' * (made.equations != 1)}; sympy reads the print of {made.read}"
-    )
-    if not can_read():
-        print("to have the print read from LaTeX: pip install 'lagrotor[latex]', and begin again")
+    equations = _some(made.equations, "equation")
+    print(f"{made.folder}: {equations}; {made.read} read" if given.source else f"{made.folder}: {equations}")
+    for note in made.notes:
+        print(f"  {note}")
+    if made.changed:
+        print(f"changed since, to be confirmed again: {', '.join(made.changed)}")
+    if made.gone:
+        print(f"no longer in the source: {', '.join(made.gone)}")
+    if given.source:
+        print(f"compare the readings with the print: lagrotor readings {made.folder}")
     print(f"go on with {made.folder / 'README.md'}, and with: lagrotor audit --paper {made.folder}")
     return 0
+
+
+def readings_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.catalogue import Catalogue
+    from lagrotor.paper.readable import from_latex, readable
+    from lagrotor.paper.source.readings import readings
+    from lagrotor.paper.source.start import confirm
+
+    paper = Catalogue(given.folder)
+    if given.confirm:
+        done = confirm(paper.folder, given.confirm)
+        return say(f"confirmed: {', '.join(done)}", 0)
+    found = list(readings(paper))
+    if given.json:
+        print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
+        return 0
+    for each in found:
+        print(wrapped(f"{each.id}  {each.title}: {each.status}", 4))
+        print(wrapped(f"    print    {each.print}", 13))
+        for text in each.said:
+            left, relation, right = text.partition(" = ")
+            shown = f"{from_latex(left)}{relation}{readable(right)}" if "\\" in left else readable(text)
+            print(wrapped(f"    read     {shown}", 13))
+        for guess in each.guesses:
+            print(wrapped(f"    guessed  {guess}", 13))
+        if each.stopped:
+            print(wrapped(f"    stopped  {each.stopped}: {each.helps}", 13))
+    counts = Counter(each.status for each in found)
+    say(f"{_some(len(found), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
+    if counts["unconfirmed"] or counts["changed"]:
+        say(f"confirm what is read as printed: lagrotor readings {given.folder} --confirm ID …", 0)
+    return 0
+
+
+def check_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.readable import readable
+    from lagrotor.paper.source.check import FOUND, check
+
+    found = [(source, each) for source in given.sources for each in check(source)]
+    if given.json:
+        several = len(given.sources) > 1
+        rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]
+        print(json.dumps(rows, indent=1, ensure_ascii=False))
+    else:
+        for source, each in found:
+            if given.all or each.verdict in FOUND:
+                step = f", step {each.step}" if each.step else ""
+                print(
+                    wrapped(
+                        f"{each.file or source}:{each.line}: ({each.equation}){step}: {each.verdict}: {readable(each.why)}",
+                        4,
+                    )
+                )
+        counts = Counter(each.verdict for _, each in found)
+        say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or "nothing to check", 0)
+    return 1 if any(each.verdict in FOUND for _, each in found) else 0
 
 
 def _some(count: int, what: str) -> str:

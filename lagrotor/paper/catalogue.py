@@ -1,9 +1,11 @@
 """The scope of an audit as data: every equation, claim and figure of a paper, in its order, and the letters it is written in."""
 
+import json
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -26,8 +28,11 @@ _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 class Equation:
     """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one.
 
-    line: its printed lines as written in the catalogue. reading: how they were read, where sympy's parser of LaTeX does not
-    read them. letters: what the text around the equation says of its letters. refers: letter → id of the equation that
+    line: its printed lines as written in the catalogue. reading: how they were read, where that is not plain. read: of lines
+    that were read from a source, "unconfirmed" or "confirmed", then with `print`, a hash of what was confirmed; "gone" where the
+    source no longer has it. label, lead: its name in the source, and the left side of the row that it continues. guesses: what
+    custom settled in reading it; aside: what was read and is compared with nothing. changed: its print before the source
+    changed. letters: what the text around the equation says of its letters. refers: letter → id of the equation that
     defines it, whose derived side stands for it. measured: the equation is a number read off a run.
     place: the paper's own heading over it, where `section` names a wider one.
     """
@@ -43,6 +48,18 @@ class Equation:
     refers: Mapping[str, str] = field(default_factory=dict)
     measured: bool = False
     place: str = ""
+    read: str = ""
+    print: str = ""
+    label: str = ""
+    lead: str = ""
+    guesses: tuple[str, ...] = ()
+    aside: tuple[str, ...] = ()
+    changed: str = ""
+
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether its lines are the author's word: written by hand, or confirmed as they stand."""
+        return not self.read or (self.read == "confirmed" and self.print == digest(self.latex, self.line))
 
     @property
     def cited(self) -> str:
@@ -81,6 +98,12 @@ class Figure:
     def id(self) -> int:
         """Its number."""
         return self.number
+
+
+def digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
+    """A hash of a print and its lines: what was confirmed is this and nothing else."""
+    said = json.dumps([latex, [dict(line) for line in lines]], sort_keys=True, default=str)
+    return sha256(said.encode()).hexdigest()[:16]
 
 
 def is_claim(identifier: str) -> bool:

@@ -123,7 +123,7 @@ class Paper(Catalogue):
         began = time.perf_counter()
         found = self.statements(stem)
         share = (time.perf_counter() - began) / max(len(found), 1)
-        verdicts = [decide(each, self.glossary) for each in found]
+        verdicts = [self._would_be(decide(each, self.glossary)) for each in found]
         return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
 
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
@@ -147,10 +147,20 @@ class Paper(Catalogue):
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
-        verdict = decide(next(s for s in self.statements(stem) if s.id == identifier), self.glossary)
+        verdict = self._would_be(decide(next(s for s in self.statements(stem) if s.id == identifier), self.glossary))
         on_record = self.recorded
         answers = {i: row.verdict for i, row in on_record.items()} | {identifier: verdict.verdict}
         return self._followed(verdict, answers, {i: row.uses for i, row in on_record.items()})
+
+    def _would_be(self, verdict: Verdict) -> Verdict:
+        """The verdict; of a reading that its author has not confirmed, what it would be, as evidence only."""
+        if verdict.verdict == "definition" or self.equation(verdict.id).is_confirmed:
+            return verdict
+        said = (
+            f"it would be {verdict.verdict}: its reading is not confirmed; when you have compared it with the print: "
+            f"lagrotor readings {self.folder.name} --confirm {verdict.id}"
+        )
+        return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(said, *verdict.evidence))
 
     def _followed(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
         """The verdict on a refuted equation with whether a result of the paper falls with it."""

@@ -66,6 +66,8 @@ class TitlePage:
     sections: number → heading. results: ids of the equations in which the paper's work ends. equations_in, claims_in:
     beginnings of the names of the derivations that state equations, and that show tests of claims. model: a module with a
     function `interactive() -> str`, a section of the page in HTML. letters: names of those that the notation begins with.
+    notation: how its formulas are to be read, where the print leaves it open. preamble: what its LaTeX needs besides amsmath.
+    system: a derivation stated as text, `coordinates`, `L`, `constraints` (`lagrotor.paper.source.stated_system`).
     """
 
     title: str
@@ -79,6 +81,9 @@ class TitlePage:
     opening: tuple[Opening, ...] = ()
     headline: tuple[Headline, ...] = ()
     part: tuple[Part, ...] = USUAL_PARTS
+    notation: Mapping[str, Any] = field(default_factory=dict)
+    preamble: str = ""
+    system: Mapping[str, Any] = field(default_factory=dict)
 
 
 def toml(file: Path) -> dict[str, Any]:

@@ -1,0 +1,603 @@
+r"""A formula as it is printed: letters with their marks, numbers, fractions, brackets, each with its scripts.
+
+Nothing is interpreted here; every token is in one box.
+"""
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from lagrotor.paper.source.tokens import Token, tokenize
+
+_GREEK_NAMES = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
+    "varepsilon vartheta varphi varrho varsigma varkappa varpi digamma "
+    "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega ell hbar aleph imath jmath wp"
+)
+GREEK = {rf"\{name}" for name in _GREEK_NAMES.split()}
+_UNICODE_NAMES = (
+    "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega "
+    "Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega phi vartheta"
+)
+_UNICODE = dict(zip("αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΦΨΩϕϑ", _UNICODE_NAMES.split(), strict=True))
+ACCENTS = {
+    "dot": "dot", "ddot": "ddot", "dddot": "dddot", "ddddot": "ddddot", "hat": "hat", "widehat": "hat", "bar": "bar",
+    "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "vec": "vec", "overrightarrow": "vec", "underline": "under",
+    "check": "check", "breve": "breve", "acute": "acute", "grave": "grave", "mathring": "ring", "utilde": "under",
+    "overleftrightarrow": "tensor", "uvec": "hat",
+}  # fmt: skip
+STYLES = {
+    "mathrm": "", "mathbf": "bold", "boldsymbol": "bold", "mathcal": "cal", "mathscr": "scr", "mathfrak": "frak",
+    "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "mathds": "bb", "rm": "",
+    "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
+}  # fmt: skip
+_SWITCHES = ("rm", "bf", "it", "cal", "bfseries", "mathrm@")
+FUNCTIONS = {
+    **{name: name for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "sech", "csch", "exp")},
+    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh"},
+    **{"arsinh": "asinh", "arcosh": "acosh", "artanh": "atanh", "asin": "asin", "acos": "acos", "atan": "atan"},
+    **{"ln": "log", "log": "log", "lg": "log10", "sgn": "sign", "sign": "sign", "csch": "csch", "tg": "tan", "ctg": "cot"},
+    **{"arctg": "atan", "sh": "sinh", "ch": "cosh", "th": "tanh", "cosec": "csc"},
+    **{name: name for name in ("det", "tr", "Tr", "diag", "rank", "dim", "arg", "Re", "Im", "max", "min", "sup", "inf")},
+    **{name: name for name in ("ker", "deg", "gcd")},
+}  # fmt: skip
+BIG = {
+    "sum": "Sum", "prod": "Product", "int": "Integral", "oint": "Integral", "iint": "Integral", "iiint": "Integral",
+    "lim": "limit", "oiint": "Integral", "intop": "Integral", "bigcup": "", "bigcap": "", "bigoplus": "", "bigotimes": "",
+    "limsup": "", "liminf": "", "coprod": "",
+}  # fmt: skip
+RELATIONS = {
+    "=": "=", "<": "<", ">": ">", "approx": "~", "simeq": "~", "sim": "~",
+    "cong": "~", "approxeq": "~", "equiv": ":=", "neq": "!=",
+    "ne": "!=", "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=", "geq": ">=", "geqslant": ">=", "ll": "<<", "gg": ">>",
+    "propto": "~", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<",
+    "gtrsim": ">", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "->", "notin": "in", "subset": "in",
+    "subseteq": "in", "longmapsto": "->", "leftrightarrow": "->", "perp": "in", "parallel": "in", "not": "!=", "mid": "in",
+    "asymp": "~", "prec": "<", "succ": ">", "ni": "in", "rightleftharpoons": "->", "thickapprox": "~", "thicksim": "~",
+    "lll": "<<", "ggg": ">>", "supset": "in", "nearrow": "->", "searrow": "->", "hookrightarrow": "->", "gets": "->",
+    "colon": "in",
+}  # fmt: skip
+ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
+          "impliedby", "Leftarrow", "leadsto", "land", "lor", "wedge@"}  # fmt: skip
+_WIDE = ("quad", "qquad")
+_THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "\n", "nobreakspace")
+_NOTHING = (
+    "!", "displaystyle", "textstyle", "scriptstyle", "scriptscriptstyle", "limits", "nolimits", "negthinspace", "nobreak",
+    "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
+    "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
+    "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces", "left.", "right.", "it@",
+    "upshape", "rmfamily", "normalfont", "textstyle@", "par", "protect", "break", "penalty", "raggedright",
+)  # fmt: skip
+_DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
+_OPERATORS = {
+    "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "cdot": "cdot", "times": "times", "pm": "pm", "mp": "mp", "div": "/",
+    "ast": "*",
+    "bullet": "cdot", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
+    "×": "times",
+    "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
+}  # fmt: skip
+_SIZES = re.compile(r"[bB]igg?[lrm]?|middle")
+_OPEN = {"(": ")", "[": "]", r"\{": r"\}", r"\langle": r"\rangle", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil",
+         r"\lvert": r"\rvert", r"\lVert": r"\rVert", r"\lbrace": r"\rbrace", r"\lbrack": r"\rbrack", "⟨": "⟩"}  # fmt: skip
+_CLOSE = set(_OPEN.values())
+_MATRICES = ("matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix",
+             "bsmallmatrix", "pmatrix*", "bmatrix*")  # fmt: skip
+ROWS = ("aligned", "split", "gathered", "alignedat", "multlined", "align", "align*", "gather", "gather*", "eqnarray*", "eqnarray",
+        "IEEEeqnarraybox", "rcases@", "equation", "equation*")  # fmt: skip
+_CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
+_MOST = 200  # brackets within brackets
+
+
+class StopError(Exception):
+    """Where the reading stops: the place in the LaTeX, what stands there, and what would help."""
+
+    def __init__(self, at: int, what: str, help_: str) -> None:
+        super().__init__(what)
+        self.at, self.what, self.help = at, what, help_
+
+
+@dataclass
+class Box:
+    """One thing as it is printed, from `at` to `end` in the LaTeX.
+
+    kind: letter number operator relation bracket fraction root function big matrix cases rows accent text wide thin comma dots
+    arrow bar group partial nabla infinity.  name: the letter's or the command's; style, marks: of a letter; parts: what is in
+    it; sub, sup: its scripts; primes.
+    """
+
+    kind: str
+    name: str
+    at: int
+    end: int
+    parts: list[list["Box"]] = field(default_factory=list)
+    style: str = ""
+    marks: tuple[str, ...] = ()
+    sub: "list[Box] | None" = None
+    sup: "list[Box] | None" = None
+    primes: int = 0
+    closing: str = ""
+    upright: bool = False
+
+
+def boxes(latex: str) -> list[Box]:
+    """The boxes of a formula. Raises StopError at a token that has no place."""
+    reader = _Reader(latex)
+    found = reader.sequence(())
+    if reader.place < len(reader.items):
+        reader.stop("is not opened", "write the bracket that it closes")
+    return found
+
+
+def _items(latex: str) -> list[Token]:
+    """Tokens, runs of text as single characters."""
+    found: list[Token] = []
+    for token in tokenize(latex):
+        if token.kind == "text":
+            found += [Token("text", c, token.at + n) for n, c in enumerate(token.text) if not c.isspace()]
+        else:
+            found.append(token)
+    return found
+
+
+class _Reader:
+    def __init__(self, latex: str) -> None:
+        self.latex, self.items, self.place, self.depth = latex, _items(latex), 0, 0
+
+    def stop(self, what: str, help_: str) -> None:
+        item = self.items[min(self.place, len(self.items) - 1)] if self.items else Token("text", "", 0)
+        raise StopError(item.at, f"{item.text} {what}", help_)
+
+    def peek(self) -> Token | None:
+        return self.items[self.place] if self.place < len(self.items) else None
+
+    def take(self) -> Token:
+        item = self.items[self.place]
+        self.place += 1
+        return item
+
+    @property
+    def end(self) -> int:
+        """The place behind the last token that was taken."""
+        last = self.items[self.place - 1]
+        return last.at + len(last.text)
+
+    def argument(self, style: str = "") -> list[Box]:
+        """What is in braces, or the next single thing."""
+        item = self.peek()
+        if item is None:
+            self.place -= 1
+            self.stop("has no argument", "write it in braces")
+        elif item.kind == "open":
+            return self.group(style)
+        if item is not None and item.text.isdigit():
+            self.take()
+            return [Box("number", item.text, item.at, item.at + 1)]
+        return self.single(style)
+
+    def group(self, style: str = "") -> list[Box]:
+        opened = self.take()
+        found = self.sequence(("}",), style)
+        if self.peek() is None:
+            raise StopError(opened.at, "{ is not closed", "write the brace that closes it")
+        self.take()
+        return found
+
+    def plain(self) -> str:
+        """An argument in braces as it stands."""
+        item = self.peek()
+        if item is None or item.kind != "open":
+            return self.take().text if item else ""
+        start, depth = item.at + 1, 0
+        while (item := self.peek()) is not None:
+            self.take()
+            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            if depth == 0:
+                return self.latex[start : item.at]
+        return self.latex[start:]
+
+    def bracketed(self) -> str | None:
+        """An optional argument as it stands."""
+        item = self.peek()
+        if item is None or item.text != "[":
+            return None
+        start = item.at + 1
+        depth = 0
+        while (item := self.peek()) is not None:
+            self.take()
+            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            if item.text == "]" and depth == 0:
+                return self.latex[start : item.at]
+        return None
+
+    def sequence(self, ends: Iterable[str], style: str = "") -> list[Box]:
+        """Boxes until one of the ends comes next."""
+        ends = tuple(ends)
+        self.depth += 1
+        if self.depth > _MOST:
+            self.stop("is too deep", "write fewer brackets within brackets")
+        found: list[Box] = []
+        while (item := self.peek()) is not None and item.text not in ends:
+            if item.kind == "close" or item.text == r"\right" or (item.text in _CLOSE and item.text not in "]"):
+                break
+            if item.kind == "command" and item.text[1:] in _SWITCHES and item.text[1:] in STYLES:
+                self.take()
+                style = STYLES[item.text[1:]] or "upright"
+                continue
+            if item.kind == "script":
+                self.script(found)
+            elif item.text in ("'", "’", "′"):
+                self.take()
+                self.prime(found, item)
+            elif (
+                item.kind == "open"
+                and self.latex[item.at : item.at + 3] == "{,}"
+                and found
+                and found[-1].kind == "number"
+            ):
+                self.comma_in_number(found)
+            else:
+                self.extend(found, style)
+        self.depth -= 1
+        return found
+
+    def extend(self, found: list[Box], style: str) -> None:
+        made = self.single(style)
+        following = self.peek()
+        scripted = following is not None and following.kind == "script"
+        before = found[-1] if found else None
+        numbers = before is not None and before.kind == "number" and len(made) == 1 and made[0].kind == "number"
+        if numbers and before is not None and before.end == made[0].at and before.sup is None and before.sub is None:
+            before.name += made[0].name
+            before.end = made[0].end
+            return
+        if scripted and len(made) > 1:
+            made = [Box("group", "", made[0].at, self.end, [made])]
+        found += made
+
+    def comma_in_number(self, found: list[Box]) -> None:
+        self.place += 3
+        found[-1].name += "{,}"
+        found[-1].end = self.end
+        item = self.peek()
+        if item is None or not item.text.isdigit():
+            self.place -= 1
+            self.stop("is no part of a number", "write digits behind the comma")
+        while (item := self.peek()) is not None and item.text.isdigit():
+            found[-1].name += self.take().text
+            found[-1].end = self.end
+
+    def prime(self, found: list[Box], item: Token) -> None:
+        if not found:
+            raise StopError(item.at, "' has nothing before it", "write the letter that it belongs to")
+        found[-1].primes += 1
+        found[-1].end = item.at + 1
+
+    def script(self, found: list[Box]) -> None:
+        item = self.take()
+        target = found[-1] if found else None
+        if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
+            raise StopError(
+                item.at, f"{item.text} has nothing before it", "write the letter that the script belongs to"
+            )
+        content = self.argument()
+        if item.text == "^":
+            if content and all(b.kind == "letter" and b.name == "prime" for b in content):
+                target.primes += len(content)
+            elif target.sup is not None:
+                raise StopError(item.at, "two powers follow each other", "write braces around the first")
+            else:
+                target.sup = content
+        elif target.sub is not None:
+            raise StopError(item.at, "two indices follow each other", "write them in one pair of braces")
+        else:
+            target.sub = content
+        target.end = self.end
+
+    def single(self, style: str) -> list[Box]:
+        """The next thing without its scripts; a group in braces gives all it holds."""
+        item = self.take()
+        text = item.text
+        if item.kind == "open":
+            self.place -= 1
+            return self.group(style)
+        if item.kind == "command":
+            return self.command(item, style)
+        if item.kind in ("align",):
+            return []
+        if item.kind in ("math", "param", "stray", "raw"):
+            self.place -= 1
+            self.stop("cannot stand in a formula", "leave it out")
+        if text.isdigit() or (text == "." and (after := self.peek()) is not None and after.text.isdigit()):
+            return [self.number(item)]
+        if (name := _letter_of(text)) is not None:
+            return [self.letter(name, item, style)]
+        if text in _OPEN:
+            return [self.bracket(text, item)]
+        if text == ":" and (after := self.peek()) is not None and after.text == "=":
+            self.take()
+            return [Box("relation", ":=", item.at, self.end)]
+        if text in _CHARACTERS:
+            return [Box(*_CHARACTERS[text], item.at, self.end)]
+        self.place -= 1
+        self.stop("is not known", "write it in LaTeX")
+        return []
+
+    def number(self, item: Token) -> Box:
+        digits = item.text
+        while (after := self.peek()) is not None:
+            further = self.items[self.place + 1] if self.place + 1 < len(self.items) else None
+            point = after.text == "." and "." not in digits and further is not None and further.text.isdigit()
+            if point or (after.text.isdigit() and after.at == self.end):
+                digits += self.take().text
+            else:
+                break
+        return Box("number", digits, item.at, self.end)
+
+    def letter(self, name: str, item: Token, style: str = "", upright: bool = False) -> Box:
+        return Box(
+            "letter",
+            name,
+            item.at,
+            self.end,
+            style="" if style == "upright" else style,
+            upright=upright or style == "upright",
+        )
+
+    def command(self, item: Token, style: str) -> list[Box]:
+        name = item.text[1:]
+        if item.text in GREEK or name in _MARKS:
+            return [self.letter(name, item, style)]
+        if name in _COMMANDS:
+            return [Box(*_COMMANDS[name], item.at, self.end)]
+        if name in _NOTHING:
+            return self.nothing(name)
+        if name in ACCENTS:
+            return [self.accent(name, item, style)]
+        if name in RELATIONS:
+            return [self.relation(name, item)]
+        if item.text in _OPEN:
+            return [self.bracket(item.text, item)]
+        if name == "left" or _SIZES.fullmatch(name):
+            return self.sized(item, name)
+        if (special := _FORMS.get(name.rstrip("*"))) is not None:
+            return special(self, item, style)
+        if name in STYLES:
+            return self.styled(name, item)
+        self.place -= 1
+        self.stop("is not known", "write what it stands for, or define it by \\newcommand")
+        return []
+
+    def nothing(self, name: str) -> list[Box]:
+        """Take a command that prints nothing, with its length where it has one."""
+        if name in ("hskip", "kern", "mkern"):
+            while (after := self.peek()) is not None and (after.text in ".-" or after.text.isdigit()):
+                self.take()
+            for _ in range(2):
+                if (after := self.peek()) is not None and after.text.isalpha():
+                    self.take()
+        return []
+
+    def relation(self, name: str, item: Token) -> Box:
+        if name == "not":
+            self.take()
+        return Box("relation", RELATIONS[name], item.at, self.end)
+
+    def accent(self, name: str, item: Token, style: str) -> Box:
+        content = self.argument(style)
+        mark = ACCENTS[name]
+        if len(content) == 1 and content[0].kind == "letter" and content[0].sup is None and not content[0].primes:
+            box = content[0]
+            box.marks += (mark,)
+            box.at, box.end = item.at, self.end
+            return box
+        return Box("accent", mark, item.at, self.end, [content])
+
+    def styled(self, name: str, item: Token) -> list[Box]:
+        r"""\mathbf{r}, \mathrm{kin}, \text{and}: letters one by one, or a word."""
+        style = STYLES[name]
+        if name == "operatorname" and (after := self.peek()) is not None and after.text == "*":
+            self.take()
+        word = (
+            self.plain_ahead()
+            if name in ("text", "textbf", "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
+            else None
+        )
+        if word is not None:
+            stripped = word.strip()
+            if name in ("text", "textbf"):
+                self.plain()
+                return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
+            if re.fullmatch(r"[A-Za-z]{2,}", stripped):
+                self.plain()
+                if stripped in FUNCTIONS:
+                    return [Box("function", stripped, item.at, self.end)]
+                if name == "operatorname":
+                    return [Box("function", stripped, item.at, self.end)]
+                if stripped[0] == "d" and len(stripped) == 2 and name == "mathrm":
+                    d = Box("letter", "d", item.at, item.at + 1, upright=True)
+                    return [d, Box("letter", stripped[1], item.at + 1, self.end)]
+                return [Box("letter", stripped, item.at, self.end, upright=True)]
+            if name == "mathrm" and _is_unit(stripped):
+                self.plain()
+                return [Box("unit", stripped, item.at, self.end)]
+        content = self.argument(style or "upright")
+        for box in content:
+            if box.kind == "letter" and style:
+                box.style = style
+            elif box.kind == "letter":
+                box.upright = True
+        return content
+
+    def plain_ahead(self) -> str | None:
+        """The argument in braces that comes next, as it stands, without taking it."""
+        place = self.place
+        item = self.peek()
+        if item is None or item.kind != "open":
+            return None
+        word = self.plain()
+        self.place = place
+        return word
+
+    def sized(self, item: Token, name: str) -> list[Box]:
+        r"""\left( … \right), \bigl(, \middle|."""
+        after = self.peek()
+        if after is None:
+            self.place -= 1
+            self.stop("has no bracket", "write one")
+            return []
+        if name != "left":
+            if after.text in ("|", r"\|", r"\vert", r"\Vert"):
+                self.take()
+                double = after.text in (r"\|", r"\Vert")
+                return [Box("bar", "||" if double else "|", item.at, self.end)]
+            return []  # a bracket of another size: the bracket comes next
+        opening = self.take().text
+        parts: list[list[Box]] = [self.sequence((r"\right",))]
+        if self.peek() is None:
+            raise StopError(item.at, r"\left is not closed", r"write \right with its bracket")
+        self.take()
+        if self.peek() is None:
+            raise StopError(item.at, r"\right has no bracket", "write one, or a full stop")
+        closing = self.take().text
+        return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
+
+    def bracket(self, opening: str, item: Token) -> Box:
+        closing = _OPEN[opening]
+        content = self.sequence((closing,))
+        after = self.peek()
+        if after is not None and after.text.startswith("\\") and _SIZES.fullmatch(after.text[1:]):
+            self.take()
+            after = self.peek()
+        if after is None or after.text != closing:
+            raise StopError(item.at, f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+        self.take()
+        return Box("bracket", opening, item.at, self.end, [content], closing=closing)
+
+    # ---- commands with a form of their own
+
+    def _frac(self, item: Token, style: str) -> list[Box]:
+        over, under = self.argument(), self.argument()
+        return [Box("fraction", "", item.at, self.end, [over, under])]
+
+    def _sqrt(self, item: Token, style: str) -> list[Box]:
+        degree = self.bracketed()
+        content = self.argument()
+        parts = [content] + ([boxes(degree)] if degree else [])
+        return [Box("root", "", item.at, self.end, parts)]
+
+    def _begin(self, item: Token, style: str) -> list[Box]:
+        name = self.plain()
+        if name in _MATRICES or name in ROWS or name in _CASES:
+            self.bracketed()
+            if name in ("array", "alignedat", "alignat", "IEEEeqnarraybox"):
+                self.plain()
+            kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
+            rows = self.rows(name, item)
+            return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
+        raise StopError(item.at, rf"\begin{{{name}}} is not known", "write the formula without this environment")
+
+    def rows(self, name: str, item: Token) -> list[list[list[Box]]]:
+        """Rows of cells until the environment ends."""
+        rows: list[list[list[Box]]] = [[[]]]
+        while True:
+            rows[-1][-1] += self.sequence(("&", r"\\", r"\end", r"\hline", r"\cr"))
+            after = self.peek()
+            if after is None or after.text not in ("&", r"\\", r"\end", r"\hline", r"\cr"):
+                raise StopError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
+            self.take()
+            if after.text == "&":
+                rows[-1].append([])
+            elif after.text in (r"\\", r"\cr"):
+                self.bracketed()
+                rows.append([[]])
+            elif after.text == r"\end":
+                self.plain()
+                return [row for row in rows if any(row)]
+
+    def _binom(self, item: Token, style: str) -> list[Box]:
+        over, under = self.argument(), self.argument()
+        return [Box("binomial", "", item.at, self.end, [over, under])]
+
+    def _overset(self, item: Token, style: str) -> list[Box]:
+        self.plain()
+        return self.argument(style)
+
+    def _underbrace(self, item: Token, style: str) -> list[Box]:
+        content = self.argument(style)
+        after = self.peek()
+        if after is not None and after.kind == "script":
+            self.take()
+            self.plain() if (following := self.peek()) is not None and following.kind == "open" else self.take()
+        return [Box("group", "", item.at, self.end, [content])]
+
+    def _xrightarrow(self, item: Token, style: str) -> list[Box]:
+        self.bracketed()
+        self.plain()
+        return [Box("relation", "->", item.at, self.end)]
+
+    def _substack(self, item: Token, style: str) -> list[Box]:
+        raise StopError(item.at, r"\substack is not read", "write the condition in one line")
+
+    def _label(self, item: Token, style: str) -> list[Box]:
+        self.plain()
+        return []
+
+    def _hspace(self, item: Token, style: str) -> list[Box]:
+        self.plain()
+        return [Box("thin", "", item.at, self.end)]
+
+    def _pmod(self, item: Token, style: str) -> list[Box]:
+        raise StopError(item.at, r"\pmod is not read", "keep it aside")
+
+
+def _is_unit(word: str) -> bool:
+    """Whether upright letters are a unit of several parts, such as m/s^2."""
+    parts = re.search(r"[A-Za-z].*[A-Za-z/^]|\\[,.%]|[/]|%", word) and not word.startswith("{")
+    return bool(parts and re.fullmatch(r"[A-Za-z\d\s/^{}.,\\\-~·%]+", word) and not re.search(r"\\[A-Za-z]", word))
+
+
+def _letter_of(text: str) -> str | None:
+    """The name of the letter that a character is."""
+    return text if text.isascii() and text.isalpha() else _UNICODE.get(text)
+
+
+_SIMPLE = {
+    "partial": "partial", "nabla": "nabla", "infty": "infinity", "vert": "bar", "Vert": "bar", "%": "percent", "forall": "arrow",
+    "exists": "arrow", "square": "square", "Box": "square", "triangle": "letter", "degree": "degree", "emptyset": "letter",
+}  # fmt: skip
+
+
+_MARKS = ("prime", "dagger", "top", "intercal", "hslash", "complement")
+# Characters and commands that are a box by themselves: (kind, name).
+_CHARACTERS: dict[str, tuple[str, str]] = {
+    **{text: ("operator", name) for text, name in _OPERATORS.items() if len(text) == 1},
+    **{text: ("relation", name) for text, name in RELATIONS.items() if not text.isalpha()},
+    **{text: ("comma", text) for text in ",;."},
+    **{":": ("operator", ":"), "!": ("operator", "!"), "|": ("bar", "|"), "~": ("thin", ""), " ": ("thin", "")},
+    **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "")},
+}
+_COMMANDS: dict[str, tuple[str, str]] = {
+    **dict.fromkeys(_WIDE, ("wide", "")),
+    **dict.fromkeys(_THIN, ("thin", "")),
+    **{name: ("operator", sign) for name, sign in _OPERATORS.items() if name.isalpha()},
+    **{name: ("arrow", name) for name in ARROWS},
+    **{name: ("dots", name) for name in _DOTS},
+    **{name: ("big", name) for name in BIG},
+    **{name: ("function", name) for name in FUNCTIONS},
+    **{name: (kind, name) for name, kind in _SIMPLE.items()},
+    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|")},
+}
+Form = Callable[[_Reader, Token, str], list[Box]]
+_FORMS: dict[str, Form] = {
+    **dict.fromkeys(("frac", "dfrac", "tfrac", "cfrac"), _Reader._frac),
+    "sqrt": _Reader._sqrt,
+    "begin": _Reader._begin,
+    **dict.fromkeys(("binom", "dbinom", "tbinom"), _Reader._binom),
+    **dict.fromkeys(("overset", "stackrel", "underset"), _Reader._overset),
+    **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
+    **dict.fromkeys(("xrightarrow", "xleftarrow"), _Reader._xrightarrow),
+    "substack": _Reader._substack,
+    **dict.fromkeys(("label", "cite", "vspace", "tag"), _Reader._label),
+    "hspace": _Reader._hspace,
+    "pmod": _Reader._pmod,
+}

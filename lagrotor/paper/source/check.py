@@ -1,0 +1,447 @@
+r"""What can be judged of a source without any derivation: chains step by step, equations against those they cite, dimensions,
+orders, letters.
+
+No reading is confirmed here: what agrees "would hold", what differs "would be refuted". A step of a chain may rest on physics
+that is in the text; it is refuted only where its right side has no letter but those of the left, no equation before relates
+these, the difference is decided, and one change of sign, factor or power makes the two sides agree: a slip, not a law.
+"""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
+from fractions import Fraction
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.algebra import agreement_order, decide_equal
+from lagrotor.errors import LagrotorError
+from lagrotor.paper.source.dimensions import Dimensions
+from lagrotor.paper.source.displays import Displayed, Source
+from lagrotor.paper.source.formula import Reading, Side, Statement, read_formula
+from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, expression, letters_of, text_of, walk
+from lagrotor.paper.source.usage import Notation, notation_of
+
+HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
+    "would hold", "would be refuted", "dimensions differ", "two meanings", "used before it is given",
+)  # fmt: skip
+FOUND = (REFUTED, UNITS, MEANINGS, BEFORE)
+WRONG = (REFUTED, UNITS)
+# Terms of which each is tried with the other sign, to say what is wrong; operations beyond which a step is not decided.
+_MOST_TERMS, _MOST_OPERATIONS = 12, 2000
+# Changes that are tried to find a slip; equations back to which a step may refer.
+_MOST_SLIPS, _MEMORY = 60, 60
+# Dimensions are reported where few equations break them: others are printed in units of their own.
+_FEW, _SHARE = 3, 0.05
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What was found of one equation: `step` counts the relations of its chain from 1; 0: of the whole."""
+
+    equation: str
+    step: int
+    line: int
+    verdict: str
+    why: str
+    file: str = ""
+
+    def as_data(self) -> dict[str, Any]:
+        """{equation, step, line, verdict, why}, and the file where it is not the source itself."""
+        row = asdict(self)
+        return row if self.file else {key: value for key, value in row.items() if key != "file"}
+
+
+@dataclass(frozen=True)
+class _Read:
+    """One statement of an equation."""
+
+    equation: Displayed
+    statement: Statement
+
+
+def check(source: Path) -> list[Finding]:
+    """The findings on a source, in its order. Raises InputError for a file that cannot be read."""
+    return check_source(read_source(source))
+
+
+def check_source(source: Source) -> list[Finding]:
+    """The findings on the displayed equations of a source."""
+    notation = notation_of([*(each.latex for each in source.equations), *source.inline])
+    readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
+    checker = _Checker(source, readings, notation)
+    order = {each.id: place for place, each in enumerate(source.equations)}
+    return sorted(checker.findings(), key=lambda found: (order[found.equation], found.step))
+
+
+class _Checker:
+    def __init__(self, source: Source, readings: list[tuple[Displayed, Reading]], notation: Notation) -> None:
+        self.source, self.readings, self.notation = source, readings, notation
+        self.opaque = Opaque()
+        self.before: list[_Read] = []
+        self.statements = [_Read(each, s) for each, reading in readings for s in reading.statements]
+
+    def findings(self) -> Iterator[Finding]:
+        """Every finding."""
+        for each, reading in self.readings:
+            if not reading.whole:
+                what, helps = reading.stop or ("", "")
+                yield self._finding(each, 0, None, "not read", f"{what}: {helps}")
+                continue
+            for place, statement in enumerate(reading.statements):
+                yield from self._steps(each, self._continued(each, statement) if not place else statement, reading)
+            yield from self._against_cited(each, reading)
+            self.before += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
+        yield from self._dimensions()
+        yield from self._letters()
+
+    def _finding(self, each: Displayed, step: int, side: Side | None, verdict: str, why: str) -> Finding:
+        line = each.place[1]
+        if side is not None and len(each.rows) > 1:
+            line = each.rows[min(each.latex[: side.at].count(r"\\"), len(each.rows) - 1)]
+        own = Path(each.place[0]).name
+        main = self.source.equations[0].place[0]
+        return Finding(each.id, step, line, verdict, why, own if own != main else "")
+
+    # ---- chains
+
+    def _steps(self, each: Displayed, statement: Statement, reading: Reading) -> Iterator[Finding]:
+        """Each step of a chain but the first, which says what is meant."""
+        sides = statement.sides
+        for step in range(1, len(sides)):
+            left, right, relation = sides[step - 1], sides[step], statement.relations[step - 1]
+            last = step == len(sides) - 1
+            if statement.order is not None and last and step > 1:
+                yield from self._order(each, step, left, right, statement.order)
+                continue
+            if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
+                continue
+            verdict, why = self._step(left.node, right.node, first=step == 1)
+            if reading.guesses and verdict == REFUTED:
+                verdict, why = "undecided", f"{why}; but {reading.guesses[0]} is a guess"
+            if step > 1 or verdict == HOLDS:
+                yield self._finding(each, step, right, verdict, why)
+
+    def _continued(self, each: Displayed, statement: Statement) -> Statement:
+        """A row that continues the one before, with the last side of that row in its place."""
+        place = self.source.equations.index(each)
+        before = self.readings[place - 1][1] if each.lead and place else None
+        if (
+            before is None
+            or not before.whole
+            or before.statements[-1].kind != "equation"
+            or before.statements[-1].order
+        ):
+            return statement
+        last = replace(before.statements[-1].sides[-1], at=0)
+        first = replace(statement.sides[0], at=0)
+        shifted = [replace(side, at=max(side.at - len(each.lead) - 1, 0)) for side in statement.sides[1:]]
+        return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
+
+    def _identity(self, left: Node, right: Node) -> bool:
+        """Whether the first step may be an identity: no letter stands alone."""
+        return (
+            not isinstance(left, Letter)
+            and not isinstance(right, Letter)
+            and bool(letters_of(right))
+            and isinstance(left, Call)
+        )
+
+    def _step(self, left: Node, right: Node, first: bool) -> tuple[str, str]:
+        try:
+            a, b = expression(left, self.opaque), expression(right, self.opaque)
+        except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
+            return "undecided", f"the two sides cannot be compared: {error}"
+        answer = decided(a, b)
+        if answer == "zero":
+            return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
+        given, used = self._put_in(a, b)
+        if used and decided(*given) == "zero":
+            return HOLDS, f"with {', '.join(used)}"
+        if answer == "undecided":
+            return "undecided", "the difference is outside what is decided exactly"
+        if answer == "shape":
+            return "undecided", "one side is printed as a vector, the other as a number"
+        return self._refuted(left, right, a, b)
+
+    def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
+        """Whether a difference that is not zero refutes the step."""
+        own, others = set(letters_of(left)), set(letters_of(right))
+        if self._has_opaque(left) or self._has_opaque(right):
+            return "undecided", "derivatives, integrals or functions may be related"
+        if more := sorted(others - own):
+            return "undecided", f"{', '.join(more)} may be related to the letters before"
+        if not others and own:
+            return "undecided", "it is a condition, not an identity"
+        if related := self._related(own):
+            return "undecided", f"{', '.join(related)} may be used"
+        difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
+        if (slip := self._slip(left, right, a, b)) is not None:
+            return REFUTED, f"the two sides differ by {difference}; {slip}"
+        return "undecided", f"the two sides differ by {difference}: it may be a condition"
+
+    def _slip(self, left: Node, right: Node, a: Any, b: Any) -> str | None:
+        """The one change with which the two sides agree."""
+        symbols = sorted({*a.free_symbols, *b.free_symbols}, key=str)
+        point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
+        for fixed, changing in ((a, right), (b, left)):
+            value = _number(fixed, point)
+            for mutant, said in islice(slips(changing), _MOST_SLIPS):
+                try:
+                    other = expression(mutant, self.opaque)
+                except (TypeError, ValueError, ArithmeticError, AttributeError):
+                    continue
+                if _near(value, _number(other, point)) and decided(fixed, other) == "zero":
+                    return f"with {said} they agree"
+        return None
+
+    @staticmethod
+    def _has_opaque(node: Node) -> bool:
+        known = {
+            "sum",
+            "product",
+            "quotient",
+            "power",
+            "negative",
+            "sin",
+            "cos",
+            "tan",
+            "cot",
+            "sinh",
+            "cosh",
+            "tanh",
+            "exp",
+            "sqrt",
+        }
+        return any(
+            isinstance(each, Call) and each.name not in known | {"cross", "dot", "norm", "Abs", "log"}
+            for each in walk(node)
+        )
+
+    def _related(self, letters: set[str]) -> list[str]:
+        """Equations before that relate these letters and no others, besides definitions that were put in."""
+        found = []
+        for read in self.before[-_MEMORY:]:
+            sides = read.statement.sides
+            names = {name for side in sides for name in letters_of(side.node)}
+            if names and names <= letters and len(names) > 1:
+                found.append(f"({read.equation.id})")
+        return list(dict.fromkeys(found))
+
+    def _put_in(self, a: Any, b: Any) -> tuple[tuple[Any, Any], list[str]]:
+        """Both sides with the definitions before put in, and the equations that were used."""
+        used: list[str] = []
+        for _ in range(4):
+            free = {s.name for side in (a, b) for s in side.free_symbols}
+            meanings = {}
+            for read in self.before[-_MEMORY:]:
+                first, last = read.statement.sides[0].node, read.statement.sides[-1].node
+                if not isinstance(first, Letter) or first.vector or first.name not in free:
+                    continue
+                if first.name in letters_of(last):
+                    continue
+                try:
+                    value = expression(last, self.opaque)
+                except (TypeError, ValueError, ArithmeticError, AttributeError):
+                    continue
+                if isinstance(value, sp.MatrixBase):
+                    continue
+                meanings[sp.Symbol(first.name, real=True)] = value, f"({read.equation.id})"
+            if not meanings:
+                break
+            values = {symbol: value for symbol, (value, _) in meanings.items()}
+            used += [name for _, name in meanings.values()]
+            a, b = a.subs(values), b.subs(values)
+        return (a, b), list(dict.fromkeys(used))
+
+    def _order(self, each: Displayed, step: int, left: Side, right: Side, order: tuple[str, int]) -> Iterator[Finding]:
+        """A step that is claimed through an order of a small letter."""
+        name, power = order
+        small = sp.Symbol(name, real=True)
+        try:
+            a, b = expression(left.node, self.opaque), expression(right.node, self.opaque)
+            if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
+                return
+            term = agreement_order(a, b, small, power + 2)
+        except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
+            yield self._finding(each, step, right, "undecided", "the series cannot be compared")
+            return
+        through = getattr(term, "order", None)
+        if through is None or through >= power:
+            yield self._finding(each, step, right, HOLDS, f"through order {power - 1} in {name}")
+        else:
+            yield self._finding(
+                each,
+                step,
+                right,
+                REFUTED,
+                f"the two sides part at order {through} in {name}; O({name}**{power}) is claimed",
+            )
+
+    # ---- equations and what they cite
+
+    def _against_cited(self, each: Displayed, reading: Reading) -> Iterator[Finding]:
+        """An equation against two that the text before it names, where the one is a definition in the other."""
+        if len(each.cites) < 2 or len(reading.statements) != 1:
+            return
+        named = [read for label in each.cites for read in self.before if read.equation.label == label]
+        new = self._difference(reading.statements[0])
+        if new is None:
+            return
+        for definition in named:
+            first = definition.statement.sides[0].node
+            if not isinstance(first, Letter) or len(definition.statement.sides) != 2:
+                continue
+            value = expression(definition.statement.sides[1].node, self.opaque)
+            for other in named:
+                old = self._difference(other.statement)
+                symbol = sp.Symbol(first.name, real=True)
+                if (
+                    other is definition
+                    or old is None
+                    or symbol not in old.free_symbols
+                    or isinstance(value, sp.MatrixBase)
+                ):
+                    continue
+                put = old.subs(symbol, value)
+                names = f"({definition.equation.id}) in ({other.equation.id})"
+                if put.free_symbols != new.free_symbols:
+                    continue
+                if _proportional(put, new):
+                    yield self._finding(each, 0, None, HOLDS, f"it is {names}")
+                elif (term := _flipped(put, new)) is not None:
+                    why = f"{names} gives it with the other sign of {sp.sstr(term)}"
+                    verdict = "undecided" if reading.guesses else REFUTED
+                    yield self._finding(each, 0, None, verdict, why)
+                else:
+                    yield self._finding(each, 0, None, "undecided", f"it is not {names} alone")
+                return
+
+    def _difference(self, statement: Statement) -> sp.Expr | None:
+        if (
+            statement.kind != "equation"
+            or len(statement.sides) != 2
+            or any(self._has_opaque(s.node) for s in statement.sides)
+        ):
+            return None
+        try:
+            left, right = (expression(side.node, self.opaque) for side in statement.sides)
+        except (TypeError, ValueError, ArithmeticError, AttributeError):
+            return None
+        return None if isinstance(left, sp.MatrixBase) or isinstance(right, sp.MatrixBase) else left - right
+
+    # ---- dimensions and letters
+
+    def _dimensions(self) -> Iterator[Finding]:
+        """Equations whose dimensions contradict those of the others."""
+        known = Dimensions()
+        broken = []
+        for read in self.statements:
+            compared = read.statement.kind in ("equation", "approximation", "inequality")
+            if compared and (why := known.add(side.node for side in read.statement.sides)) is not None:
+                broken.append((read, why))
+        if len(broken) <= max(_FEW, _SHARE * len(self.statements)) and len(broken) < len(self.statements) / 2:
+            for read, why in broken:
+                yield self._finding(read.equation, 0, None, UNITS, why)
+
+    def _letters(self) -> Iterator[Finding]:
+        """Letters that are defined twice, used before they are given, or have two meanings."""
+        definitions: dict[str, tuple[int, _Read]] = {}
+        for place, read in enumerate(self.statements):
+            first = read.statement.sides[0].node
+            if not isinstance(first, Letter) or ":=" not in read.statement.relations[:1]:
+                continue
+            if first.name in definitions:
+                _, other = definitions[first.name]
+                a, b = (expression(r.statement.sides[1].node, self.opaque) for r in (other, read))
+                if decided(a, b) == "nonzero" and decided(*self._put_in(a, b)[0]) == "nonzero":
+                    yield self._finding(
+                        read.equation, 0, None, MEANINGS, f"{first.name} is defined in ({other.equation.id}) otherwise"
+                    )
+                continue
+            definitions[first.name] = place, read
+        for name, (place, read) in definitions.items():
+            users = [
+                r for r in self.statements[:place] if name in {n for s in r.statement.sides for n in letters_of(s.node)}
+            ]
+            if users and users[0].equation.id != read.equation.id:
+                yield self._finding(users[0].equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
+        if self.notation.exponential and "e" in self.notation.bare:
+            yield self._finding(self.readings[0][0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
+
+
+def slips(node: Node) -> Iterator[tuple[Node, str]]:
+    """The node with one sign, one factor 2 or one power changed, and what was changed."""
+    if not isinstance(node, Call):
+        return
+    if node.name == "sum":
+        for place, term in enumerate(node.args):
+            other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
+            yield _with(node, place, other), f"the sign of {text_of(term)} changed"
+            yield _with(node, place, Call("product", (Number(Fraction(2)), term))), f"{text_of(term)} doubled"
+            yield _with(node, place, Call("quotient", (term, Number(Fraction(2))))), f"{text_of(term)} halved"
+    if node.name == "power" and isinstance(node.args[1], Number):
+        for more in (1, -1):
+            yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
+    for place, part in enumerate(node.args):
+        for changed, said in slips(part):
+            yield _with(node, place, changed), said
+
+
+def _with(node: Call, place: int, part: Node) -> Call:
+    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
+
+
+def _number(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
+    entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
+    return sp.N(entry.xreplace(point), 15)
+
+
+def _near(a: Any, b: Any) -> bool:
+    try:
+        return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
+    except TypeError:
+        return False
+
+
+def decided(a: Any, b: Any) -> str:
+    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
+    matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
+    if any(matrices) and not all(matrices):
+        return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
+    if all(matrices):
+        return _all(a - b)
+    return _single(a, b)
+
+
+def _all(matrix: sp.MatrixBase) -> str:
+    answers = {_single(entry, sp.S.Zero) for entry in matrix}
+    return "nonzero" if "nonzero" in answers else "undecided" if "undecided" in answers else "zero"
+
+
+def _single(a: Any, b: Any) -> str:
+    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)) or sp.count_ops(a - b) > _MOST_OPERATIONS:
+        return "undecided"
+    try:
+        found = decide_equal(a, b)
+    except (LagrotorError, TypeError, ValueError, ArithmeticError):
+        return "undecided"
+    return "undecided" if found.partly else found.answer
+
+
+def _proportional(a: sp.Expr, b: sp.Expr) -> bool:
+    """Whether two differences say the same: their quotient is a product of letters and numbers."""
+    ratio = sp.cancel(sp.together(a) / sp.together(b))
+    return not any(
+        isinstance(part, sp.Add) for factor in ratio.as_numer_denom() for part in sp.Mul.make_args(sp.factor(factor))
+    )
+
+
+def _flipped(a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
+    """The term of b with whose sign changed the two say the same."""
+    terms = sp.Add.make_args(sp.expand(b))
+    if len(terms) > _MOST_TERMS:
+        return None
+    return next((term for term in terms if _proportional(a, sp.expand(b) - 2 * term)), None)

@@ -1,0 +1,126 @@
+r"""LaTeX's counters: what resets what, and how a number is printed, \theequation."""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+# The classes that have chapters, in which equations are numbered by chapter.
+_WITH_CHAPTERS = (
+    "book",
+    "report",
+    "memoir",
+    "scrbook",
+    "scrreprt",
+    "ctexbook",
+    "ctexrep",
+    "extbook",
+    "extreport",
+    "tufte-book",
+)
+_SECTIONS = ("part", "chapter", "section", "subsection", "subsubsection", "paragraph", "subparagraph")
+
+
+class Counters:
+    """Values by name; `within`: counter → (the one it is numbered by, style)."""
+
+    def __init__(self) -> None:
+        self.values = dict.fromkeys((*_SECTIONS, "equation", "parentequation", "figure", "table"), 0)
+        self.within: dict[str, tuple[str, str]] = {}
+        self.resets: dict[str, list[str]] = {}
+        self.chapters = self.appendix = self.journal = False
+        for outer, inner in pairwise(_SECTIONS[1:]):
+            self.reset_by(inner, outer)
+
+    def begin(self, document_class: str) -> None:
+        """What a class sets."""
+        self.chapters = document_class in _WITH_CHAPTERS
+        self.journal = document_class.startswith("revtex")
+        if self.chapters:
+            self.reset_by("equation", "chapter")
+
+    def add(self, name: str, within: str = "") -> None:
+        """A new counter."""
+        self.values.setdefault(name, 0)
+        if within:
+            self.reset_by(name, within)
+
+    def reset_by(self, name: str, parent: str) -> None:
+        """A step of `parent` sets `name` to zero."""
+        self.values.setdefault(name, 0)
+        if name not in self.resets.setdefault(parent, []):
+            self.resets[parent].append(name)
+
+    def free(self, name: str, parent: str) -> None:
+        """No step of `parent` sets `name` to zero any more."""
+        if name in self.resets.get(parent, []):
+            self.resets[parent].remove(name)
+        self.within[name] = "", "arabic"
+
+    def step(self, name: str) -> None:
+        """One more; what it resets begins again."""
+        self.values[name] = self.values.get(name, 0) + 1
+        self._reset(name)
+
+    def _reset(self, name: str) -> None:
+        for inner in self.resets.get(name, []):
+            self.values[inner] = 0
+            self._reset(inner)
+
+    def begin_appendix(self) -> None:
+        r"""What \appendix does."""
+        self.appendix = True
+        for name in ("chapter", "section") if self.chapters else ("section", "subsection"):
+            self.values[name] = 0
+        if self.journal:
+            self.reset_by("equation", "section")
+
+    def printed(self, name: str, printed: Callable[[str], str]) -> str:
+        r"""A counter as its class prints it; printed: how others are, which the author may have changed."""
+        value = self.values.get(name, 0)
+        if name in self.within:
+            parent, style = self.within[name]
+            own = self.style(value, style)
+            return f"{printed(parent)}.{own}" if parent else own
+        if name == "chapter":
+            return self.style(value, "Alph" if self.appendix else "arabic")
+        if name == "section":
+            if self.chapters:
+                return f"{printed('chapter')}.{value}"
+            return self.style(value, "Alph" if self.appendix else "Roman" if self.journal else "arabic")
+        if name in ("subsection", "subsubsection"):
+            outer = "section" if name == "subsection" else "subsection"
+            return f"{printed(outer)}.{value}" if not self.journal else self.style(value, "Alph")
+        if name == "equation" and self.chapters and self.values["chapter"] > 0:
+            return f"{printed('chapter')}.{value}"
+        if name == "equation" and self.journal and self.appendix:
+            return f"{printed('section')}{value}"
+        return str(value)
+
+    @staticmethod
+    def style(value: int, style: str) -> str:
+        """A number in arabic, roman, Roman, alph or Alph."""
+        if style in ("roman", "Roman"):
+            roman = _roman(value)
+            return roman if style == "roman" else roman.upper()
+        if style in ("alph", "Alph"):
+            letter = chr(ord("a") + value - 1) if 0 < value <= 26 else str(value)
+            return letter if style == "alph" else letter.upper()
+        return str(value)
+
+
+def _roman(value: int) -> str:
+    found = ""
+    marks = (
+        (1000, "m"),
+        (900, "cm"),
+        (500, "d"),
+        (400, "cd"),
+        (100, "c"),
+        (90, "xc"),
+        (50, "l"),
+        (40, "xl"),
+        (10, "x"),
+    )
+    for size, mark in (*marks, (9, "ix"), (5, "v"), (4, "iv"), (1, "i")):
+        found += mark * (value // size)
+        value %= size
+    return found

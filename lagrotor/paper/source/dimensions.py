@@ -1,0 +1,166 @@
+"""The dimensions of a paper's letters as its equations need them: each sum is of like terms, dots are per time.
+
+The dimension of a letter is unknown; each equation gives linear relations between the logarithms. Time, and the units that are
+printed, are known not to be numbers: where a relation says so, the equation contradicts those before.
+"""
+
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, text_of
+
+Row = dict[str, Fraction]
+_BASES = ("[time]", "[kg]", "[m]", "[A]", "[K]", "[mol]", "[cd]")
+_UNITS = {
+    "s": {"[time]": 1}, "m": {"[m]": 1}, "kg": {"[kg]": 1}, "A": {"[A]": 1}, "K": {"[K]": 1}, "g": {"[kg]": 1}, "rad": {},
+    "N": {"[kg]": 1, "[m]": 1, "[time]": -2}, "J": {"[kg]": 1, "[m]": 2, "[time]": -2}, "Hz": {"[time]": -1},
+    "W": {"[kg]": 1, "[m]": 2, "[time]": -3}, "cm": {"[m]": 1}, "mm": {"[m]": 1}, "km": {"[m]": 1}, "ms": {"[time]": 1},
+    "Pa": {"[kg]": 1, "[m]": -1, "[time]": -2}, "min": {"[time]": 1}, "h": {"[time]": 1},
+}  # fmt: skip
+_NUMBERS = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "exp", "log", "asin", "acos", "atan")
+
+
+class _UnknownError(Exception):
+    """A dimension that cannot be given."""
+
+
+class Dimensions:
+    """What the equations so far say, as rows in echelon form."""
+
+    def __init__(self) -> None:
+        self.rows: dict[str, Row] = {}
+        self.pending: list[tuple[Row, str]] = []
+
+    def add(self, sides: Iterable[Node]) -> str | None:
+        """Take in an equation; a sentence where it contradicts those before, and then it is left out."""
+        self.pending = []
+        try:
+            self._alike([self._of(side) for side in sides if not _is_zero(side)], "the sides")
+        except _UnknownError:
+            return None
+        kept = dict(self.rows)
+        for row, where in self.pending:
+            reduced = self._reduced(row)
+            letters = [name for name in reduced if name not in _BASES]
+            if letters:
+                self._keep(letters[0], reduced)
+            elif reduced:
+                self.rows = kept
+                return f"{where} have different dimensions"
+        return None
+
+    def _reduced(self, row: Row) -> Row:
+        made = dict(row)
+        while (name := next((n for n in made if n in self.rows), None)) is not None:
+            factor = made.pop(name)
+            for other, value in self.rows[name].items():
+                made[other] = made.get(other, Fraction(0)) + factor * value
+            made = {n: v for n, v in made.items() if v}
+        return {n: v for n, v in made.items() if v}
+
+    def _keep(self, name: str, row: Row) -> None:
+        """name = −rest/factor."""
+        factor = row[name]
+        self.rows[name] = {other: -value / factor for other, value in row.items() if other != name}
+
+    def _alike(self, rows: list[Row], where: str) -> None:
+        for row in rows[1:]:
+            self.pending.append((_plus(rows[0], row, -1), where))
+
+    def _of(self, node: Node) -> Row:
+        """The dimension of a node; what it needs within is kept as pending."""
+        if isinstance(node, Number):
+            return {}
+        if isinstance(node, Letter):
+            return _letter(node.name)
+        if (
+            node.name in ("negative", "norm", "Abs", "mean", "transpose", "plus_minus", "minus_plus")
+            and len(node.args) == 1
+        ):
+            return self._of(node.args[0])
+        if node.name in ("sum", "plus_minus", "minus_plus"):
+            rows = [self._of(each) for each in node.args if not _is_zero(each)]
+            self._alike(rows, f"the terms of {text_of(node)}")
+            return rows[0] if rows else {}
+        if node.name in ("product", "dot", "cross", "matmul"):
+            total: Row = {}
+            for each in node.args:
+                total = _plus(total, self._of(each))
+            return total
+        if node.name == "quotient":
+            return _plus(self._of(node.args[0]), self._of(node.args[1]), -1)
+        if node.name == "sqrt":
+            return {n: v / 2 for n, v in self._of(node.args[0]).items()}
+        if node.name == "power":
+            return self._power(node)
+        if node.name in _NUMBERS:
+            self.pending.append((self._of(node.args[0]), f"the argument of {node.name} and a number"))
+            return {}
+        return self._analysis(node)
+
+    def _power(self, node: Call) -> Row:
+        base, exponent = node.args
+        inner = self._of(base)
+        value = _rational(exponent)
+        if value is None:
+            if inner:
+                raise _UnknownError
+            return {}
+        return {n: v * value for n, v in inner.items()}
+
+    def _analysis(self, node: Call) -> Row:
+        """Derivatives, integrals, sums and rates."""
+        if node.name == "rate":
+            return _plus(self._of(node.args[0]), {"[time]": Fraction(1)}, -1)
+        if node.name == "Derivative":
+            times = _rational(node.args[2]) if len(node.args) > 2 else Fraction(1)
+            return _plus(self._of(node.args[0]), self._of(node.args[1]), -(times or Fraction(1)))
+        if node.name == "differential" and len(node.args) == 1:
+            return self._of(node.args[0])
+        if node.name == "Integral" and len(node.args) in (2, 4):
+            return _plus(self._of(node.args[0]), self._of(node.args[1]))
+        if node.name == "Sum":
+            return self._of(node.args[0])
+        raise _UnknownError
+
+
+def _letter(name: str) -> Row:
+    if name in ("pi", "imaginary_unit"):
+        return {}
+    if name in ("oo", "all", "otherwise"):
+        raise _UnknownError
+    if name.startswith("unit_"):
+        unit = _UNITS.get(name.removeprefix("unit_"))
+        if unit is None:
+            raise _UnknownError
+        return {base: Fraction(power) for base, power in unit.items()}
+    if name == "t":
+        return {"[time]": Fraction(1)}
+    dots = re.search(r"_(d*)dot$", name)
+    if dots:
+        return _plus({name[: dots.start()]: Fraction(1)}, {"[time]": Fraction(1)}, -(len(dots[1]) + 1))
+    return {name: Fraction(1)}
+
+
+def _plus(a: Row, b: Row, times: int | Fraction = 1) -> Row:
+    made = dict(a)
+    for name, value in b.items():
+        made[name] = made.get(name, Fraction(0)) + times * value
+    return {name: value for name, value in made.items() if value}
+
+
+def _rational(node: Node) -> Fraction | None:
+    if isinstance(node, Number):
+        return node.value
+    if isinstance(node, Call) and node.name in ("negative", "quotient"):
+        parts = [_rational(each) for each in node.args]
+        if None in parts:
+            return None
+        first = parts[0] or Fraction(0)
+        return -first if node.name == "negative" else first / (parts[1] or Fraction(1))
+    return None
+
+
+def _is_zero(node: Node) -> bool:
+    return isinstance(node, Number) and node.value == 0 and not is_vector(node)

@@ -1,0 +1,532 @@
+r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text
+from lagrotor.paper.source import packages
+from lagrotor.paper.source.counters import Counters
+from lagrotor.paper.source.expansion import Expander, Macro
+from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
+
+# Each row of these is an equation with a number of its own; the others have one number.
+_ROWS = (
+    "align",
+    "gather",
+    "eqnarray",
+    "alignat",
+    "flalign",
+    "xalignat",
+    "xxalignat",
+    "IEEEeqnarray",
+    "numcases",
+    "subnumcases",
+)
+_ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath", "dmath", "math@")
+_WITH_ARGUMENT = ("alignat", "xalignat", "xxalignat", "IEEEeqnarray", "numcases", "subnumcases")
+_NEVER = ("displaymath", "xxalignat")
+_LEVELS = ("part", "chapter", "section", "subsection", "subsubsection")
+_BETWEEN = (r"\intertext", r"\shortintertext")
+_ROW_ENDS = (r"\\", r"\cr", *_BETWEEN)
+_NO_NUMBER = (r"\nonumber", r"\notag", r"\IEEEnonumber")
+_OPERATORS = re.compile(r"[+\-*/]|\\(?:times|cdot|pm|mp|div|wedge|otimes|circ)(?![A-Za-z])")
+_RELATIONS = re.compile(
+    r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
+    r"|overset|stackrel|longrightarrow|rightarrow|lesssim|gtrsim)(?![A-Za-z])"
+)
+_LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
+
+
+@dataclass(frozen=True)
+class Displayed:
+    """One displayed equation: `number` as printed, empty where it has none; `latex` expanded, without labels and numbers.
+
+    lead: the left side, in LaTeX, of the row before, which this row continues. place: file and line; rows: the line of each of
+    its rows. cites: labels that the text before it names.
+    """
+
+    id: str
+    section: str
+    number: str
+    label: str
+    latex: str
+    lead: str = ""
+    place: tuple[str, int] = ("", 0)
+    rows: tuple[int, ...] = ()
+    cites: tuple[str, ...] = ()
+
+
+@dataclass
+class Source:
+    """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formulas.
+
+    notes: what could not be known of it; preamble: packages that its formulas need.
+    """
+
+    title: str
+    authors: tuple[str, ...] = ()
+    sections: dict[str, str] = field(default_factory=dict)
+    equations: list[Displayed] = field(default_factory=list)
+    inline: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    preamble: str = ""
+    labels: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class Row:
+    """One row of a display as it is read."""
+
+    tokens: list[Token] = field(default_factory=list)
+    tag: str = ""
+    labels: list[str] = field(default_factory=list)
+    numbered: bool = True
+    number: str = ""
+    stepped: bool = False
+
+
+def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
+    """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
+    found = Source(title)
+    _Walker(text, file, found).read()
+    return found
+
+
+class _Walker:
+    """Walks through the expanded tokens and keeps the counters that LaTeX keeps."""
+
+    def __init__(self, text: str, file: Path | None, found: Source) -> None:
+        whole = r"\documentclass" in text
+        self.expander = Expander(text, file, packages.commands((), everything=not whole))
+        self.found, self.whole = found, whole
+        self.section, self.bare, self.numbered_chapters = "0", 0, True
+        self.last, self.since = "0", 0
+        self.parent = ""
+        self.cited: list[str] = []  # labels named since the last display
+        self.ids: set[str] = set()
+        self.only_cited = False
+        self.body = not whole
+
+    @property
+    def counters(self) -> Counters:
+        return self.expander.counters
+
+    def read(self) -> None:
+        for token in self.expander.tokens():
+            if token.kind == "command":
+                if token.text == r"\end" and self._name() == "document":
+                    break
+                self._command(token)
+            elif token.kind == "math" and self.body:
+                self._math(token)
+        self.found.notes = list(dict.fromkeys(self.expander.notes))
+        self.found.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED if name in self.expander.loaded)
+
+    def _name(self) -> str:
+        return latex_of(self.expander.argument()).strip()
+
+    def _command(self, token: Token) -> None:
+        name = token.text[1:]
+        if name == "begin":
+            self._begin(self._name(), token)
+        elif name in _LEVELS and self.body:
+            star = self.expander.star()
+            self.expander.optional()
+            self._section(name, latex_of(self.expander.argument()), star)
+        elif name == "title":
+            self.expander.optional()
+            self.found.title = _plain(latex_of(self.expander.argument())) or self.found.title
+        elif name == "author":
+            self.expander.optional()
+            names = re.split(r"\\and\b|\\\\|,", latex_of(self.expander.argument()))
+            self.found.authors += tuple(filter(None, map(_plain, names)))
+        elif name == "[":
+            self._display("displaymath", token, r"\]", starred=True)
+        elif name == "(":
+            self._inline(r"\)")
+        elif name == "appendix":
+            self.counters.begin_appendix()
+        elif name in ("frontmatter", "mainmatter", "backmatter"):
+            self.numbered_chapters = name == "mainmatter"
+        elif name == "mathtoolsset":
+            self.only_cited = "showonlyrefs" in latex_of(self.expander.argument())
+        elif name in ("eqref", "ref", "cref", "Cref", "autoref"):
+            labels = self._name()
+            self.cited += [label.strip() for label in labels.split(",")]
+
+    def _begin(self, name: str, token: Token) -> None:
+        if name == "document":
+            self.body = True
+            self.expander.packages = {
+                **packages.commands(self.expander.loaded),
+                **{k: v for k, v in self.expander.packages.items() if k not in packages.commands((), everything=True)},
+            }
+        elif name in ("subequations", "dgroup"):
+            kept = self._begin_subequations()
+            self._until(name)
+            self._end_subequations(kept)
+        elif name == "appendices":
+            self.counters.begin_appendix()
+        elif name == "empheq":
+            self.expander.optional()
+            inner = self._name()
+            self._display(inner.split("=")[0].rstrip("*"), token, "empheq", starred="*" in inner)
+        elif name.rstrip("*") in _ENVIRONMENTS and self.body:
+            if name.rstrip("*") in _WITH_ARGUMENT:
+                self.expander.optional()
+                argument = self.expander.argument()
+            else:
+                argument = []
+            options = latex_of(self.expander.optional() or ()) if name.startswith("dmath") else ""
+            lettered = self._begin_subequations() if name == "subnumcases" else None
+            lead = argument if "cases" in name else []
+            self._display(name.rstrip("*"), token, name, name.endswith("*"), lead, options)
+            if lettered is not None:
+                self._end_subequations(lettered)
+        elif name in ("math",):
+            self._inline_environment()
+
+    def _begin_subequations(self) -> tuple[int, Macro | None]:
+        """Number by letters within the next number; gives what is to be put back."""
+        macros, counters = self.expander.macros, self.counters
+        counters.step("equation")
+        kept = counters.values["equation"], macros.get(r"\theequation")
+        self.parent = self.expander.printed("equation")
+        counters.values["parentequation"] = kept[0]
+        macros[r"\theparentequation"] = Macro(tuple(tokenize(self.parent)))
+        macros[r"\theequation"] = Macro(tuple(tokenize(rf"{self.parent}\alph{{equation}}")))
+        counters.values["equation"] = 0
+        return kept
+
+    def _end_subequations(self, kept: tuple[int, Macro | None]) -> None:
+        self.counters.values["equation"], own = kept
+        if own is None:
+            self.expander.macros.pop(r"\theequation")
+        else:
+            self.expander.macros[r"\theequation"] = own
+
+    def _until(self, end: str) -> None:
+        """Read on until an environment ends."""
+        before = len(self.found.equations)
+        for token in self.expander.tokens():
+            if token.text == r"\end":
+                if self._name() == end:
+                    return
+            elif token.text == r"\label" and len(self.found.equations) == before:
+                self.found.labels.setdefault(self._name(), self.parent)
+            elif token.kind == "command":
+                self._command(token)
+            elif token.kind == "math":
+                self._math(token)
+
+    # ---- sections
+
+    def _section(self, level: str, heading: str, star: bool) -> None:
+        title = _plain(heading)
+        own = re.match(r"(\d+(?:\.\d+)*)\.?\s+(.*)", title) if not self.whole else None
+        if level == "part":
+            return
+        if own:
+            self.section, title = own[1], own[2]
+        elif star or (level == "chapter" and not self.numbered_chapters):
+            self.bare += 1
+            self.section = re.sub(r"[a-z]+$", "", self.section).removeprefix("0") + _letters(self.bare)
+        else:
+            self.counters.step(level)
+            self.section, self.bare = self.expander.printed(level) or str(self.counters.values[level]), 0
+        self.found.sections.setdefault(self.section, title or level)
+
+    # ---- formulas
+
+    def _math(self, token: Token) -> None:
+        if token.text == "$$":
+            self._display("displaymath", token, "$$", starred=True)
+        else:
+            self._inline("$")
+
+    def _inline(self, end: str) -> None:
+        found: list[Token] = []
+        for token in self.expander.tokens():
+            if token.text == end or (token.text == "$$" and end == "$"):
+                break
+            if (token.kind == "command" and token.text == r"\begin") or len(found) > 4000:
+                self.expander.push([token])  # a dollar sign that was not closed
+                return
+            found.append(token)
+        self.found.inline.append(latex_of(found).strip())
+
+    def _inline_environment(self) -> None:
+        for token in self.expander.tokens():
+            if token.text == r"\end":
+                self._name()
+                return
+
+    def _display(
+        self, kind: str, token: Token, end: str, starred: bool, lead: list[Token] | None = None, options: str = ""
+    ) -> None:
+        """Read a display row by row, each of which gets its number as it ends."""
+        rows: list[Row] = []
+        numbered = not starred and kind not in _NEVER
+        by_rows = kind in _ROWS
+        row = Row(numbered=numbered, labels=re.findall(r"label=\{([^{}]*)\}", options))
+        if numbered and not by_rows:
+            self.counters.step("equation")
+            row.stepped = True
+        depth = braces = 0
+        for part in self.expander.tokens():
+            if (part.text == end and part.kind in ("command", "math")) or (part.text == r"\end" and depth == 0):
+                if part.text == r"\end":
+                    self._name()
+                break
+            depth += {r"\begin": 1, r"\end": -1}.get(part.text, 0)
+            braces += {"open": 1, "close": -1}.get(part.kind, 0)
+            if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
+                if self._ended(part) and by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
+                    self._finish(row, by_rows)
+                    rows.append(row)
+                    row = Row(numbered=numbered)
+                elif part.text not in _BETWEEN:
+                    row.tokens.append(part)
+            elif part.kind != "command" or not self._taken(part, row):
+                row.tokens.append(part)
+        self._finish(row, by_rows)
+        rows.append(row)
+        if end == "$$" and not row.tag:
+            self._number_behind(row)
+        self._keep(rows, kind, token, lead or [])
+
+    def _ended(self, part: Token) -> bool:
+        r"""Take the star and the space behind \\, the text of \intertext."""
+        if part.text in _BETWEEN:
+            self.expander.argument()
+            return True
+        self.expander.star()
+        following = self.expander.peek()
+        if following is not None and following.kind == "text" and following.text.startswith("["):
+            given = self.expander.optional()
+            if given is not None and not re.search(r"\d|\\", latex_of(given)):
+                self.expander.push([Token("text", f"[{latex_of(given)}]", part.at)])
+        return True
+
+    def _taken(self, part: Token, row: Row) -> bool:
+        """Whether a command of a row says something of its number only."""
+        name = part.text
+        if name in (r"\tag", r"\eqno", r"\leqno"):
+            self._withdraw(row)
+            if name == r"\tag":
+                self.expander.star()
+                row.tag = _plain_number(latex_of(self.expander.expand(self.expander.argument())))
+            else:
+                rest = self.expander.argument()
+                row.tag = _plain_number(latex_of(rest))
+                if row.tag == "" or (rest and rest[0].text == "("):
+                    more = self.expander.next()
+                    row.tag = _plain_number((latex_of(rest) + (more.text if more else "")).strip())
+            return True
+        if name in _NO_NUMBER:
+            self._withdraw(row)
+            row.numbered = False
+            return True
+        if name in (r"\yesnumber", r"\IEEEyesnumber"):
+            row.numbered = True
+            return True
+        if name == r"\label":
+            row.labels.append(self._name())
+            return True
+        if name in (r"\raisetag", r"\displaybreak", r"\allowdisplaybreaks", r"\vspace", r"\noalign"):
+            if name == r"\displaybreak":
+                self.expander.optional()
+            elif name != r"\allowdisplaybreaks":
+                self.expander.argument()
+            return True
+        return False
+
+    def _finish(self, row: Row, by_rows: bool) -> None:
+        """The number of a row that has ended."""
+        if row.tag:
+            row.number = row.tag
+        elif row.numbered:
+            if by_rows:
+                self.counters.step("equation")
+            row.number = self.expander.printed("equation")
+
+    def _withdraw(self, row: Row) -> None:
+        """The number that a display took as it began is not used."""
+        if row.stepped:
+            self.counters.values["equation"] -= 1
+            row.stepped = False
+
+    def _number_behind(self, row: Row) -> None:
+        """A number in brackets after $$ … $$, as Markdown has it."""
+        following = self.expander.peek()
+        if not self.whole and following is not None and following.kind == "text":
+            match = re.match(r"\s*\((\w[\w.]*)\)", following.text)
+            row.number = match[1] if match else ""
+
+    # ---- what is kept
+
+    def _keep(self, rows: list[Row], kind: str, token: Token, lead: list[Token]) -> None:
+        """The equations of a display: rows that continue the one before are joined with it."""
+        group: list[Row] = []
+        previous = ""
+        for row in rows:
+            source = " ".join(latex_of(row.tokens).split())
+            if not source.replace("&", "").strip():
+                for label in row.labels:
+                    self.found.labels.setdefault(label, row.number)
+                continue
+            if group and self._continues(group, row, source):
+                group.append(row)
+                continue
+            if group:
+                previous = self._one(group, kind, token, previous, lead)
+            group = [row]
+        if group:
+            self._one(group, kind, token, previous, lead)
+        self.cited = []
+
+    def _continues(self, group: list[Row], row: Row, source: str) -> bool:
+        body = source[_LEADING.match(source).end() :]  # type: ignore[union-attr]
+        before = latex_of(group[-1].tokens).rstrip(" &~")
+        numbers = sum(bool(each.number) for each in (*group, row))
+        if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv|quad))\s*$", before) and not re.search(
+            r"\\quad\s*$", before
+        ):
+            return True
+        if _OPERATORS.match(body):
+            return not before.endswith((",", ";", ".")) or not body.startswith("-")
+        if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
+            return numbers <= 1
+        whole = " ".join(latex_of(each.tokens) for each in group)
+        return _unbalanced(whole)
+
+    def _one(self, group: list[Row], kind: str, token: Token, previous: str, lead: list[Token]) -> str:
+        """One equation; gives its left side."""
+        number = next((row.number for row in group if row.number), "")
+        labels = [label for row in group for label in row.labels]
+        for row in group:
+            for label in row.labels:
+                self.found.labels.setdefault(label, row.number or number)
+        sources = [" ".join(latex_of(row.tokens).split()) for row in group]
+        if len(sources) > 1:
+            latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
+        else:
+            latex = _without_columns(group[0].tokens)
+        if kind == "multline" and r"\\" in latex:
+            latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
+        if lead:
+            latex = f"{latex_of(lead)} {latex}"
+        body = latex[_LEADING.match(latex).end() :]  # type: ignore[union-attr]
+        continues = bool(len(sources) == 1 and _RELATIONS.match(body)) and previous
+        self._add(number, labels, latex, previous if continues else "", group, token)
+        return previous if continues else _left_side(sources[0])
+
+    def _add(self, number: str, labels: list[str], latex: str, lead: str, group: list[Row], token: Token) -> None:
+        self.since = 0 if number else self.since + 1
+        self.last = number or self.last
+        identifier = number or f"{self.last or 0}{_letters(self.since)}"
+        while identifier in self.ids or not identifier:
+            identifier += "'"
+        self.ids.add(identifier)
+        self.found.sections.setdefault(self.section, "Before the first section")
+        places = [next((t.at for t in row.tokens if t.text.strip(" \n\t&")), token.at) for row in group]
+        lines = [self.expander.line(at) for at in places]
+        label = labels[0] if labels else ""
+        self.found.equations.append(
+            Displayed(
+                identifier,
+                self.section,
+                number,
+                label,
+                latex,
+                lead,
+                lines[0],
+                tuple(n for _, n in lines),
+                tuple(self.cited),
+            )
+        )
+
+
+_NEEDED = (
+    "mathrsfs",
+    "dsfont",
+    "bbm",
+    "bbold",
+    "esint",
+    "stmaryrd",
+    "cancel",
+    "euscript",
+    "wasysym",
+    "textcomp",
+    "upgreek",
+)
+
+
+def _has_text(tokens: list[Token]) -> bool:
+    return any(each.text.strip(" \n&") for each in tokens)
+
+
+def _unbalanced(source: str) -> bool:
+    """Whether a bracket is open at the end of a row."""
+    lefts, rights = (len(re.findall(rf"\\{side}(?![a-z])", source)) for side in ("left", "right"))
+    if lefts != rights:
+        return True
+    bare = re.sub(r"\\(?:left|right|[bB]igg?[lrm]?)(?![a-z])\s*|\\[{}]", "", source)
+    return bare.count("(") > bare.count(")") or (bare.count("[") > bare.count("]") and ")" not in bare)
+
+
+def _left_side(source: str) -> str:
+    """What is before the first relation of a row."""
+    match = _RELATIONS.search(source)
+    return source[: match.start()].replace("&", " ").strip() if match else ""
+
+
+def _without_columns(tokens: list[Token]) -> str:
+    """The tokens of a row as LaTeX without the & of the row itself."""
+    depth = braces = 0
+    kept: list[Token] = []
+    for token in tokens:
+        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0) if is_word(token) else 0
+        braces += {"open": 1, "close": -1}.get(token.kind, 0)
+        if token.kind == "align" and depth == 0:
+            kept.append(Token("text", " ", token.at))
+        else:
+            kept.append(token)
+    return " ".join(latex_of(kept).split())
+
+
+def _letters(count: int) -> str:
+    """1 → a, 26 → z, 27 → aa."""
+    return (_letters((count - 1) // 26) if count > 26 else "") + chr(ord("a") + (count - 1) % 26)
+
+
+def _plain_number(text: str) -> str:
+    """A number without dollar signs, braces and brackets around it: $3'$ is 3'."""
+    text = re.sub(r"\\(?:ensuremath|text|mathrm|textbf|textit|rm|bf|it)(?![A-Za-z])|[${}]", "", text)
+    text = text.replace(r"\ast", "*").replace(r"\star", "*").replace(r"^\prime", "'").replace(r"\prime", "'").strip()
+    return re.sub(r"^\((.*)\)$", r"\1", text).strip()
+
+
+def _plain(text: str) -> str:
+    """A heading or a name without commands and braces."""
+    text = re.sub(r"\\(?:thanks|footnote|label|inst|orcid|email|affil)\s*\{[^{}]*\}", "", text)
+    text = re.sub(r"\\[A-Za-z]+\*?|[{}$*]|\\\\", " ", text)
+    return " ".join(re.sub(r"\\([&%_#])", r"\1", text).split())
+
+
+def equations_of(text: str, title: str = "") -> Iterator[Displayed]:
+    """The displayed equations of a piece of LaTeX."""
+    yield from read_latex(text, None, title).equations
+
+
+def read_file(file: Path) -> Source:
+    """The displayed equations of a .tex file. Raises InputError where there is none."""
+    found = read_latex(read_text(file), file, file.stem)
+    if not found.equations:
+        raise InputError(
+            f"--from {file}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
+        )
+    return found

@@ -1,0 +1,714 @@
+r"""A source as TeX sees it: macros expanded, files taken in, what \iffalse hides left out, counters kept.
+
+Nothing is executed: definitions are lists of tokens, and their expansion is bounded.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text
+from lagrotor.paper.source.counters import Counters
+from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
+
+# Expansions in a row before a token of the source is taken, and tokens that wait; beyond, a macro calls itself without end.
+_MOST_EXPANSIONS, _MOST_TOKENS, _MOST_FILES = 20_000, 2_000_000, 500
+_INPUTS = (r"\input", r"\include", r"\subfile", r"\subfileinclude", r"\@input")
+_DEFINITIONS = (r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand")
+_DOCUMENT_COMMANDS = (
+    r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\ProvideDocumentCommand", r"\DeclareDocumentCommand",
+)  # fmt: skip
+_ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment")
+_NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
+_SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
+
+
+@dataclass(frozen=True)
+class Macro:
+    """A definition: `head`, what must follow its name, arguments as #1; `default` of an optional first argument."""
+
+    body: tuple[Token, ...]
+    head: tuple[Token, ...] = ()
+    default: tuple[Token, ...] | None = None
+    spec: str = ""
+
+
+# A command of a package: takes its arguments from the source and gives the tokens that stand for it.
+Package = Callable[["Expander"], Iterable[Token] | None]
+
+
+class Expander:
+    """The expanded tokens of a source, one after the other, by `tokens()`."""
+
+    def __init__(self, text: str, file: Path | None = None, packages: dict[str, Package] | None = None) -> None:
+        self.file, self.packages = file, packages or {}
+        self.macros: dict[str, Macro | None] = {}
+        self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
+        self.flags: dict[str, bool] = {}
+        self.counters = Counters()
+        self.loaded: set[str] = set()
+        self.document_class = ""
+        self.notes: list[str] = []
+        self.depth = self.files = self.expansions = 0
+        self.starts: list[tuple[int, str, list[int]]] = []  # where each file begins, its name, its ends of lines
+        self.end = 0
+        self.waiting: list[list[Token]] = []  # tokens in reverse order, the innermost file or expansion last
+        self.ended_environments: list[tuple[Token, ...]] = []
+        self._take_in(text, file.name if file else "")
+
+    def _take_in(self, text: str, name: str) -> None:
+        self.files += 1
+        if self.files > _MOST_FILES:
+            raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: one may take in itself")
+        self.starts.append((self.end, name, [m.start() for m in re.finditer("\n", text)]))
+        self.waiting.append(tokenize(text, self.end)[::-1])
+        self.end += len(text) + 1
+
+    def line(self, at: int) -> tuple[str, int]:
+        """The file and the line of a place."""
+        from bisect import bisect_left
+
+        start, name, ends = max((each for each in self.starts if each[0] <= at), key=lambda each: each[0])
+        return name, bisect_left(ends, at - start) + 1
+
+    # ---- tokens without expansion
+
+    def next(self) -> Token | None:
+        """The next token as it stands; None at the end."""
+        while self.waiting:
+            if self.waiting[-1]:
+                return self.waiting[-1].pop()
+            self.waiting.pop()
+            self.expansions = 0
+        return None
+
+    def push(self, tokens: Iterable[Token]) -> None:
+        """Put tokens before what comes next."""
+        added = list(tokens)
+        added.reverse()
+        if self.waiting and len(self.waiting[-1]) < 64:
+            self.waiting[-1].extend(added)
+        elif added:
+            self.waiting.append(added)
+
+    def skip_spaces(self) -> None:
+        while (token := self.next()) is not None:
+            if token.kind != "text":
+                self.push([token])
+                return
+            if rest := token.text.lstrip():
+                self.push([Token("text", rest, token.at + len(token.text) - len(rest))])
+                return
+
+    def peek(self) -> Token | None:
+        token = self.next()
+        if token is not None:
+            self.push([token])
+        return token
+
+    def argument(self) -> list[Token]:
+        """The next argument: what is in braces, or one character or command."""
+        self.skip_spaces()
+        token = self.next()
+        if token is None or token.kind == "close":
+            self.push([token] if token else [])
+            return []
+        if token.kind == "open":
+            return self.group()
+        if token.kind == "text" and len(token.text) > 1:
+            self.push([Token("text", token.text[1:], token.at + 1)])
+            return [Token("text", token.text[0], token.at)]
+        return [token]
+
+    def group(self) -> list[Token]:
+        """What is before the brace that closes the open one."""
+        found: list[Token] = []
+        depth = 1
+        while (token := self.next()) is not None:
+            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            if depth == 0:
+                return found
+            found.append(token)
+        return found
+
+    def delimited(self, opening: str, closing: str) -> list[Token] | None:
+        """What is between two characters, such as brackets, where the first comes next; None where it does not."""
+        self.skip_spaces()
+        token = self.next()
+        if token is None or token.kind != "text" or not token.text.startswith(opening):
+            self.push([token] if token else [])
+            return None
+        self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+        found: list[Token] = []
+        braces, depth = 0, 1
+        while (token := self.next()) is not None:
+            if token.kind == "text" and not braces:
+                for place, character in enumerate(token.text):
+                    depth += (character == opening != closing) - (character == closing)
+                    if depth == 0:
+                        found += [Token("text", token.text[:place], token.at)] if place else []
+                        rest = token.text[place + 1 :]
+                        self.push([Token("text", rest, token.at + place + 1)] if rest else [])
+                        return found
+            braces += {"open": 1, "close": -1}.get(token.kind, 0)
+            if braces < 0:
+                self.push([token])
+                return found
+            found.append(token)
+        return found
+
+    def optional(self) -> list[Token] | None:
+        """An optional argument, [..]; None where there is none."""
+        return self.delimited("[", "]")
+
+    def star(self) -> bool:
+        """Whether a star comes next, which is taken."""
+        token = self.next()
+        if token is not None and token.kind == "text" and token.text.startswith("*"):
+            self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+            return True
+        self.push([token] if token else [])
+        return False
+
+    def name(self) -> str:
+        """An argument as plain text."""
+        return latex_of(self.argument()).strip()
+
+    # ---- expansion
+
+    def tokens(self) -> Iterator[Token]:
+        """Every token that is left after expansion, definitions and conditions taken out."""
+        while (token := self.next()) is not None:
+            if token.kind == "command":
+                if not self._expanded(token):
+                    yield token
+            elif token.kind == "primitive":  # what a name meant before it was defined anew
+                handler = _HANDLERS.get(token.text)
+                if handler is None or not handler(self, token):
+                    yield Token("command", token.text, token.at)
+            else:
+                yield token
+
+    def expand(self, tokens: Iterable[Token]) -> list[Token]:
+        """These tokens, expanded by themselves."""
+        waiting, self.waiting = self.waiting, [list(tokens)[::-1]]
+        try:
+            return list(self.tokens())
+        finally:
+            self.waiting = waiting
+
+    def _expanded(self, token: Token) -> bool:
+        """Whether the token stood for others, which now come next, or defined something."""
+        name = token.text
+        macro = self.macros.get(name)
+        if macro is not None:
+            self._count(name)
+            self.push(self._body(macro, token))
+            return True
+        if name in self.packages and name not in self.macros:
+            given = self.packages[name](self)
+            if given is None:
+                return False
+            self._count(name)
+            self.push(Token(t.kind, t.text, token.at) for t in given)
+            return True
+        if name in _HANDLERS:
+            return _HANDLERS[name](self, token)
+        if name.startswith(r"\if") and is_word(token) and name != r"\iff":
+            return self._condition(name[1:])
+        if name in (r"\else", r"\fi"):
+            if name == r"\else":
+                self._skip_to(("fi",))
+            return True
+        if name.startswith(r"\the") and name[4:] in self.counters.values:
+            self.push(self._plain(self.printed(name[4:]), token.at))
+            return True
+        for ending, value in (("true", True), ("false", False)):
+            if name.endswith(ending) and name[1 : -len(ending)] in self.flags:
+                self.flags[name[1 : -len(ending)]] = value
+                return True
+        return False
+
+    def _count(self, name: str) -> None:
+        self.expansions += 1
+        if self.expansions > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > _MOST_TOKENS:
+            raise InputError(
+                f"{self.file or 'the source'}: {name} expands without end: a macro that calls itself cannot be taken in"
+            )
+
+    def _body(self, macro: Macro, token: Token) -> list[Token]:
+        """The body of a macro with its arguments put in; every token has the place of the macro."""
+        values: list[list[Token]] = []
+        if macro.spec:
+            values = [self._by_spec(letter, default) for letter, default in _spec(macro.spec)]
+        else:
+            head = list(macro.head)
+            if macro.default is not None:
+                given = self.optional()
+                values.append(list(macro.default) if given is None else given)
+                head = head[1:]
+            for place, part in enumerate(head):
+                following = head[place + 1] if place + 1 < len(head) else None
+                if part.kind == "param":
+                    delimited = following is not None and following.kind != "param"
+                    values.append(self._until(following) if delimited and following else self.argument())
+                elif (part.kind != "text" or part.text.strip()) and not (place and head[place - 1].kind == "param"):
+                    self._take(part)
+        made: list[Token] = []
+        for part in macro.body:
+            if part.kind == "param" and part.text[1:].isdigit():
+                number = int(part.text[1:])
+                made += values[number - 1] if number <= len(values) else []
+            elif part.kind == "param" and part.text.startswith("##"):
+                made.append(Token("param", part.text[1:], token.at))
+            else:
+                made.append(Token(part.kind, part.text, token.at))
+        if len(made) > _MOST_TOKENS:
+            raise InputError(f"{self.file or 'the source'}: {token.text} expands to more than {_MOST_TOKENS} tokens")
+        return made
+
+    def _by_spec(self, letter: str, default: list[Token]) -> list[Token]:
+        if letter in "oO":
+            given = self.optional()
+            return default if given is None else given
+        if letter == "s":
+            return [Token("text", "*" if self.star() else "", 0)]
+        if letter in "dD":
+            given = self.delimited("(", ")")
+            return default if given is None else given
+        return self.argument()
+
+    def _take(self, part: Token) -> None:
+        token = self.next()
+        if token is not None and part.kind == "text" and token.kind == "text" and token.text.startswith(part.text):
+            rest = token.text[len(part.text) :]
+            self.push([Token("text", rest, token.at)] if rest else [])
+
+    def _until(self, end: Token) -> list[Token]:
+        """The tokens before `end`, which is taken."""
+        found: list[Token] = []
+        depth = 0
+        while (token := self.next()) is not None:
+            if depth == 0 and token.kind == end.kind == "text" and end.text in token.text:
+                before, _, rest = token.text.partition(end.text)
+                self.push([Token("text", rest, token.at)] if rest else [])
+                return found + ([Token("text", before, token.at)] if before else [])
+            if depth == 0 and token.kind == end.kind and token.text == end.text and end.kind != "text":
+                return found
+            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            found.append(token)
+        return found
+
+    @staticmethod
+    def _plain(text: str, at: int) -> list[Token]:
+        return [Token("text", text, at)] if text else []
+
+    # ---- counters
+
+    def printed(self, counter: str) -> str:
+        r"""A counter as it is printed, \theequation."""
+        own = self.macros.get(rf"\the{counter}")
+        if own is not None:
+            return latex_of(self.expand(own.body)).strip()
+        return self.counters.printed(counter, self.printed)
+
+    def number(self) -> int:
+        r"""The number of an argument: digits, \value{…}, \arabic{…}, a sum of them is not needed."""
+        return self._number(self.argument())
+
+    def _number(self, tokens: Iterable[Token]) -> int:
+        text = latex_of(self.expand(tokens)).strip()
+        for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1")):
+            text = text.replace(constant, value)
+        text = re.sub(r"\\c@(\w+)", lambda m: str(self.counters.values.get(m[1], 0)), text)
+        total = 0
+        for sign, digits in re.findall(r"([+-]?)\s*(\d+)", text):
+            total += -int(digits) if sign == "-" else int(digits)
+        return total
+
+    # ---- conditions
+
+    def _condition(self, name: str) -> bool:
+        r"""Take the branch of \if…: what cannot be known is taken as false."""
+        if name == "ifnum":
+            holds = self._compared()
+        elif name in ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX"):
+            holds = True
+        elif name in self.flags:
+            holds = self.flags[name]
+        elif name == "ifx":
+            first, second = self.next(), self.next()
+            holds = first is not None and second is not None and self._same(first, second)
+        elif name in ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX"):
+            holds = False
+        elif name in (
+            "ifdim",
+            "if",
+            "ifcat",
+            "ifodd",
+            "ifdefined",
+            "ifcsname",
+            "ifvmode",
+            "ifhmode",
+            "ifinner",
+            "ifcase",
+        ):
+            self.notes.append(rf"\{name} is taken as false")
+            holds = False
+        else:
+            return False
+        if not holds:
+            self._skip_to(("else", "fi"))
+        return True
+
+    def _same(self, first: Token, second: Token) -> bool:
+        a, b = self.macros.get(first.text), self.macros.get(second.text)
+        if a is not None and b is not None:
+            return [t[:2] for t in a.body] == [t[:2] for t in b.body]
+        return a is None and b is None and first.text == second.text
+
+    def _compared(self) -> bool:
+        found: list[Token] = []
+        while (token := self.next()) is not None:
+            found.append(token)
+            if token.kind == "text" and re.search(r"[<>=]\s*-?\d+\s", token.text):
+                break
+            if token.kind == "command" and token.text in (r"\relax", r"\z@", r"\@ne", r"\tw@"):
+                break
+            if len(found) > 12:
+                break
+        for place, token in enumerate(found):
+            if token.kind == "text" and (sign := re.search(r"[<>=]", token.text)):
+                relation = sign[0]
+                left_tokens = [*found[:place], Token("text", token.text[: sign.start()], token.at)]
+                right = re.match(r"\s*-?\d+\s?", token.text[sign.end() :])
+                right_text = right[0] if right else ""
+                rest = token.text[sign.end() + len(right_text) :]
+                right_tokens = [Token("text", right_text, token.at)] if right else found[place + 1 :]
+                self.push([Token("text", rest, token.at)] if rest and right else [])
+                a, b = self._number(left_tokens), self._number(right_tokens)
+                return {"<": a < b, ">": a > b, "=": a == b}[relation]
+        self.notes.append(r"\ifnum is taken as false")
+        return False
+
+    def _skip_to(self, ends: tuple[str, ...]) -> None:
+        """Leave out tokens to the \\else or \\fi of this condition."""
+        depth = 0
+        while (token := self.next()) is not None:
+            if token.kind != "command":
+                continue
+            word = token.text[1:]
+            if depth == 0 and word in ends:
+                return
+            if word == "fi":
+                depth -= 1
+            elif word.startswith("if") and word not in _NO_CONDITIONS:
+                depth += 1
+
+    # ---- definitions
+
+    def _defined(self, token: Token) -> bool:
+        self.star()
+        self.skip_spaces()
+        named = self.argument()
+        count = self.optional()
+        default = self.optional() if count is not None else None
+        body = self.argument()
+        name = next((t.text for t in named if t.kind == "command"), "")
+        if not name or (token.text == r"\providecommand" and (name in self.macros or name in self.packages)):
+            return True
+        if body and any(t.text in (r"\@ifnextchar", r"\@ifstar", r"\futurelet") for t in body):
+            return True
+        digits = latex_of(count or ()).strip()
+        head = [Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0)]
+        self.macros[name] = Macro(tuple(body), tuple(head), None if default is None else tuple(default))
+        return True
+
+    def _def(self, token: Token) -> bool:
+        target = self.next()
+        while target is not None and target.kind == "text" and not target.text.strip():
+            target = self.next()
+        head: list[Token] = []
+        while (part := self.next()) is not None and part.kind != "open":
+            head.append(part)
+        body = self.group()
+        if target is not None and target.kind == "command":
+            if token.text in (r"\edef", r"\xdef"):
+                body = self.expand(body)
+            self.macros[target.text] = Macro(tuple(body), tuple(head))
+        return True
+
+    def _let(self, token: Token) -> bool:
+        self.skip_spaces()
+        target = self.next()
+        self.skip_spaces()
+        source = self.next()
+        if source is not None and source.kind == "text" and source.text.startswith("="):
+            rest = source.text[1:].lstrip()
+            if rest:
+                self.push([Token("text", rest, source.at)])
+            self.skip_spaces()
+            source = self.next()
+        if source is not None and source.kind == "text" and len(source.text) > 1:
+            self.push([Token("text", source.text[1:], source.at + 1)])
+            source = Token("text", source.text[0], source.at)
+        if target is not None and source is not None and target.kind == "command":
+            known = self.macros.get(source.text)
+            if known is not None:
+                self.macros[target.text] = known
+            elif source.kind == "command" and source.text in self.packages:
+                self.packages = {**self.packages, target.text: self.packages[source.text]}
+            elif source.text != target.text:
+                kind = "primitive" if source.kind == "command" else source.kind
+                self.macros[target.text] = Macro((Token(kind, source.text, source.at),))
+        return True
+
+    def _operator(self, token: Token) -> bool:
+        star = "*" if self.star() else ""
+        named, body = self.argument(), self.argument()
+        if named:
+            made = [Token("command", r"\operatorname", 0), *self._plain(star, 0), Token("open", "{", 0)]
+            self.macros[named[0].text] = Macro((*made, *body, Token("close", "}", 0)))
+        return True
+
+    def _pair(self, token: Token) -> bool:
+        named, left, right = self.argument(), self.argument(), self.argument()
+        if named:
+
+            def paired(expander: Expander) -> Iterable[Token]:
+                if not expander.star():
+                    expander.optional()
+                inside = expander.argument()
+                opened, closed = Token("command", r"\left", 0), Token("command", r"\right", 0)
+                return [opened, *left, *inside, closed, *right]
+
+            self.macros.pop(named[0].text, None)
+            self.packages = {**self.packages, named[0].text: paired}
+        return True
+
+    def _document_command(self, token: Token) -> bool:
+        named, spec, body = self.argument(), latex_of(self.argument()), self.argument()
+        if named:
+            self.macros[named[0].text] = Macro(tuple(body), spec=spec.strip() or " ")
+        return True
+
+    def _environment(self, token: Token) -> bool:
+        self.star()
+        name = self.name()
+        if token.text == r"\NewDocumentEnvironment":
+            spec, begin, end = latex_of(self.argument()), self.argument(), self.argument()
+            self.environments[name] = Macro(tuple(begin), spec=spec.strip() or " "), tuple(end)
+            return True
+        count = self.optional()
+        default = self.optional() if count is not None else None
+        begin, end = self.argument(), self.argument()
+        digits = latex_of(count or ()).strip()
+        head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0))
+        self.environments[name] = Macro(tuple(begin), head, None if default is None else tuple(default)), tuple(end)
+        return True
+
+    def _begin(self, token: Token) -> bool:
+        name = self.argument()
+        known = self.environments.get(latex_of(name).strip())
+        if known is None:
+            self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+            return False
+        self._count(rf"\begin{{{latex_of(name)}}}")
+        self.push(self._body(known[0], token))
+        return True
+
+    def _end(self, token: Token) -> bool:
+        name = self.argument()
+        known = self.environments.get(latex_of(name).strip())
+        if known is None:
+            self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+            return False
+        self._count(rf"\end{{{latex_of(name)}}}")
+        self.push(Token(t.kind, t.text, token.at) for t in known[1])
+        return True
+
+    # ---- files and packages
+
+    def _input(self, token: Token) -> bool:
+        self.skip_spaces()
+        following = self.peek()
+        if token.text == r"\input" and following is not None and following.kind == "text":
+            self.next()
+            name = following.text.partition("\n")[0].partition(" ")[0]
+            self.push([Token("text", following.text[len(name) :], following.at)])
+        else:
+            name = self.name()
+        self.read_file(name)
+        return True
+
+    def _import(self, token: Token) -> bool:
+        self.star()
+        folder, name = self.name(), self.name()
+        self.read_file(f"{folder.rstrip('/')}/{name}")
+        return True
+
+    def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
+        """Take in a file beside the source; a note where it is missing."""
+        if self.file is None:
+            return False
+        for suffix in suffixes:
+            for folder in (self.file.parent, self.file.parent.parent):
+                path = folder / f"{name}{suffix}"
+                if path.is_file() and path.suffix in (".tex", ".sty", ".cls", ".ltx", ".def", ".inp"):
+                    self._take_in(read_text(path), path.name)
+                    return True
+        if suffixes[0] == ".tex":
+            self.notes.append(f"{name} is missing")
+        return False
+
+    def _use(self, token: Token) -> bool:
+        self.optional()
+        for name in self.name().split(","):
+            name = name.strip()
+            self.loaded.add(name)
+            self.read_file(name, (".sty",))
+        self.optional()
+        return True
+
+    def _class(self, token: Token) -> bool:
+        options = latex_of(self.optional() or ()).split(",")
+        name = self.name()
+        if self.document_class and name == "subfiles":
+            return True
+        if name == "subfiles":
+            for option in options:
+                self.document_class = self.document_class or "article"
+                self._preamble_of(option.strip())
+            return True
+        if self.files > 1 and self.document_class and token.text == r"\documentclass":
+            self._preamble_of(None)  # a file taken in that could stand by itself: its own preamble is read as it comes
+            return True
+        if not self.read_file(name, (".cls",)) or token.text == r"\LoadClass":
+            self.document_class = name
+        self.document_class = self.document_class or name
+        self.counters.begin(name)
+        return True
+
+    def _preamble_of(self, name: str | None) -> None:
+        """The preamble of the main file of a subfile."""
+        if name and self.file is not None:
+            path = self.file.parent / (name if name.endswith(".tex") else f"{name}.tex")
+            if path.is_file():
+                preamble = read_text(path).partition(r"\begin{document}")[0]
+                self.document_class = ""
+                self._take_in(preamble, path.name)
+
+    def _counted(self, token: Token) -> bool:
+        c, name = self.counters, token.text
+        if name == r"\newcounter":
+            counter = self.name()
+            within = self.optional()
+            c.add(counter, latex_of(within).strip() if within is not None else "")
+        elif name == r"\setcounter":
+            counter = self.name()
+            c.values[counter] = self.number()
+        elif name == r"\addtocounter":
+            counter = self.name()
+            c.values[counter] = c.values.get(counter, 0) + self.number()
+        elif name in (r"\stepcounter", r"\refstepcounter"):
+            c.step(self.name())
+        elif name == r"\@addtoreset":
+            counter = self.name()
+            c.reset_by(counter, self.name())
+        elif name in (r"\numberwithin", r"\counterwithin"):
+            kept = self.star() if name == r"\counterwithin" else False
+            style = self.optional()
+            counter, parent = self.name(), self.name()
+            shown = latex_of(style).strip() if style else r"\arabic"
+            c.reset_by(counter, parent)
+            if not kept:
+                self.macros.pop(rf"\the{counter}", None)
+                c.within[counter] = parent, shown.lstrip("\\")
+        elif name == r"\counterwithout":
+            self.star()
+            self.optional()
+            counter, parent = self.name(), self.name()
+            c.free(counter, parent)
+            self.macros.pop(rf"\the{counter}", None)
+        return True
+
+    def _shown(self, token: Token) -> bool:
+        name = self.name()
+        value = self.counters.values.get(name)
+        if value is None:
+            self.push([Token("open", "{", token.at), Token("text", name, token.at), Token("close", "}", token.at)])
+            return False
+        self.push(self._plain(Counters.style(value, token.text[1:]), token.at))
+        return True
+
+    def _value(self, token: Token) -> bool:
+        self.push(self._plain(str(self.counters.values.get(self.name(), 0)), token.at))
+        return True
+
+    def _new_flag(self, token: Token) -> bool:
+        self.skip_spaces()
+        named = self.next()
+        if named is not None:
+            self.flags[named.text[1:]] = False
+            self.flags[named.text[3:]] = False
+            self._alias(named.text[1:])
+        return True
+
+    def _alias(self, name: str) -> None:
+        """\\draftfalse and \\drafttrue set \\ifdraft."""
+        short = name[2:]
+
+        def setter(value: bool) -> Package:
+            def take(expander: Expander) -> Iterable[Token]:
+                expander.flags[name] = value
+                return ()
+
+            return take
+
+        self.packages = {**self.packages, rf"\{short}true": setter(True), rf"\{short}false": setter(False)}
+
+    def _ignored(self, token: Token) -> bool:
+        return True
+
+    def _ensured(self, token: Token) -> bool:
+        self.push(self.argument())
+        return True
+
+
+def _spec(text: str) -> Iterator[tuple[str, list[Token]]]:
+    """The arguments of \\NewDocumentCommand: a letter each, with its default."""
+    for match in re.finditer(r"([mosODdr])\s*(?:[()]{2})?\s*(?:\{([^{}]*)\})?", text):
+        yield match[1], tokenize(match[2] or "")
+
+
+Handler = Callable[[Expander, Token], bool]
+_HANDLERS: dict[str, Handler] = {
+    **dict.fromkeys(_DEFINITIONS, Expander._defined),
+    **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), Expander._def),
+    **dict.fromkeys(_DOCUMENT_COMMANDS, Expander._document_command),
+    **dict.fromkeys(_ENVIRONMENTS, Expander._environment),
+    **dict.fromkeys(_INPUTS, Expander._input),
+    **dict.fromkeys((r"\import", r"\subimport", r"\subincludefrom", r"\includefrom"), Expander._import),
+    **dict.fromkeys((r"\usepackage", r"\RequirePackage"), Expander._use),
+    **dict.fromkeys((r"\documentclass", r"\LoadClass"), Expander._class),
+    **dict.fromkeys(
+        (
+            r"\newcounter", r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter", r"\@addtoreset",
+            r"\numberwithin", r"\counterwithin", r"\counterwithout",
+        ),
+        Expander._counted,
+    ),
+    **dict.fromkeys(_SHOWN, Expander._shown),
+    **dict.fromkeys((r"\long", r"\global", r"\protected", r"\outer", r"\relax", r"\protect"), Expander._ignored),
+    **dict.fromkeys((r"\makeatletter", r"\makeatother", r"\ensuremath@", r"\xspace"), Expander._ignored),
+    r"\let": Expander._let,
+    r"\DeclareMathOperator": Expander._operator,
+    r"\DeclarePairedDelimiter": Expander._pair,
+    r"\begin": Expander._begin,
+    r"\end": Expander._end,
+    r"\value": Expander._value,
+    r"\newif": Expander._new_flag,
+    r"\ensuremath": Expander._ensured,
+}  # fmt: skip

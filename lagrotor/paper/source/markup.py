@@ -1,0 +1,108 @@
+r"""Markdown, MyST and notebooks as LaTeX, line by line, so that one reader takes them all."""
+
+import json
+import re
+from pathlib import Path
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text
+from lagrotor.paper.source.displays import Source, read_latex
+
+_FENCE = re.compile(
+    r"^(?P<fence>`{3,}|~{3,})[ \t]*(?P<info>[^\n`]*)\n(?P<body>.*?)^(?P=fence)`*[ \t]*$", re.MULTILINE | re.DOTALL
+)
+_INLINE = re.compile(r"(?<![\\$\w])\$(?![\s$])((?:[^$\n\\]|\\.|\n(?!\s*\n))*?)(?<!\s)\$(?![\d$])")
+_DISPLAY = re.compile(r"(?<!\\)\$\$(.*?)(?<!\\)\$\$[ \t]*(\n?[ \t]*\((?P<label>[\w:.\-]+)\))?", re.DOTALL)
+_HEADING = re.compile(r"^(#{1,6})[ \t]+(.*?)[ \t#]*$", re.MULTILINE)
+_LEVELS = ("section", "subsection", "subsubsection")
+SUFFIXES = (".tex", ".md", ".myst", ".markdown", ".ipynb", ".ltx", ".latex")
+
+
+def read_source(file: Path) -> Source:
+    """The displayed equations of a .tex, .md or .ipynb file. Raises InputError for another one, and for one without any."""
+    if file.suffix not in SUFFIXES:
+        raise InputError(f"--from {file}: give a .tex, .md or .ipynb file")
+    text = read_text(file)
+    if file.suffix == ".ipynb":
+        text = _cells(text, file)
+    if file.suffix in (".tex", ".ltx", ".latex"):
+        found = read_latex(text, file, file.stem)
+    else:
+        title = re.search(r"^# +(.*)$", text, re.MULTILINE) or re.search(r"^title:\s*(.*)$", text, re.MULTILINE)
+        found = read_latex(markdown_as_latex(text), None, title[1].strip(" \"'") if title else file.stem)
+    if not found.equations:
+        raise InputError(
+            f"--from {file}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
+        )
+    return found
+
+
+def _cells(text: str, file: Path) -> str:
+    """The Markdown of a notebook. Raises InputError where it is none."""
+    try:
+        cells = json.loads(text)["cells"]
+        sources = [cell["source"] for cell in cells if cell["cell_type"] == "markdown"]
+    except (ValueError, KeyError, TypeError):
+        raise InputError(f"--from {file}: it is no notebook: give one that Jupyter can open") from None
+    return "\n\n".join(source if isinstance(source, str) else "".join(source) for source in sources)
+
+
+def markdown_as_latex(text: str) -> str:
+    """Markdown as LaTeX on the same lines: headings as sections, displays as displays, code and comments left out."""
+    kept: list[str] = []
+
+    def keep(made: str, given: str) -> str:
+        lines = given.count("\n") - made.count("\n")
+        kept.append(made + "\n" * max(lines, 0))
+        return f"\x00{len(kept) - 1}\x00"
+
+    text = re.sub(r"\A---\n.*?\n---\n", lambda m: keep("", m[0]), text, flags=re.DOTALL)
+    text = re.sub(r"<!--.*?-->", lambda m: keep("", m[0]), text, flags=re.DOTALL)
+    text = _FENCE.sub(lambda m: keep(_fenced(m["info"].strip(), m["body"]), m[0]), text)
+    text = re.sub(r"(?<!`)(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", lambda m: keep("", m[0]), text)
+    text = _DISPLAY.sub(lambda m: keep(_displayed(m[1], m["label"] or ""), m[0]), text)
+    text = re.sub(r"\\\\\[(.*?)\\\\\]", lambda m: keep(rf"\[{m[1]}\]", m[0]), text, flags=re.DOTALL)
+    environments = r"\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}.*?\\end\{\1\2\}"
+    text = re.sub(environments, lambda m: keep(m[0], m[0]), text, flags=re.DOTALL)
+    text = _INLINE.sub(lambda m: keep(rf"\({m[1]}\)", m[0]), text)
+    text = _HEADING.sub(lambda m: keep(_heading(m[1], m[2], text), m[0]), text)
+    text = re.sub(r"[\\%#&$_^{}~]", " ", text)
+    while "\x00" in text:
+        text = re.sub(r"\x00(\d+)\x00", lambda m: kept[int(m[1])], text)
+    return text
+
+
+def _heading(hashes: str, title: str, text: str) -> str:
+    level = len(hashes) - 2
+    if level < 0:
+        return ""
+    return rf"\{_LEVELS[min(level, 2)]}{{{re.sub(r'[%#&$_^~]', ' ', title)}}}"
+
+
+def _fenced(info: str, body: str) -> str:
+    """A fenced block: mathematics where it says so, else nothing."""
+    directive = re.match(r"\{math\}|math\b", info)
+    if not directive:
+        return ""
+    options = re.findall(r"^:(\w+):[ \t]*(.*)$", body, re.MULTILINE)
+    body = re.sub(r"^:\w+:[^\n]*$|^---$", "", body, flags=re.MULTILINE)
+    label = dict(options).get("label", "")
+    return _displayed(body, label)
+
+
+def _displayed(body: str, label: str) -> str:
+    """A display; one with a label in brackets has a number: the label, where it is one, else the next."""
+    inner = re.match(
+        r"\s*\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}(.*)\\end\{\1\2\}\s*$", body, re.DOTALL
+    )
+    if inner and not label:
+        if r"\label" in body or r"\tag" in body:
+            return body
+        return rf"\begin{{{inner[1]}*}}{inner[3]}\end{{{inner[1]}*}}"
+    if inner:
+        body = rf"\begin{{aligned}}{inner[3]}\end{{aligned}}" if inner[1] != "equation" else inner[3]
+    if re.match(r"\d", label):
+        return rf"\begin{{equation*}}{body}\tag{{{label}}}\end{{equation*}}"
+    if label:
+        return rf"\begin{{equation}}\label{{{label}}}{body}\end{{equation}}"
+    return rf"\[{body}\]"

@@ -1,0 +1,322 @@
+r"""Commands of common packages (physics, siunitx, bm, mathtools, braket …), in terms of what amsmath has."""
+
+import re
+from collections.abc import Iterable
+
+from lagrotor.paper.source.expansion import Expander, Package
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
+
+
+def _as(template: str, count: int = 1) -> Package:
+    """A command of `count` arguments that stands for the template."""
+
+    def take(expander: Expander) -> Iterable[Token]:
+        expander.star()
+        text = template
+        for place in range(1, count + 1):
+            text = text.replace(f"#{place}", latex_of(expander.argument()))
+        return tokenize(text)
+
+    return take
+
+
+def _is(text: str) -> Package:
+    """A command without arguments that stands for the text."""
+    return lambda expander: tokenize(text)
+
+
+def _between(left: str, right: str) -> Package:
+    r"""\abs{x}, \abs\Big{x}, \abs[\big]{x}: brackets that grow."""
+
+    def take(expander: Expander) -> Iterable[Token]:
+        expander.star()
+        expander.optional()
+        expander.skip_spaces()
+        following = expander.peek()
+        if following is not None and re.fullmatch(r"\\[bB]igg?", following.text):
+            expander.next()
+        return tokenize(rf"\left{left} {latex_of(expander.argument())} \right{right}")
+
+    return take
+
+
+def _quantity(expander: Expander) -> Iterable[Token]:
+    r"""\qty(…), \qty[…], \qty|…|, \qty{…}; \qty{9.81}{m/s} of siunitx where two arguments in braces follow."""
+    expander.star()
+    expander.skip_spaces()
+    following = expander.peek()
+    if following is not None and re.fullmatch(r"\\[bB]igg?", following.text):
+        expander.next()
+        following = expander.peek()
+    if following is not None and following.kind == "open":
+        inside = expander.argument()
+        after = expander.peek()
+        if after is not None and after.kind == "open" and "siunitx" in expander.loaded:
+            return _with_unit(latex_of(inside), expander.argument())
+        return tokenize(rf"\left\{{ {latex_of(inside)} \right\}}")
+    for left, right in (("(", ")"), ("[", "]"), ("|", "|")):
+        if (given := expander.delimited(left, right)) is not None:
+            return tokenize(rf"\left{left} {latex_of(given)} \right{right}")
+    return ()
+
+
+def _derivative(mark: str) -> Package:
+    r"""\dv{x}, \dv{f}{x}, \dv[2]{f}{x}, \dv{x}(f); with partial marks also \pdv{f}{x}{y}."""
+
+    def take(expander: Expander) -> Iterable[Token]:
+        slash = expander.star()
+        order = latex_of(expander.optional() or ()).strip()
+        first = latex_of(expander.argument())
+        power = f"^{{{order}}}" if order else ""
+        rest: list[str] = []
+        while len(rest) < (2 if mark == r"\partial" and not order else 1):
+            following = expander.peek()
+            if following is None or following.kind != "open":
+                break
+            rest.append(latex_of(expander.argument()))
+        if not rest:
+            inside = (
+                expander.delimited("(", ")") if (following := expander.peek()) and following.text[:1] == "(" else None
+            )
+            operand = "" if inside is None else rf"\left( {latex_of(inside)} \right)"
+            return tokenize(rf"\frac{{{mark}{power}}}{{{mark} {first}{power}}}{operand}")
+        if len(rest) == 2:
+            return tokenize(rf"\frac{{{mark}^{{2}} {first}}}{{{mark} {rest[0]} {mark} {rest[1]}}}")
+        if slash:
+            return tokenize(rf"\left.{mark}{power} {first}\middle/{mark} {rest[0]}{power}\right.")
+        return tokenize(rf"\frac{{{mark}{power} {first}}}{{{mark} {rest[0]}{power}}}")
+
+    return take
+
+
+def _differential(expander: Expander) -> Iterable[Token]:
+    r"""\dd x, \dd{x}, \dd[3]{x}, \dd(x)."""
+    order = latex_of(expander.optional() or ()).strip()
+    head = rf"\,\mathrm{{d}}^{{{order}}}" if order else r"\,\mathrm{d}"
+    following = expander.peek()
+    if following is not None and following.kind == "open":
+        return tokenize(f"{head} {latex_of(expander.argument())}")
+    return tokenize(f"{head} ")
+
+
+def _evaluated(expander: Expander) -> Iterable[Token]:
+    r"""\eval{f}_a^b, \eval{f}_{x=0}."""
+    expander.star()
+    return tokenize(rf"\left. {latex_of(expander.argument())} \right|")
+
+
+def _operator(body: str) -> Package:
+    r"""\grad f, \curl{E}, \div(…)."""
+
+    def take(expander: Expander) -> Iterable[Token]:
+        following = expander.peek()
+        if following is not None and following.kind == "open":
+            return tokenize(rf"{body} {latex_of(expander.argument())}")
+        return tokenize(f"{body} ")
+
+    return take
+
+
+def _function(name: str) -> Package:
+    r"""\sin(x), \sin[2](x) of physics: the optional argument is a power."""
+
+    def take(expander: Expander) -> Iterable[Token] | None:
+        following = expander.next()
+        if following is not None:
+            expander.push([following])
+        if following is None or following.kind != "text" or not following.text.startswith("["):
+            return None
+        power = latex_of(expander.optional() or ())
+        return [Token("command", name, 0), *tokenize(f"^{{{power}}}")]
+
+    return take
+
+
+_UNITS = {
+    "metre": "m", "meter": "m", "second": "s", "kilogram": "kg", "gram": "g", "newton": "N", "joule": "J", "watt": "W",
+    "hertz": "Hz", "radian": "rad", "kelvin": "K", "ampere": "A", "volt": "V", "pascal": "Pa", "coulomb": "C", "tesla": "T",
+    "degree": r"^\circ", "ohm": r"\Omega", "mole": "mol", "minute": "min", "hour": "h", "litre": "L", "liter": "L",
+    "electronvolt": "eV", "percent": r"\%", "henry": "H", "farad": "F", "celsius": "C", "candela": "cd",
+}  # fmt: skip
+_PREFIXES = {"kilo": "k", "mega": "M", "giga": "G", "milli": "m", "micro": "u", "nano": "n", "centi": "c", "pico": "p"}
+_POWERS = {"squared": "2", "cubed": "3"}
+
+
+def _unit(tokens: Iterable[Token]) -> str:
+    r"""\metre\per\second\squared as \mathrm{m\,s^{-2}}; m/s^2 as it is."""
+    given = list(tokens)
+    if not any(t.kind == "command" for t in given):
+        return rf"\mathrm{{{latex_of(given).replace('.', chr(92) + ',')}}}"
+    parts: list[str] = []
+    per, prefix, before = False, "", ""
+    for token in given:
+        word = token.text.lstrip("\\")
+        if word == "per":
+            per = True
+        elif word in _PREFIXES:
+            prefix = _PREFIXES[word]
+        elif word in ("square", "cubic"):
+            before = "2" if word == "square" else "3"
+        elif word in _POWERS and parts:
+            sign = "-" if parts[-1].endswith("^{-1}") else ""
+            parts[-1] = f"{parts[-1].removesuffix('^{-1}')}^{{{sign}{_POWERS[word]}}}"
+        elif word in _UNITS or token.kind == "text":
+            name = prefix + _UNITS.get(word, word.strip())
+            power = ("-" if per else "") + (before or ("1" if per else ""))
+            parts += [f"{name}^{{{power}}}" if power else name] if name else []
+            per, prefix, before = False, "", ""
+        else:
+            return rf"\mathrm{{{latex_of(given)}}}"
+    joined = r"\,".join(parts)
+    return rf"\mathrm{{{joined}}}"
+
+
+def _number(text: str) -> str:
+    """3.2e-5 as 3.2 times a power of ten."""
+    text = text.replace(" ", "").replace(",", ".")
+    match = re.fullmatch(r"([+-]?[\d.]+)[eE]([+-]?\d+)", text)
+    return rf"{match[1]}\times 10^{{{int(match[2])}}}" if match else text
+
+
+def _with_unit(number: str, unit: Iterable[Token]) -> list[Token]:
+    return tokenize(rf"{_number(number)}\,{_unit(unit)}")
+
+
+def _si(expander: Expander) -> Iterable[Token]:
+    expander.optional()
+    number = latex_of(expander.argument())
+    expander.optional()
+    return _with_unit(number, expander.argument())
+
+
+def _num(expander: Expander) -> Iterable[Token]:
+    expander.optional()
+    return tokenize(_number(latex_of(expander.argument())))
+
+
+def _only_unit(expander: Expander) -> Iterable[Token]:
+    expander.optional()
+    return tokenize(_unit(expander.argument()))
+
+
+def _commutator(left: str, right: str) -> Package:
+    def take(expander: Expander) -> Iterable[Token]:
+        expander.star()
+        return tokenize(rf"\left{left} {latex_of(expander.argument())}, {latex_of(expander.argument())} \right{right}")
+
+    return take
+
+
+_FUNCTIONS = (
+    r"\sin", r"\cos", r"\tan", r"\csc", r"\sec", r"\cot", r"\sinh", r"\cosh", r"\tanh", r"\arcsin", r"\arccos", r"\arctan",
+    r"\exp", r"\log", r"\ln",
+)  # fmt: skip
+
+_PHYSICS: dict[str, Package] = {
+    **dict.fromkeys((r"\dv", r"\derivative", r"\odv"), _derivative(r"\mathrm{d}")),
+    **dict.fromkeys((r"\pdv", r"\pderivative", r"\partialderivative"), _derivative(r"\partial")),
+    **dict.fromkeys((r"\fdv", r"\functionalderivative"), _derivative(r"\delta")),
+    **dict.fromkeys((r"\dd", r"\differential"), _differential),
+    **dict.fromkeys((r"\qty", r"\quantity"), _quantity),
+    **dict.fromkeys((r"\vb", r"\vectorbold"), _as(r"\mathbf{#1}")),
+    **dict.fromkeys((r"\va", r"\vectorarrow"), _as(r"\vec{\mathbf{#1}}")),
+    **dict.fromkeys((r"\vu", r"\vectorunit"), _as(r"\hat{\mathbf{#1}}")),
+    **dict.fromkeys((r"\abs", r"\absolutevalue"), _between("|", "|")),
+    r"\norm": _between(r"\|", r"\|"),
+    r"\pqty": _between("(", ")"),
+    r"\bqty": _between("[", "]"),
+    r"\vqty": _between("|", "|"),
+    r"\Bqty": _between(r"\{", r"\}"),
+    r"\order": _as(r"\mathcal{O}\left(#1\right)"),
+    **dict.fromkeys((r"\eval", r"\evaluated"), _evaluated),
+    **dict.fromkeys((r"\vdot", r"\vnabla"), _is(r"\cdot ")),
+    **dict.fromkeys((r"\cross", r"\cp", r"\crossproduct"), _is(r"\times ")),
+    r"\grad": _operator(r"\nabla"),
+    r"\div": _operator(r"\nabla\cdot"),
+    r"\curl": _operator(r"\nabla\times"),
+    r"\laplacian": _operator(r"\nabla^{2}"),
+    **dict.fromkeys((r"\comm", r"\commutator"), _commutator("[", "]")),
+    **dict.fromkeys((r"\pb", r"\poissonbracket"), _commutator(r"\{", r"\}")),
+    r"\acomm": _commutator(r"\{", r"\}"),
+    r"\qq": _as(r"\quad\text{#1}\quad "),
+    **{
+        rf"\q{word}": _is(rf"\quad\text{{{word}}}\quad ")
+        for word in ("and", "or", "if", "for", "since", "with", "then")
+    },
+    r"\qc": _is(r",\quad "),
+    r"\var": _is(r"\delta "),
+    r"\variation": _is(r"\delta "),
+    r"\matrixquantity": _between("(", ")"),
+    r"\mqty": lambda expander: _matrix(expander),
+    r"\pmqty": _as(r"\begin{pmatrix}#1\end{pmatrix}"),
+    r"\bmqty": _as(r"\begin{bmatrix}#1\end{bmatrix}"),
+    r"\vmqty": _as(r"\begin{vmatrix}#1\end{vmatrix}"),
+    r"\ip": _as(r"\left\langle #1 \middle| #2 \right\rangle", 2),
+    r"\ev": _between(r"\langle", r"\rangle"),
+    **{name: _function(name) for name in _FUNCTIONS},
+}
+
+
+def _matrix(expander: Expander) -> Iterable[Token]:
+    for left, right, name in (("(", ")", "pmatrix"), ("[", "]", "bmatrix"), ("|", "|", "vmatrix")):
+        if (given := expander.delimited(left, right)) is not None:
+            return tokenize(rf"\begin{{{name}}}{latex_of(given)}\end{{{name}}}")
+    return tokenize(rf"\begin{{matrix}}{latex_of(expander.argument())}\end{{matrix}}")
+
+
+_SIUNITX: dict[str, Package] = {
+    **dict.fromkeys((r"\SI",), _si),
+    r"\num": _num,
+    **dict.fromkeys((r"\si", r"\unit"), _only_unit),
+    r"\ang": _as(r"#1^\circ "),
+}
+_SMALL: dict[str, Package] = {
+    **dict.fromkeys((r"\bm", r"\pmb"), _as(r"\boldsymbol{#1}")),
+    r"\coloneqq": _is(":= "),
+    r"\vcentcolon": _is(":"),
+    r"\eqqcolon": _is("=: "),
+    r"\mathclap": _as("#1"),
+    r"\mathllap": _as("#1"),
+    r"\mathrlap": _as("#1"),
+    r"\smashoperator": _as("#1"),
+    r"\Aboxed": _as(r"#1"),
+    r"\boxed": _as(r"#1"),
+    r"\fbox": _as(r"#1"),
+    r"\mathstrut": _is(""),
+    r"\overset@": _is(""),
+    r"\textcolor": _as("#2", 2),
+    r"\color": _as("", 1),
+    r"\hspace": _as(r"\,"),
+    r"\vspace": _as(""),
+    r"\mspace": _as(r"\,"),
+    r"\phantom": _as(r"\,"),
+    r"\hphantom": _as(r"\,"),
+    r"\vphantom": _as(""),
+    r"\smash": lambda expander: (expander.optional(), expander.argument())[1],
+    r"\displaylimits": _is(""),
+    r"\MoveEqLeft": lambda expander: (expander.optional(), ())[1],
+    r"\IEEEeqnarraymulticol": _as("#3", 3),
+    r"\hfil": _is(""),
+    r"\dif": _is(r"\,\mathrm{d}"),
+    r"\diff": _is(r"\,\mathrm{d}"),
+    r"\underline@": _is(""),
+    r"\mbox": _as(r"\text{#1}"),
+    r"\textnormal": _as(r"\text{#1}"),
+    r"\textrm": _as(r"\text{#1}"),
+    r"\textit": _as(r"\text{#1}"),
+    r"\lbrack": _is("["),
+    r"\rbrack": _is("]"),
+}
+
+
+def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Package]:
+    """The commands of the packages that a source loads; those of all packages where its preamble is not known."""
+    names = set(loaded)
+    found = dict(_SMALL)
+    if everything or "siunitx" in names:
+        found |= _SIUNITX
+    if everything or names & {"physics", "physics2"}:
+        found |= _PHYSICS
+    elif "siunitx" in names:
+        found[r"\qty"] = _quantity
+    return found

@@ -1,0 +1,65 @@
+"""The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.catalogue import Catalogue, Equation
+from lagrotor.paper.source.printed import paper_notation, read_print
+from lagrotor.paper.source.usage import Notation
+
+
+@dataclass(frozen=True)
+class EquationReading:
+    """How one equation was read.
+
+    status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
+    (read, and nothing in it is compared), not read. said: its lines and what is kept aside, as text. guesses: what custom
+    settled; stopped, helps: where a reading stopped and what would help.
+    """
+
+    id: str
+    title: str
+    print: str
+    status: str
+    said: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
+    stopped: str = ""
+    helps: str = ""
+
+    def as_data(self) -> dict[str, Any]:
+        """As an object of JSON."""
+        return asdict(self)
+
+
+def readings(paper: Catalogue) -> Iterator[EquationReading]:
+    """The reading of every equation, in the paper's order. Raises InputError for a [notation] that means nothing."""
+    equations = paper.equations.values()
+    notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
+    for entry in equations:
+        yield _reading(entry, notation)
+
+
+def _reading(entry: Equation, notation: Notation) -> EquationReading:
+    said = tuple(" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in entry.line)
+    if entry.read == "gone":
+        return EquationReading(entry.id, entry.title, entry.latex, "gone", said)
+    if entry.line:
+        status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
+        status = "changed" if entry.changed and status == "unconfirmed" else status
+        return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), entry.guesses)
+    made = read_print(entry.latex, notation, entry.lead)
+    if made.stop is not None:
+        stopped, helps = made.stop
+        return EquationReading(entry.id, entry.title, entry.latex, "not read", stopped=stopped, helps=helps)
+    if made.lines:
+        lines = tuple(" = ".join([row["quantity"], *row["members"]]) for row in made.lines)
+        return EquationReading(entry.id, entry.title, entry.latex, "unread so far", lines, made.guesses)
+    return EquationReading(entry.id, entry.title, entry.latex, "aside", made.aside, made.guesses)
+
+
+def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
+    """The printed lines of an equation as they are judged, in LaTeX."""
+    lines = paper.lines(identifier)
+    return tuple(" = ".join([line.quantity, *map(latex, line.members)]) for line in lines)

@@ -1,0 +1,314 @@
+"""A new paper: a folder with one worked equation, claim and figure, or one made from a source; it can be made again.
+
+Made again from a source that has changed, what is confirmed or derived stays, and what has changed is marked.
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text, write_text
+from lagrotor.paper.catalogue import digest
+from lagrotor.paper.scripts import beside
+from lagrotor.paper.source.displays import Displayed, Source
+from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.printed import Print, paper_notation, read_print
+from lagrotor.paper.title_page import toml
+
+# The worked example that a new folder begins with.
+_EXAMPLE = "papers/pendulum"
+_NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
+_HEAD = (
+    "# The displayed equations of {name}. Each reading is unconfirmed until `lagrotor readings` shows it to you and you\n"
+    "# confirm it. Made again by `lagrotor init`: what is confirmed or derived stays; comments do not."
+)
+
+
+@dataclass(frozen=True)
+class Begun:
+    """What was made: the folder, how many equations it has, of how many the print was read, and what is to be said of it.
+
+    changed, gone: ids of equations whose print has changed, and that the source no longer has.
+    """
+
+    folder: Path
+    equations: int
+    read: int
+    notes: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
+    gone: tuple[str, ...] = ()
+
+
+def begin(folder: Path, source: Path | None = None) -> Begun:
+    """Make the folder, or make it again from its source. Raises InputError before anything is written.
+
+    Where it holds something that is no paper, cannot be made, or the source has no equation.
+    """
+    again = (folder / "paper.toml").is_file()
+    if again and source is None:
+        raise InputError(f"{folder} is a paper already: give its source, --from paper.tex, to read it again")
+    if not again and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError(f"{folder} is there already and is no paper: choose a new or an empty folder")
+    if not folder.resolve().parent.is_dir():
+        raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
+    if source is None:
+        shutil.copytree(beside(_EXAMPLE), folder, ignore=_NOT_COPIED, dirs_exist_ok=True)
+        about = (folder / "paper.toml").read_text(encoding="utf-8")
+        title = f"title = {_text(folder.resolve().name)}"
+        write_text(folder / "paper.toml", re.sub(r"^title = .*$", lambda _: title, about, count=1, flags=re.MULTILINE))
+        return Begun(folder, 1, 1)
+    found, differences = _numbered(read_source(source), aux_numbers(source), source)
+    old = toml(folder / "equations.toml") if again else {}
+    said = toml(folder / "paper.toml").get("notation", {}) if again else {}
+    notation = paper_notation(
+        [*(each.latex for each in found.equations), *found.inline], said, str(folder / "paper.toml")
+    )
+    prints = [read_print(each.latex, notation, each.lead) for each in found.equations]
+    rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
+    (folder / "derivations").mkdir(parents=True, exist_ok=True)
+    write_text(folder / "equations.toml", _catalogue(rows, _vectors(found, prints, old), source.name))
+    _write_about(folder, found, again)
+    _write_symbols(folder, prints, again)
+    if not again:
+        shutil.copyfile(beside(_EXAMPLE) / "README.md", folder / "README.md")
+    notes = (*found.notes, *differences)
+    return Begun(folder, len(prints), sum(each.read for each in prints), notes, tuple(changed), tuple(gone))
+
+
+def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Source, list[str]]:
+    """The source with the numbers that LaTeX wrote beside it, and where they differ from those that its text gives."""
+    said: list[str] = []
+    ids = {each.id for each in found.equations}
+    for place, each in enumerate(found.equations):
+        number = aux.get(each.label, each.number) if each.label else each.number
+        if number != each.number:
+            said.append(
+                f"{each.label} is ({number}) in {source.with_suffix('.aux').name} and ({each.number or 'without a number'}) by "
+                "the source: the first is taken"
+            )
+            identifier = number if number not in ids else each.id
+            found.equations[place] = replace(each, number=number, id=identifier)
+    return found, said
+
+
+def aux_numbers(source: Path) -> dict[str, str]:
+    """Label → number as LaTeX wrote it beside the source; empty where it has not."""
+    file = source.with_suffix(".aux")
+    if not file.is_file():
+        return {}
+    text = file.read_text(encoding="utf-8", errors="replace")
+    for name in re.findall(r"\\@input\{([^{}]*)\}", text):
+        if (inner := file.parent / name).is_file():
+            text += inner.read_text(encoding="utf-8", errors="replace")
+    rows = re.findall(r"\\newlabel\{([^{}]*)\}\{\{((?:[^{}]|\{[^{}]*\})*)\}", text)
+    return {label: re.sub(r"[{}$]|\\relax\s*", "", number).replace(r"^\prime", "'") for label, number in rows}
+
+
+# ---- equations.toml
+
+
+def _derived(folder: Path) -> set[str]:
+    """Ids that a derivation states."""
+    scripts = (folder / "derivations").glob("*.py")
+    return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
+
+
+def _merged(
+    found: Source, prints: list[Print], old: list[dict[str, Any]], derived: set[str]
+) -> tuple[list[dict[str, Any]], list[str], list[str]]:
+    """The rows of equations.toml: those of the source, with what was known of them; ids changed; ids gone."""
+    by_label = {row["label"]: row for row in old if row.get("label")}
+    by_print: dict[str, list[dict[str, Any]]] = {}
+    for row in old:
+        by_print.setdefault(str(row.get("latex")), []).append(row)
+    by_id = {row["id"]: row for row in old}
+    taken: set[str] = set()
+    rows: list[dict[str, Any]] = []
+    changed: list[str] = []
+    for each, made in zip(found.equations, prints, strict=True):
+        known = by_label.get(each.label) if each.label else None
+        same = [row for row in by_print.get(each.latex, []) if row["id"] not in taken]
+        known = known or (same[0] if same else None)
+        if known is None and not each.label:
+            near = by_id.get(each.id)
+            known = near if near is not None and near["id"] not in taken and not near.get("label") else None
+        if known is not None and known["id"] in taken:
+            known = None
+        row = _row(each, made, known, changed)
+        if known is None:
+            while row["id"] in taken or row["id"] in by_id:
+                row["id"] += "'"
+        taken.add(row["id"])
+        rows.append(row)
+    gone = [row["id"] for row in old if row["id"] not in taken]
+    kept = [
+        row | {"read": "gone"}
+        for row in old
+        if row["id"] in gone and (row["id"] in derived or row.get("read") == "confirmed")
+    ]
+    return [*rows, *kept], changed, gone
+
+
+def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+    title = each.label or f"displayed equation {each.id}"
+    row: dict[str, Any] = {
+        "id": each.id,
+        "number": each.number,
+        "section": each.section,
+        "title": title,
+        "label": each.label,
+    }
+    row |= {"latex": each.latex, "lead": each.lead}
+    lines = [dict(line) for line in made.lines]
+    row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
+    if known is not None:
+        same = known.get("latex") == each.latex
+        row |= {k: v for k, v in known.items() if k not in (*row, "line", "changed", "print") or k in ("id", "title")}
+        if same and known.get("read") != "unconfirmed" and known.get("line"):
+            row |= {k: v for k, v in known.items() if k in ("read", "print", "guesses", "aside", "reading")}
+            row["read"] = known.get("read", "")
+            lines = [dict(line) for line in known["line"]]
+        elif not same:
+            row["changed"] = str(known.get("latex"))
+            changed.append(row["id"])
+        elif known.get("changed"):
+            row["changed"] = known["changed"]
+    if lines:
+        row["line"] = lines
+    return {key: value for key, value in row.items() if value not in ("", [], None)}
+
+
+def _vectors(found: Source, prints: list[Print], old: Mapping[str, Any]) -> dict[str, dict[str, str]]:
+    """The letters of each section besides the paper's own: those that are printed as vectors."""
+    known: dict[str, dict[str, str]] = {section: dict(rows) for section, rows in old.get("letters", {}).items()}
+    for each, made in zip(found.equations, prints, strict=True):
+        if made.vectors:
+            rows = known.setdefault(each.section, {})
+            names = dict.fromkeys([*rows.get("vector", "").split(), *made.vectors])
+            rows["vector"] = " ".join(names)
+    return known
+
+
+def _catalogue(rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], name: str) -> str:
+    blocks = [_HEAD.format(name=name)]
+    for section, given in letters.items():
+        blocks.append(
+            "\n".join([f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in given.items())])
+        )
+    blocks += ["\n".join(_equation(row)) for row in rows]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _equation(row: Mapping[str, Any]) -> Iterator[str]:
+    yield "[[equation]]"
+    yield from (f"{key} = {_value(key, value)}" for key, value in row.items() if key != "line")
+    for line in row.get("line", ()):
+        yield ""
+        yield "[[equation.line]]"
+        yield from (f"{key} = {_value(key, value)}" for key, value in line.items())
+
+
+def _value(key: str, value: Any) -> str:
+    """A TOML value."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return str(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value("", each) for each in value) + "]"
+    return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(str(value))
+
+
+def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
+    """Write `read = "confirmed"` and a hash of the print for these equations. Raises InputError for one without a reading."""
+    file = folder / "equations.toml"
+    given = toml(file)
+    rows = {row["id"]: row for row in given.get("equation", [])}
+    wanted = list(ids)
+    for identifier in wanted:
+        if identifier not in rows:
+            raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
+        if not rows[identifier].get("line"):
+            raise InputError(
+                f"equation {identifier} has no reading to confirm: `lagrotor readings {folder}` says where it stopped"
+            )
+    for identifier in wanted:
+        row = rows[identifier]
+        lines = row.pop("line")
+        row.pop("changed", None)
+        row |= {"read": "confirmed", "print": digest(row["latex"], lines)}
+        row["line"] = lines
+    head = re.match(r"(?:#[^\n]*\n)*", read_text(file))
+    blocks = [head[0].rstrip() if head else ""]
+    for section, letters in given.get("letters", {}).items():
+        blocks.append("\n".join([f"[letters.{_text(section)}]", *(f"{k} = {_text(v)}" for k, v in letters.items())]))
+    blocks += ["\n".join(_equation(row)) for row in rows.values()]
+    write_text(file, "\n\n".join(filter(None, blocks)) + "\n")
+    return wanted
+
+
+# ---- paper.toml and symbols.py
+
+
+def _write_about(folder: Path, found: Source, again: bool) -> None:
+    file = folder / "paper.toml"
+    rows = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
+    if again:
+        about, text = toml(file), read_text(file)
+        missing = [
+            row for row, number in zip(rows, found.sections, strict=True) if number not in about.get("sections", {})
+        ]
+        if missing:
+            made = "\n".join(["[sections]", *missing])
+            text = re.sub(r"^\[sections\][ \t]*$", lambda _: made, text, count=1, flags=re.MULTILINE)
+            write_text(file, text if made in text else f"{text.rstrip()}\n\n{made}\n")
+        return
+    head = [
+        f"title = {_text(found.title)}",
+        f"authors = {json.dumps(found.authors, ensure_ascii=False)}",
+        "results = []",
+        'equations_in = "s"',
+        'claims_in = "c"',
+    ]
+    if found.preamble:
+        head.append(f"preamble = '''{found.preamble}'''")
+    write_text(file, "\n".join([*head, "", "[sections]", *rows]) + "\n")
+
+
+def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
+    file = folder / "symbols.py"
+    letters = dict.fromkeys(letter for each in prints for letter in each.letters)
+    known = read_text(file) if again and file.is_file() else ""
+    if known:
+        new = [name for name in letters if not re.search(rf"[\"' ]{re.escape(_stem(name))}[\"' ]", known)]
+        if new:
+            write_text(file, known.rstrip("\n") + "\n" + "\n".join(map(_letter, new)) + "\n")
+        return
+    head = '"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""'
+    rows = [head, "", "from lagrotor.paper import Glossary", "", "GLOSSARY = Glossary()"]
+    write_text(file, "\n".join([*rows, *map(_letter, letters)]) + "\n")
+
+
+def _stem(name: str) -> str:
+    return re.sub(r"_d?dot$", "", name)
+
+
+def _letter(name: str) -> str:
+    return f'{name} = GLOSSARY.letter("{name}", "?", "?", real=True)'
+
+
+def _text(value: str) -> str:
+    """A TOML string."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _latex(value: str) -> str:
+    """A TOML string in which a backslash is a backslash."""
+    return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)

@@ -1,0 +1,53 @@
+"""LaTeX as TeX's tokens: commands, braces, scripts and runs of characters, without comments; and tokens as LaTeX again."""
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+_VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?"
+_TOKEN = re.compile(
+    rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}.*?\\end\{{(?P=name)\}}"
+    r"|\\(?:verb|lstinline)\*?(?P<mark>[^A-Za-z\s*{]).*?(?P=mark))"
+    r"|(?P<comment>%[^\n]*(?:\n[ \t]*)?)"
+    r"|(?P<command>\\(?:[A-Za-z@]+|.|\n))"
+    r"|(?P<open>\{)|(?P<close>\})|(?P<math>\$\$?)|(?P<align>&)|(?P<script>[\^_])|(?P<param>\#\#?\d?)"
+    r"|(?P<text>[^\\{}$%&#^_]+)|(?P<stray>\\)",
+    re.DOTALL,
+)
+
+
+class Token(NamedTuple):
+    r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at`: where it begins."""
+
+    kind: str
+    text: str
+    at: int
+
+
+def tokenize(text: str, base: int = 0) -> list[Token]:
+    """The tokens of a text, its comments left out; base: the place of its first character."""
+    found = []
+    for match in _TOKEN.finditer(text):
+        kind = match.lastgroup or "text"
+        if kind in ("name", "mark"):
+            kind = "raw"
+        if kind != "comment":
+            found.append(Token(kind, match[0], base + match.start()))
+    return found
+
+
+def latex_of(tokens: Iterable[Token]) -> str:
+    """The tokens as LaTeX, with a space between a command and a letter that follows it."""
+    parts: list[str] = []
+    word = False
+    for token in tokens:
+        if word and token.text[:1].isalpha():
+            parts.append(" ")
+        parts.append(token.text)
+        word = token.kind == "command" and token.text[-1].isalpha()
+    return "".join(parts)
+
+
+def is_word(token: Token) -> bool:
+    """Whether a token is a command with letters, after which TeX skips spaces."""
+    return token.kind == "command" and (token.text[-1].isalpha() or token.text[-1] == "@")

@@ -1,0 +1,217 @@
+"""What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
+
+import operator
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import reduce
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from lagrotor.paper.letters import FUNCTIONS
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number as printed, exact."""
+
+    value: Fraction
+
+
+@dataclass(frozen=True)
+class Letter:
+    r"""A letter with its index, marks and dots: theta_1_dot for \\dot\\theta_1; vector: it is printed as one."""
+
+    name: str
+    vector: bool = False
+
+
+@dataclass(frozen=True)
+class Call:
+    """An operation, sum product quotient power negative, or a function by its name, of its arguments."""
+
+    name: str
+    args: tuple["Node", ...]
+
+
+Node: TypeAlias = Number | Letter | Call
+
+# Operations besides those of arithmetic whose value is a vector or a matrix, or a number made of vectors.
+_PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl")
+_CALLED = FUNCTIONS.keys() - {
+    "rate",
+    "diff",
+    "integrate",
+    "diag",
+    "eye",
+    "zeros",
+    "rotation",
+    "Integer",
+    "Float",
+    "Rational",
+}
+_CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
+_ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
+_KNOWN = {
+    **{name: getattr(sp, name) for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth")},
+    **{
+        name: getattr(sp, name)
+        for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh", "exp", "log", "sqrt", "Abs")
+    },
+    "sech": sp.sech,
+    "csch": sp.csch,
+    "sign": sp.sign,
+    "factorial": sp.factorial,
+}
+
+
+def number(value: int | str) -> Number:
+    """A number from its digits."""
+    return Number(Fraction(value))
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """The node and all that it holds."""
+    yield node
+    if isinstance(node, Call):
+        for argument in node.args:
+            yield from walk(argument)
+
+
+def letters_of(node: Node) -> list[str]:
+    """The names of its letters, in the order in which they are printed; pi, e and i as numbers are none."""
+    found = (each.name for each in walk(node) if isinstance(each, Letter))
+    return [name for name in dict.fromkeys(found) if name not in _CONSTANTS]
+
+
+def is_vector(node: Node) -> bool:
+    """Whether its value is a vector or a matrix."""
+    if isinstance(node, Letter):
+        return node.vector
+    if isinstance(node, Number):
+        return False
+    if node.name == "product":
+        return any(map(is_vector, node.args))
+    if node.name in (
+        "sum",
+        "negative",
+        "quotient",
+        "Derivative",
+        "rate",
+        "transpose",
+        "prime",
+        "limit",
+        "Sum",
+        "differential",
+    ):
+        return is_vector(node.args[0])
+    return node.name in (*_VECTORS, "matmul", "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
+        ("bold", "vec")
+    )
+
+
+def in_catalogue(node: Node) -> bool:
+    """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
+    calls = all(each.name in _ARITHMETIC or each.name in _CALLED for each in walk(node) if isinstance(each, Call))
+    return calls and Letter("imaginary_unit") not in walk(node)
+
+
+def text_of(node: Node) -> str:
+    """The node as text, in the order of the print: 1/2*m*x_dot**2."""
+    return _text(node, 0)
+
+
+def _text(node: Node, above: int) -> str:
+    if isinstance(node, Letter):
+        return node.name
+    if isinstance(node, Number):
+        text = str(node.value)
+        return f"({text})" if above > 3 and ("/" in text or "-" in text) else text
+    if node.name not in _PRECEDENCE:
+        return f"{node.name}({', '.join(_text(each, 0) for each in node.args)})"
+    level = _PRECEDENCE[node.name]
+    if node.name == "sum":
+        text = _text(node.args[0], 1)
+        for each in node.args[1:]:
+            taken = isinstance(each, Call) and each.name == "negative"
+            inner = each.args[0] if isinstance(each, Call) and taken else each
+            text += (" - " if taken else " + ") + _text(inner, 2)
+    elif node.name == "negative":
+        text = "-" + _text(node.args[0], 3)
+    elif node.name == "product":
+        text = "*".join([_text(node.args[0], 3), *(_text(each, 4) for each in node.args[1:])])
+    elif node.name == "quotient":
+        text = f"{_text(node.args[0], 3)}/{_text(node.args[1], 4)}"
+    else:
+        text = f"{_text(node.args[0], 6)}**{_text(node.args[1], 5)}"
+    return f"({text})" if level < above or (node.name == "power" and above == 6) else text
+
+
+@dataclass
+class Opaque:
+    """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known."""
+
+    names: dict[str, sp.Symbol] = field(default_factory=dict)
+
+    def symbol(self, node: Node) -> sp.Symbol:
+        """The symbol that stands for a part."""
+        return self.names.setdefault(text_of(node), sp.Symbol(f"[{text_of(node)}]", real=True))
+
+
+def expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
+    """The node as a sympy expression of real letters; what is not arithmetic stands for itself."""
+    if isinstance(node, Number):
+        return sp.Rational(node.value.numerator, node.value.denominator)
+    if isinstance(node, Letter):
+        if node.name in _CONSTANTS:
+            return _CONSTANTS[node.name]
+        if node.vector:
+            return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
+        return sp.Symbol(node.name, real=True)
+    if not _transparent(node):
+        return opaque.symbol(node)
+    parts = [expression(each, opaque) for each in node.args]
+    return _VALUES[node.name](*parts) if node.name in _VALUES else _KNOWN[node.name](*parts)
+
+
+_VALUES: dict[str, Any] = {
+    "sum": lambda *parts: reduce(operator.add, parts),
+    "product": lambda *parts: reduce(operator.mul, parts),
+    "negative": operator.neg,
+    "quotient": operator.truediv,
+    "power": operator.pow,
+    "cross": lambda u, v: u.cross(v),
+    "dot": lambda u, v: u.dot(v),
+    "norm": lambda u: sp.sqrt(u.dot(u)),
+}
+
+
+def _transparent(node: Call) -> bool:
+    """Whether the parts of a call are looked into."""
+    vectors = [is_vector(each) for each in node.args]
+    if node.name == "sum":
+        return all(vectors) or not any(vectors)
+    if node.name == "product":
+        return sum(vectors) <= 1
+    if node.name in ("quotient", "power"):
+        return not vectors[1] and (node.name == "quotient" or not vectors[0])
+    if node.name in ("cross", "dot"):
+        return all(map(_column, node.args))
+    if node.name == "norm":
+        return _column(node.args[0])
+    return node.name == "negative" or (node.name in _KNOWN and not any(vectors))
+
+
+def _column(node: Node) -> bool:
+    """Whether it is a vector of three components."""
+    if isinstance(node, Letter):
+        return node.vector
+    if isinstance(node, Number):
+        return False
+    if node.name in ("sum", "cross"):
+        return all(map(_column, node.args))
+    if node.name in ("negative", "quotient"):
+        return _column(node.args[0])
+    return node.name == "product" and sum(map(is_vector, node.args)) == 1 and any(map(_column, node.args))

@@ -1,0 +1,204 @@
+r"""How a paper uses its letters: which are functions, whether e and i are numbers, whether d is a differential.
+
+What the print does not settle is a question to the author, who answers in `paper.toml`:
+[notation] functions = "f V", letters = "e", numbers = "i", decimal_comma = true.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from keyword import iskeyword
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.paper.letters import FUNCTIONS as CALLED
+from lagrotor.paper.source.boxes import Box, StopError, boxes
+
+_BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
+_KEYS = ("functions", "letters", "numbers", "decimal_comma")
+
+
+@dataclass
+class Notation:
+    """What was seen of a paper's letters.
+
+    called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
+    arguments of sine and cosine; lowered: indices; declared: what the author says.
+    """
+
+    called: dict[str, set[str]] = field(default_factory=dict)
+    bare: set[str] = field(default_factory=set)
+    angles: set[str] = field(default_factory=set)
+    lowered: set[str] = field(default_factory=set)
+    functions: frozenset[str] = frozenset()
+    letters: frozenset[str] = frozenset()
+    numbers: frozenset[str] = frozenset()
+    decimal_comma: bool | None = None
+    imaginary: bool = False
+    exponential: bool = False
+
+
+def declared(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+    """What the author says in [notation]. Raises InputError for a key that means nothing."""
+    if unknown := sorted(given.keys() - set(_KEYS)):
+        raise InputError(f"{where}: notation: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
+    functions, letters, numbers = (frozenset(str(given.get(key, "")).replace(",", " ").split()) for key in _KEYS[:3])
+    return Notation(functions=functions, letters=letters, numbers=numbers, decimal_comma=given.get("decimal_comma"))
+
+
+def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notation:
+    """How the formulas of a paper use their letters."""
+    found = said or Notation()
+    for latex in formulas:
+        try:
+            row = boxes(latex)
+        except (StopError, RecursionError):
+            continue
+        _look(row, found)
+    return found
+
+
+def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
+    r"""theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__mu_nu for T^{\mu\nu}: a name that Python and sympy take."""
+    stem = {"lambda": "lamda"}.get(box.name, box.name)
+    dots = [mark for mark in box.marks if mark.endswith("dot")]
+    stem += box.style + "".join(mark for mark in box.marks if not mark.endswith("dot"))
+    stem += "prime" * box.primes
+    name = stem + "".join(f"__{part}" for part in raised) + "".join(f"_{part}" for part in index)
+    name += f"_{dots[0]}" if dots else ""
+    return f"{name}_" if iskeyword(name) or name in CALLED else name
+
+
+def is_vector(box: Box) -> bool:
+    """Whether a letter is printed as a vector: bold or with an arrow."""
+    return box.style == "bold" or "vec" in box.marks
+
+
+def index_of(box: Box) -> list[str] | None:
+    """The parts of an index, such as ["1"], ["cm"] or ["i", "j"]; None where it is no index of letters and numbers."""
+    found: list[str] = []
+    alone = True  # a comma or a Greek letter ends a run of letters
+    for part in box.sub or ():
+        if part.kind in ("comma", "thin"):
+            alone = alone or part.kind == "comma"
+            continue
+        inner = _index(part)
+        if inner is None:
+            return None
+        greek = part.kind == "letter" and len(part.name) > 1 and not part.upright
+        if alone or greek or len(inner) != 1 or not found:
+            found += inner
+        else:
+            found[-1] += inner[0]
+        alone = greek
+    return found
+
+
+def _index(part: Box) -> list[str] | None:
+    """The text of one box of an index."""
+    if part.sup is not None and part.kind != "letter":
+        return None
+    if part.kind == "letter":
+        own = index_of(part)
+        raised = "" if part.sup is None else _plain(part.sup)
+        if own is None or raised is None:
+            return None
+        return [part.name + part.style + "prime" * part.primes + "".join(part.marks) + raised, *own]
+    if part.kind == "number":
+        return [part.name.replace(".", "p")] if "," not in part.name else None
+    if part.kind == "text":
+        name = "".join(c for c in part.name if c.isalnum())
+        return [name] if name and len(name) <= 24 else None
+    if part.kind == "infinity":
+        return ["inf"]
+    if part.kind == "operator":
+        named = {
+            "+": "plus",
+            "-": "minus",
+            "*": "star",
+            "star": "star",
+            "circ": "circ",
+            "cdot": "dot",
+            "times": "times",
+        }
+        return [named[part.name]] if part.name in named else None
+    if part.kind in ("group", "bracket"):
+        inside = _plain(part.parts[0])
+        return None if inside is None else [inside]
+    if part.kind in ("function", "unit"):
+        return [part.name] if part.name.isalnum() else None
+    if part.kind == "relation" and part.name == "=":
+        return ["eq"]
+    return None
+
+
+def _plain(row: list[Box]) -> str | None:
+    """Boxes as one word; None where one is no letter or number."""
+    parts = [_index(each) for each in row if each.kind not in ("thin", "comma")]
+    return None if None in parts else "".join(word for part in parts for word in part or ())
+
+
+def simple_argument(row: list[Box]) -> bool:
+    """Whether what is in brackets is what functions are called with: letters, numbers and their products, a list of them."""
+    inner = [box for box in row if box.kind != "thin"]
+    kinds = {box.kind for box in inner}
+    if not inner or not kinds <= {"letter", "number", "comma"}:
+        return False
+    if any(box.sup is not None for box in inner):
+        return False
+    return "comma" in kinds or len(inner) <= 2
+
+
+def _look(row: list[Box], found: Notation) -> None:
+    inner = [box for box in row if box.kind != "thin"]
+    for place, box in enumerate(inner):
+        following = inner[place + 1] if place + 1 < len(inner) else None
+        if box.kind == "letter":
+            _look_at_letter(box, following, found)
+            found.lowered.update(b.name for b in box.sub or () if b.kind == "letter")
+        elif box.sub is not None:
+            _look(box.sub, found)
+        if box.kind == "function" and following is not None and following.kind == "letter":
+            after = inner[place + 2] if place + 2 < len(inner) else None
+            if after is None or (after.kind in _BEHIND and after.name != "/"):
+                found.angles.add(following.name)
+        if box.sup is not None:
+            _look(box.sup, found)
+        for part in box.parts:
+            _look(part, found)
+
+
+def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
+    name = box.name
+    if name == "e" and box.sup is not None and not box.upright:
+        if any(b.kind == "letter" or b.parts for b in box.sup):
+            found.exponential = True
+            if any(b.kind == "letter" and b.name in ("i", "j") for b in box.sup):
+                found.imaginary = True
+        return
+    key = name_of(box, index_of(box) or ())
+    if following is not None and following.kind == "bracket" and following.name == "(" and box.sup is None:
+        content = following.parts[0]
+        if simple_argument(content) and following.sup is None:
+            letters = {b.name for b in content if b.kind == "letter"}
+            if letters or any(b.kind == "comma" for b in content):
+                found.called.setdefault(key, set()).update(letters)
+        return
+    if name == "d" and following is not None and following.kind in ("letter", "group") and box.sub is None:
+        return
+    if name == "d" and box.sup is not None and following is not None and following.kind == "letter":
+        return
+    if name in ("delta", "Delta") and following is not None and following.kind == "letter" and box.sub is None:
+        return
+    found.bare.add(key)
+
+
+def arguments(row: list[Box]) -> Iterator[list[Box]]:
+    """What is between the commas."""
+    part: list[Box] = []
+    for box in row:
+        if box.kind == "comma" and box.name != ".":
+            yield part
+            part = []
+        else:
+            part.append(box)
+    yield part

@@ -1,0 +1,150 @@
+r"""Readings: what is printed is what is read, what may mean two things is not read, and every guess is named."""
+
+import pytest
+
+from lagrotor.paper.source.formula import read_formula
+from lagrotor.paper.source.tree import text_of
+from lagrotor.paper.source.usage import declared, notation_of
+
+
+def said(latex: str, *others: str, **notation: str) -> str:
+    """The statements as text; what stopped the reading where there are none."""
+    reading = read_formula(latex, notation_of([latex, *others], declared(notation)))
+    if reading.stop is not None:
+        return f"stopped: {reading.stop[0]}"
+    return "; ".join(" = ".join(text_of(side.node) for side in s.sides) for s in reading.statements)
+
+
+READ = {
+    r"\ddot\theta = -\frac{g}{l}\,\theta.": "theta_ddot = -g/l*theta",
+    r"T = \tfrac12 m \dot{x}_1^2 = T_1": "T = 1/2*m*x_1_dot**2 = T_1",
+    r"E = a\left(b + c\right)": "E = a*(b + c)",
+    r"V = x_{cm}\,0.7125": "V = x_cm*(57/80)",
+    r"\phi = \frac{M}{\cos\theta (I_1 + I_3)}": "phi = M/(cos(theta)*(I_1 + I_3))",
+    r"x = \lambda e^{-\gamma t}": "x = lamda*exp(-gamma*t)",
+    r"k = 4\pi^2/T^2": "k = 4*pi**2/T**2",
+    r"v = \frac{dx}{dt} = \frac{\mathrm{d}x}{\mathrm{d}t}": "v = x_dot = x_dot",
+    r"a = \frac{d^2 x}{dt^2} = \frac{d\dot x}{dt}": "a = x_ddot = x_ddot",
+    r"\frac{d}{dt}\frac{\partial L}{\partial\dot q} = \frac{\partial L}{\partial q}":
+        "rate(Derivative(L, q_dot)) = Derivative(L, q)",
+    r"\vec L = m\,\vec r\times\dot{\vec r}": "Lvec = cross(m*rvec, rvec_dot)",
+    r"W = \mathbf{F}\cdot\mathbf{s} = |\mathbf{F}|\,s\cos\alpha": "W = dot(Fbold, sbold) = norm(Fbold)*s*cos(alpha)",
+    r"M = \sum_{i=1}^{n} m_i": "M = Sum(m_i, i, 1, n)",
+    r"A = \int_0^1 x^2\,dx + \int\frac{dy}{y}": "A = Integral(x**2, x, 0, 1) + Integral(1/y, y)",
+    r"x = 1{,}000 + 0{,}25 + 3.2\times10^{-5}": "x = 1000 + 1/4 + 16/5*10**(-5)",
+    r"g = 9.81\,\mathrm{m/s^2}": "g = 981/100*unit_m*unit_s**(-2)",
+    r"y = \sin^2\theta + \sin 2\theta\cos\phi": "y = sin(theta)**2 + sin(2*theta)*cos(phi)",
+    r"y = \sin\theta\,\dot\theta": "y = sin(theta)*theta_dot",
+    r"x^{(1)} = l_1^2 + x'": "x__1 = l_1**2 + xprime",
+    r"n = \sqrt[3]{5} + \sqrt{a+b} + \frac12": "n = 5**(1/3) + sqrt(a + b) + 1/2",
+    r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}": "f = cases(case(1, condition(x, 0)), case(2, otherwise))",
+    r"A = \begin{pmatrix} a & b\\ c & 0\end{pmatrix}": "A = matrix(row(a, b), row(c, 0))",
+    r"\left.\frac{\partial V}{\partial x}\right|_{x=0} = 0": "at(Derivative(V, x), x, 0) = 0",
+    r"x = a,\qquad y = b \quad\text{where } z = c.": "x = a; y = b; z = c",
+    r"\begin{aligned} a &= b\\ &\quad + c\\ &= d\end{aligned}": "a = b + c = d",
+    r"\alpha = 30^\circ": "alpha = 30*pi/180",
+    r"\left\{\begin{aligned} \dot x &= y\\ \dot y &= -x\end{aligned}\right.": "x_dot = y; y_dot = -x",
+    r"H(q,p) = p\dot q - L(q,\dot q)": "H(q, p) = p*q_dot - L(q, q_dot)",
+    r"\frac{dx/dt}{2} = \partial_x u": "x_dot/2 = Derivative(u, x)",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("latex", READ)
+def test_what_is_read_is_what_is_printed(latex: str) -> None:
+    assert said(latex) == READ[latex]
+
+
+# What may mean two things, and where the reading stops.
+OPEN = {
+    r"y = \sin x y": "where the argument of sin ends",
+    r"y = \sin\theta^2": "whether the power is of the argument",
+    r"y = \sin(\theta)^2": "",
+    r"y = \sin\theta/2": "whether the slash is within the function",
+    r"y = a/bc": "what the slash divides by",
+    r"y = 1/2x": "what the slash divides by",
+    r"E = K(1) + K(2)": "whether K(…) is a function or a product",
+    r"y = f\left(\frac{x}{a}\right)": "whether f(…) is a function or a product",
+    r"|a|b|c| = 1": "how the bars belong together",
+    r"x = \foo y": "\\foo is not known",
+    r"x = ": "a side of the relation is missing",
+    r"= x": "the left side is missing",
+    r"x = i\omega": "whether i is the imaginary unit",
+    r"\vec a\vec b = c": "two vectors stand side by side",
+    r"L = r\times p": "whether × is of vectors or of numbers",
+    r"A = \Omega^T\Omega": "whether T is a power or transposes",
+    r"F = \Delta(x + y)": "whether \\Delta is a factor or a difference",
+    r"S = \sum_i a_i + b_i": "whether the sum ends here",
+    r"x = a.b": "a full stop stands within",
+    r"v = \frac{dr}{dt}(0)": "whether a derivative is taken there",
+    r"D = |\mathbf{K} - \mathbf{M}|": "whether the bars are a determinant",
+    r"\vec F = m a": "",
+    r"x = (a + b": "( is not closed",
+    r"x = a + + b": "two signs follow each other",
+    r"x = \int f": "the differential of the integral is missing",
+    r"x = a + \dots + b": "dots stand for terms",
+    r"y = \frac{d}{dx} f \frac{d}{dx} g": "how far the derivative reaches",
+    r"x^0 = ct": "whether 0 is an upper index",
+}
+
+
+@pytest.mark.parametrize("latex", [latex for latex, why in OPEN.items() if why])
+def test_what_may_mean_two_things_is_not_read_and_it_says_where(latex: str) -> None:
+    assert said(latex).startswith("stopped: ") and OPEN[latex] in said(latex)
+    assert read_formula(latex, notation_of([latex])).stop[1], "what would help"  # type: ignore[index]
+
+
+def test_a_power_behind_a_bracket_of_a_function_is_not_read() -> None:
+    assert "stopped" in said(r"y = \sin(\theta)^2")
+
+
+def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
+    assert said("E = V(x + h)") == "E = V*(x + h)"
+    assert said("E = V(x + h)", "V(x) = x").startswith("E = V(x + h)")
+    assert said("E = K(1) + K(2)", functions="K") == "E = K(1) + K(2)"
+    assert said("E = K(1)", letters="K") == "E = K*1"
+    assert said(r"y = e^2 x") == "y = e**2*x" and "stopped" in said("y = e^2 x", "z = e^{-t}")
+    assert said(r"y = e^{-t}", "a = 1 - e").startswith("stopped: whether e is")
+    assert said(r"y = e^{-t}", "a = 1 - e", numbers="e") == "y = exp(-t)"
+    assert said(r"x = i\omega", numbers="i") == "x = imaginary_unit*omega"
+    assert said("E = mc^2") == "E = m*c**2" and said("I = mr^2") == "I = m*r**2", "energy and inertia, no numbers"
+    assert said("x = 1{,}500", decimal_comma=True) == "x = 3/2"
+
+
+@pytest.mark.parametrize(
+    ("latex", "guess"),
+    [
+        (r"x = e^{-t}", "e is Euler's number"),
+        (r"x = \cos\omega t", "the argument of cos is the product"),
+        (r"x = \sin^{-1} y", "the inverse function"),
+        (r"x = \log y", "the natural logarithm"),
+        (r"x = \Delta t", "one quantity, a difference"),
+        (r"x = 1{,}000", "parts thousands"),
+        (r"\frac{d}{dt} m v = F", "acts on the whole product"),
+    ],
+)
+def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None:
+    (found,) = read_formula(latex, notation_of([latex])).guesses
+    assert guess in found
+
+
+def test_an_order_that_is_claimed_is_kept() -> None:
+    reading = read_formula(r"f = 1 + \epsilon + O(\epsilon^2)")
+    assert reading.statements[0].order == ("epsilon", 2)
+    assert text_of(reading.statements[0].sides[1].node) == "1 + epsilon"
+
+
+def test_relations_part_equations_from_what_is_kept_aside() -> None:
+    kinds = {
+        latex: read_formula(latex).statements[0].kind
+        for latex in ("a = b", r"a \approx b", "a < b", "n = 1, 2", r"x \to 0")
+    }
+    assert list(kinds.values()) == ["equation", "approximation", "inequality", "range", "other"]
+
+
+def test_sums_of_five_hundred_terms_are_read() -> None:
+    latex = "S = " + " + ".join(f"a_{{{n}}} x^{{{n}}}" for n in range(1, 501))
+    assert len(read_formula(latex).statements[0].sides[1].node.args) == 500  # type: ignore[union-attr]
+
+
+def test_deep_brackets_are_refused_in_words() -> None:
+    assert "too deep" in said("x = " + "(" * 500 + "a" + ")" * 500)
