@@ -126,16 +126,16 @@ def readings_command(given: argparse.Namespace) -> int:
         print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
         return 0
     for each in found:
-        print(wrapped(f"{each.id}  {each.title}: {each.status}", 4))
-        print(wrapped(f"    print    {each.print}", 13))
+        print(wrap(f"{each.id}  {each.title}: {each.status}", 4))
+        print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
             left, relation, right = text.partition(" = ")
             shown = f"{from_latex(left)}{relation}{readable(right)}" if "\\" in left else readable(text)
-            print(wrapped(f"    read     {shown}", 13))
+            print(wrap(f"    read     {shown}", 13))
         for guess in each.guesses:
-            print(wrapped(f"    guessed  {guess}", 13))
+            print(wrap(f"    guessed  {guess}", 13))
         if each.stopped:
-            print(wrapped(f"    stopped  {each.stopped}: {each.helps}", 13))
+            print(wrap(f"    stopped  {each.stopped}: {each.helps}", 13))
     counts = Counter(each.status for each in found)
     say(f"{_some(len(found), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
     if counts["unconfirmed"] or counts["changed"]:
@@ -145,7 +145,7 @@ def readings_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.source.check import FOUND, check
+    from lagrotor.paper.source.check import FOUND, WRONG, check
 
     found = [(source, each) for source in given.sources for each in check(source)]
     if given.json:
@@ -157,14 +157,14 @@ def check_command(given: argparse.Namespace) -> int:
             if given.all or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
                 print(
-                    wrapped(
+                    wrap(
                         f"{each.file or source}:{each.line}: ({each.equation}){step}: {each.verdict}: {readable(each.why)}",
                         4,
                     )
                 )
         counts = Counter(each.verdict for _, each in found)
         say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or "nothing to check", 0)
-    return 1 if any(each.verdict in FOUND for _, each in found) else 0
+    return 1 if any(each.verdict in WRONG for _, each in found) else 0
 
 
 def _some(count: int, what: str) -> str:

@@ -1,12 +1,9 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lagrotor.errors import InputError
-from lagrotor.files import read_text
 from lagrotor.paper.source import packages
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import Expander, Macro
@@ -515,18 +512,3 @@ def _plain(text: str) -> str:
     text = re.sub(r"\\(?:thanks|footnote|label|inst|orcid|email|affil)\s*\{[^{}]*\}", "", text)
     text = re.sub(r"\\[A-Za-z]+\*?|[{}$*]|\\\\", " ", text)
     return " ".join(re.sub(r"\\([&%_#])", r"\1", text).split())
-
-
-def equations_of(text: str, title: str = "") -> Iterator[Displayed]:
-    """The displayed equations of a piece of LaTeX."""
-    yield from read_latex(text, None, title).equations
-
-
-def read_file(file: Path) -> Source:
-    """The displayed equations of a .tex file. Raises InputError where there is none."""
-    found = read_latex(read_text(file), file, file.stem)
-    if not found.equations:
-        raise InputError(
-            f"--from {file}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
-        )
-    return found

@@ -19,7 +19,7 @@ SUFFIXES = (".tex", ".md", ".myst", ".markdown", ".ipynb", ".ltx", ".latex")
 
 
 def read_source(file: Path) -> Source:
-    """The displayed equations of a .tex, .md or .ipynb file. Raises InputError for another one, and for one without any."""
+    """The displayed equations of a .tex, .md or .ipynb file. Raises InputError for another one."""
     if file.suffix not in SUFFIXES:
         raise InputError(f"--from {file}: give a .tex, .md or .ipynb file")
     text = read_text(file)
@@ -30,10 +30,6 @@ def read_source(file: Path) -> Source:
     else:
         title = re.search(r"^# +(.*)$", text, re.MULTILINE) or re.search(r"^title:\s*(.*)$", text, re.MULTILINE)
         found = read_latex(markdown_as_latex(text), None, title[1].strip(" \"'") if title else file.stem)
-    if not found.equations:
-        raise InputError(
-            f"--from {file}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
-        )
     return found
 
 

@@ -62,7 +62,12 @@ def begin(folder: Path, source: Path | None = None) -> Begun:
         title = f"title = {_text(folder.resolve().name)}"
         write_text(folder / "paper.toml", re.sub(r"^title = .*$", lambda _: title, about, count=1, flags=re.MULTILINE))
         return Begun(folder, 1, 1)
-    found, differences = _numbered(read_source(source), aux_numbers(source), source)
+    given = read_source(source)
+    if not given.equations:
+        raise InputError(
+            f"--from {source}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
+        )
+    found, differences = _numbered(given, aux_numbers(source), source)
     old = toml(folder / "equations.toml") if again else {}
     said = toml(folder / "paper.toml").get("notation", {}) if again else {}
     notation = paper_notation(
