@@ -11,7 +11,7 @@
 # %%
 from lagrotor.benchmark.records import recorded_multiple, recorded_speed
 from lagrotor.benchmark.scenes_and_methods import CASES, OURS
-from lagrotor.models.choose import choose
+from lagrotor.models.simulate import choose
 from lagrotor.paper import Table
 
 found = recorded_speed()

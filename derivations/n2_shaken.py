@@ -268,8 +268,8 @@ shaken_pair, push, drive_rate = pair(0.4, spins_worst_case(0.4)), 1e-3, 5.0
 amplitude = shaken_pair.response(drive_rate, (push, 0), 0)[0]
 times = np.linspace(25, 25 + 2 * np.pi / drive_rate, 33)[:-1]
 run = shaken_pair.simulate(
-    times, drive=lambda t: np.array([[push * np.sin(drive_rate * t), 0, 0], [0, 0, 0]]), tol=1e-8
-)
+    [0.0, *times], drive=lambda t: np.array([[push * np.sin(drive_rate * t), 0, 0], [0, 0, 0]]), tol=1e-8
+).after(times[0])
 tilt = (run.tips - run.structure.rotor[0].length * np.array([0, 0, 1]) - [[[0, 0, 0]], [[1, 0, 0]]])[..., :2]
 measured = 2j * (tilt * np.exp(-1j * drive_rate * times)[:, None]).mean(1)
 off = float(np.abs(measured - amplitude).max() / np.abs(amplitude).max())

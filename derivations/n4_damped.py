@@ -74,7 +74,7 @@ def decayed(link: Link, friction: float) -> tuple[float, float]:
     own_a, own_b = start.inertias
     body = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], link=link, friction=friction)
     until = np.pi * round(5 / friction) / body.modes().rates.max()
-    energy = body.simulate([0.0, until], start.axes, start.rates, tol=1e-10).energy
+    energy = body.simulate([0.0, until], start.axes, start.rates, tol=1e-10).tilt_energy
     return own_a * friction / (own_a**2 - own_b**2), float(-np.log(energy[1] / energy[0]) / 2 / until)
 
 
@@ -95,7 +95,7 @@ Remark(
 large = paired_scene(Scene(spins=(10.0, -10.0), link=Link(1, 0, 0)), 0.3)
 lasting = np.linspace(0, 5, 26)
 slowing = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], friction=0.2, spin_friction=0.1)
-lost = slowing.simulate(lasting, large.axes, large.rates, tol=1e-9).energy
+lost = slowing.simulate(lasting, large.axes, large.rates, tol=1e-9).tilt_energy
 off = float(np.abs(lost / lost[0] / np.exp(-2 * 0.2 * lasting / slowing.rotor[0].J) - 1).max())
 assert off < 1e-8
 Remark("The decay at a large amplitude", f"From amplitude 0.3 the energy is E_0 e^(−2ct/a) within {off:.0e}.")
@@ -269,7 +269,7 @@ def slowed(link: Link, narrow: float, spin: float = 40.0, loss: float = 0.2) -> 
     run = body.simulate([0.0, *about], start.axes, start.rates, tol=1e-8)
     angle = np.arctan2(-run.axes[:, 1:, 1], run.axes[:, 1:, 2]).mean()
     closed = -spin * narrow**2 / (own_a - own_b) * (1 / loss - until)
-    return float(angle), float(closed), float(np.ptp(run.energy) / run.energy[0])
+    return float(angle), float(closed), float(np.ptp(run.tilt_energy) / run.tilt_energy[0])
 
 
 halved = {(link.mass, narrow): slowed(link, narrow) for link in (Link(), Link(1, 1, 0.5)) for narrow in (0.06,)}

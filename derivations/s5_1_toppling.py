@@ -165,7 +165,8 @@ orders
 
 # %%
 just_after = SHOCK_Y.at + 5 * SHOCK_Y.width
-paper = simulate(Scene(spins=(10, -10), link=HEAVY_LINK, shock=SHOCK_Y), just_after + turn_times, "minimal", 1e-9)
+pushed = Scene(spins=(10, -10), link=HEAVY_LINK, shock=SHOCK_Y)
+paper = simulate(pushed, [0.0, *(just_after + turn_times)], "minimal", 1e-9).after(just_after)
 paper_mean = float(paper.axes[:, :-1, 0].mean())
 paper_linear = float(mean_y.subs(numbers | {P_y: SHOCK_Y.impulse[1]}))
 paper_over = float(np.degrees(paper.inclinations[:, -1]).mean())

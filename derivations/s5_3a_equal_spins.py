@@ -47,7 +47,7 @@ def rate_after(scene: Scene, turns: int = 3) -> tuple[float, float]:
     """Rate of x_1 between zero crossings after the shock, in rad/s, and the amplitude of x_1."""
     begin = scene.shock.at + 5 * scene.shock.width
     times = np.linspace(begin, begin + (turns + 1) * 2 * np.pi / natural_rate(scene), 400 * (turns + 1))
-    x = simulate(scene, times, "auto", 1e-9).axes[0, :, 0]
+    x = simulate(scene, [0.0, *times], "auto", 1e-9).after(begin).axes[0, :, 0]
     up = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0))
     crossings = times[up] - x[up] * (times[up + 1] - times[up]) / (x[up + 1] - x[up])
     return 2 * np.pi * (len(crossings) - 1) / float(crossings[-1] - crossings[0]), float(np.ptp(x)) / 2

@@ -154,7 +154,7 @@ def measured(link: Link, rate: float) -> tuple[float, float]:
     scene = Scene(spins=(10, -10), link=link, rates=((1e-9, -rate, 0.0),) * 2)
     predicted = float(toppling_growth()(rate, 10.0, *scene.inertias, link.length))
     times = np.linspace(8 / predicted, 13 / predicted, 41)
-    x = np.abs(simulate(scene, times, "spheres", 1e-12).axes[:, :, 0].mean(0))
+    x = np.abs(simulate(scene, [0.0, *times], "spheres", 1e-12).after(times[0]).axes[:, :, 0].mean(0))
     return predicted, float(np.polyfit(times, np.log(x), 1)[0])
 
 
@@ -186,7 +186,7 @@ for force in (50, -50):
     scene = Scene(spins=(10, -10), link=Link(1, 1, 1), shock=Shock((0, force, 0), 2, 1 / 50))
     rate = shock_response(scene).toppling_rate
     growth = float(toppling_growth()(rate, 10.0, *scene.inertias, 1.0))
-    x = simulate(scene, np.linspace(2.5, 20, 200), "spheres", 1e-8).axes[:, :, 0].mean(0)
+    x = simulate(scene, [0.0, *np.linspace(2.5, 20, 200)], "spheres", 1e-8).after(2.5).axes[:, :, 0].mean(0)
     shocks[force] = (rate, growth, float(np.ptp(x)))
 assert shocks[50][1] == 0 < shocks[-50][1]
 assert shocks[-50][2] > shocks[50][2]

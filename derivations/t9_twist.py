@@ -230,7 +230,7 @@ def measured(link: Link, angle: float) -> tuple[float, float, float]:
     hill = twist_multiplier_growth(scene, angle)
     half_turn = np.pi * sum(scene.inertias) * np.cos(angle) / 10
     times = half_turn * np.array([np.ceil(6 / hill / half_turn), np.ceil(11 / hill / half_turn)])
-    axes = simulate(parallel_scene(scene, angle, 1e-7), times, "minimal", 1e-10).axes
+    axes = simulate(parallel_scene(scene, angle, 1e-7), [0.0, *times], "minimal", 1e-10).after(times[0]).axes
     apart = np.linalg.norm(axes[0] - axes[1], axis=-1)
     return first, hill, float(np.log(apart[1] / apart[0]) / (times[1] - times[0]))
 

@@ -32,7 +32,7 @@ ALT = (
 def data() -> dict[str, np.ndarray]:
     """Tips after the shock (2, n, 3) in m, centres of each turn (2, turns, 3), angles (deg), predicted centres."""
     t = np.linspace(2.4, 10, 1901)
-    tips = simulate(SCENE, t, "minimal", TOL).tips
+    tips = simulate(SCENE, [0.0, *t], "minimal", TOL).after(t[0]).tips
     _, means = turn_means(t, tips)
     lines = np.concatenate([means[1] - means[0], (means[1] - means[0]).mean(0)[None]])
     angles = np.degrees(np.arctan2(lines[:, 1], lines[:, 0]))

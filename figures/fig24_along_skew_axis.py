@@ -45,7 +45,7 @@ def fitted_phase(t: np.ndarray, wave, seen: np.ndarray) -> float:
 def data() -> dict[str, np.ndarray]:
     """Time (s) after the shock, displacements along the skew axis (2, n) in m, and the scalars behind them."""
     t = np.linspace(2.4, 10, 1901)
-    tips = simulate(SCENE, t, "minimal", TOL).tips
+    tips = simulate(SCENE, [0.0, *t], "minimal", TOL).after(t[0]).tips
     crossings, means = turn_means(t, tips)
     centres = means.mean(1)
     line, middles = (centres[1] - centres[0])[:2], means.mean(0)[:, :2]

@@ -37,13 +37,18 @@ def measured(link: Link, rate: float) -> float:
     scene = Scene(spins=(SPIN, -SPIN), link=link, rates=((1e-9, -rate, 0.0),) * 2)
     predicted = float(toppling_growth()(rate, SPIN, *scene.inertias, link.length))
     t = np.linspace(8 / predicted, 12 / predicted, 31)
-    x = np.abs(simulate(scene, t, "spheres", 1e-11).axes[:, :, 0].mean(0))
+    x = np.abs(simulate(scene, [0.0, *t], "spheres", 1e-11).after(t[0]).axes[:, :, 0].mean(0))
     return float(np.polyfit(t, np.log(x), 1)[0])
 
 
 def shocked(force: float) -> Scene:
     """The paper's shock along y on the pair with its heavy bar."""
     return Scene(spins=(SPIN, -SPIN), link=Link(1, 1, 1), shock=Shock((0, force, 0), 2, 1 / 50))
+
+
+def leaning(force: float, t: np.ndarray) -> np.ndarray:
+    """The mean x of both axes at times t after the shock, (n,)."""
+    return simulate(shocked(force), [0.0, *t], "spheres", 1e-9).after(t[0]).axes[:, :, 0].mean(0)
 
 
 @cache
@@ -58,7 +63,7 @@ def data() -> dict[str, np.ndarray]:
         "tried": np.array(TRIED),
         "measured": np.array([measured(links[i], rate) for i, rate in TRIED]),
         "t": t,
-        "x": np.array([simulate(shocked(f), t, "spheres", 1e-9).axes[:, :, 0].mean(0) for f in (FORCE, -FORCE)]),
+        "x": np.array([leaning(f, t) for f in (FORCE, -FORCE)]),
     }
 
 

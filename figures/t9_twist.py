@@ -37,7 +37,7 @@ def measured(inertia: float, angle: float) -> float:
     growth = twist_multiplier_growth(one, angle)
     half = np.pi * sum(one.inertias) * np.cos(angle) / SPIN
     t = half * np.array([np.ceil(6 / growth / half), np.ceil(10 / growth / half)])
-    axes = simulate(parallel_scene(one, angle, 1e-7), t, "minimal", 1e-10).axes
+    axes = simulate(parallel_scene(one, angle, 1e-7), [0.0, *t], "minimal", 1e-10).after(t[0]).axes
     apart = np.linalg.norm(axes[0] - axes[1], axis=-1)
     return float(np.log(apart[1] / apart[0]) / (t[1] - t[0]))
 

@@ -40,9 +40,9 @@ class SingularError(LagrotorError, ArithmeticError):
 
 
 class IntegrationError(LagrotorError, ArithmeticError):
-    """An integration that could not reach the end of the run. nfev: evaluations known to be spent on it."""
+    """An integration that could not reach the end of the run, or gave another motion. evaluations: those known to be spent."""
 
-    nfev: int = 0
+    evaluations: int = 0
 
 
 class LagrotorWarning(UserWarning):

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 from lagrotor.benchmark import chart_constants
-from lagrotor.models import estimate_constants
-from lagrotor.numerics import solver_constants
+from lagrotor.numerics import estimate_constants, solver_constants
 from lagrotor.theory import calibrated_factors
 
 

@@ -31,7 +31,7 @@ def test_the_reference_has_every_public_name_with_its_docstring(hooks: ModuleTyp
     assert "### simulate\n" in pages["reference/models.md"]
     said = (lagrotor.simulate.__doc__ or "").strip().splitlines()[0]
     assert said in pages["reference/models.md"]
-    assert "#### Trajectory.to_dataframe" in pages["reference/pair.md"]
+    assert "#### Run.to_dataframe" in pages["reference/numerics.md"]
 
 
 def test_the_second_paper_is_shown_with_its_verdicts(hooks: ModuleType) -> None:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from lagrotor.benchmark.method import tips
 from lagrotor.models import minimal, spheres
-from lagrotor.models.integrated import integrated
+from lagrotor.models.model import integrate_model
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
@@ -27,6 +27,6 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
 
     tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
     """
-    models = minimal.MODEL, spheres.MODEL
-    one, other = (tips(scene, integrated(model, scene, t_eval, TIGHTEST).seen.axes) for model in models)
+    runs = ((model, integrate_model(model, scene, t_eval, TIGHTEST).states) for model in (minimal.MODEL, spheres.MODEL))
+    one, other = (tips(scene, model.observe(scene, states).axes) for model, states in runs)
     return Reference(one, float(np.linalg.norm(one - other, axis=-1).max()))

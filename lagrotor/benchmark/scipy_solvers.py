@@ -9,11 +9,10 @@ from lagrotor.benchmark.chart_constants import LSODA_LEAST
 from lagrotor.benchmark.method import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
-from lagrotor.models.integrated import problem_of
+from lagrotor.models.model import problem_of
 from lagrotor.numerics.adams import adams
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.segment import Engine, RightHandSide, Segment, StopError
-from lagrotor.numerics.segment import Run as States
+from lagrotor.numerics.segment import Engine, RightHandSide, Segment, StopError, Stretch
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -61,10 +60,10 @@ def run_by(
 def ode_engine(solver: str) -> Engine:
     """One of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
-    def run(segment: Segment, error: float) -> States:
+    def run(segment: Segment, error: float) -> Stretch:
         t_eval = np.union1d([segment.left], segment.t_eval)
         states, nfev = run_by(solver, segment.rhs, segment.start, t_eval, error, segment.longest)
-        return States(states[-len(segment.t_eval) :], states[-1], nfev)
+        return Stretch(states[-len(segment.t_eval) :], states[-1], nfev)
 
     return run
 
@@ -72,7 +71,7 @@ def ode_engine(solver: str) -> Engine:
 def ivp_engine(method: str) -> Engine:
     """A method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
 
-    def run(segment: Segment, error: float) -> States:
+    def run(segment: Segment, error: float) -> Stretch:
         from scipy.integrate import solve_ivp
 
         nfev = 0
@@ -80,7 +79,7 @@ def ivp_engine(method: str) -> Engine:
         def counted(s: float, y: Array) -> list[float]:
             nonlocal nfev
             nfev += 1
-            if nfev > segment.max_nfev:
+            if nfev > segment.budget:
                 raise StopError(s, f"{nfev - 1} evaluations by s = {s:.3g} s")
             return segment.rhs(s, y)
 
@@ -92,7 +91,7 @@ def ivp_engine(method: str) -> Engine:
             raise StopError(segment.right, found.message)
         if not np.isfinite(found.y).all():
             raise StopError(segment.right, "a value is not finite")
-        return States(found.y.T, found.y[:, -1], nfev)
+        return Stretch(found.y.T, found.y[:, -1], nfev)
 
     return run
 
@@ -105,7 +104,7 @@ def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         end = float(t_eval[-1])
-        problem = problem_of(minimal.MODEL, scene, end)
+        problem = problem_of(minimal.MODEL, scene)
         longest = problem.width if problem.driven and sees_shock else np.inf
         segment = Segment(
             rhs=problem.driven or problem.free,
@@ -114,12 +113,12 @@ def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
             right=end - problem.at,
             t_eval=t_eval - problem.at,
             longest=longest,
-            max_nfev=5 * problem.max_nfev,
+            budget=100_000 + 1_250 * problem.typical_rate * end,
         )
 
         def run(tol: float) -> tuple[Array, int]:
             found = engine(segment, tol)
-            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.nfev
+            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.evaluations
 
         return run
 

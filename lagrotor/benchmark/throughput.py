@@ -49,7 +49,7 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
         for tol in (1e-6, 1e-10):
             # Compile now what is compiled once in a process.
-            sweep(scenes[:16], [0.1], tol, chunk=4, executor=executor, engine=engine)
+            sweep(scenes[:16], [0.0, 0.1], tol, chunk=4, executor=executor, engine=engine)
             seconds = _best(partial(sweep, scenes, [_RUN], tol, chunk=chunk, executor=executor, engine=engine), 2)
             kind = f"{engine}, error {tol:.0e}"
             what, first = f"trajectories of {_RUN:g} s, displaced family, {kind}", first or kind

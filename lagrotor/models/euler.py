@@ -96,4 +96,9 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], scene.rotor.I3 * spins.T)
 
 
-MODEL = Model("euler", 12, _kind, program, _rhs, _start, _observe, _projection)
+def _singular(axes: Array) -> str:
+    near = [i for i in (0, 1) if hypot(axes[i, 0], axes[i, 1]) < 10 * LEAST_INCLINATION]
+    return f"theta_{near[0] + 1} comes to zero, where Euler angles are singular" if near else ""
+
+
+MODEL = Model("euler", 12, _kind, program, _rhs, _start, _observe, _singular, _projection)

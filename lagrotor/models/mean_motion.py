@@ -59,7 +59,7 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
         raise InputError("run_after: the scene needs a shock and a spin")
     begin = scene.shock.end
     t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, turns * _SAMPLES + 1)
-    return simulate(scene, t, "minimal", tol)
+    return simulate(scene, [0.0, *t], "minimal", tol).after(begin)
 
 
 def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
@@ -98,7 +98,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     turn = 2 * np.pi / response.frequency
     begin = scene.shock.end
     t = np.arange(begin, begin + longest + 6 * turn, turn / _SAMPLES)
-    values = simulate(scene, t, "minimal", 1e-9).axes[..., 0].mean(0)
+    values = simulate(scene, [0.0, *t], "minimal", 1e-9).after(begin).axes[..., 0].mean(0)
     u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.convolve(values, weight / weight.sum(), "valid")

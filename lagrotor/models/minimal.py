@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from lagrotor.models.programs.minimal_program import Ratio
     from lagrotor.numerics.codegen import Program
 
+NEAR = 1e-3  # rad from the joint line, where the coordinates U grow without end
 Kind = tuple[bool, "Ratio", int]  # massive bar, ell against R, shocked rotor (0: none)
 RATIOS: tuple[Ratio, ...] = ("short", "equal", "long")
 KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
@@ -103,4 +104,9 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 
-MODEL = Model("minimal", 6, _kind, program, _rhs, _start, _observe, angles=(1, 2))
+def _singular(axes: Array) -> str:
+    near = [i for i in (0, 1) if hypot(axes[i, 1], axes[i, 2]) < NEAR]
+    return f"axis {near[0] + 1} lies along the joint line" if near else ""
+
+
+MODEL = Model("minimal", 6, _kind, program, _rhs, _start, _observe, _singular, angles=(1, 2))

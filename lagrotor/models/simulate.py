@@ -3,28 +3,39 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf, nan
+from math import inf, nan, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorWarning, near
+from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorError, LagrotorWarning, near
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.models.choose import choose
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.estimate_constants import BEYOND, gathered_error
-from lagrotor.models.estimated import Estimated, run_at, run_within
+from lagrotor.models.conserved import conservation_defect, pulse_nodes
 from lagrotor.models.linear import linear_error, linear_run
-from lagrotor.models.model import Model, Observed, constant_momenta
-from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
+from lagrotor.models.model import Model, Observed, check_range, constant_momenta, integrate_model
+from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units, typical_rate
+from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import check_engine, check_tolerance
-from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.solver_constants import Calibrated
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 from lagrotor.shown import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
+BY_NAME = Patience(20_000, 250 * 2 * pi)
+REPLACEABLE = Patience(
+    1_000, 500 * 2 * pi
+)  # where a looser run may take its place: five times as many serve none better
+SHORT = Calibrated(
+    20.0,
+    "turns below which the fast extra integrates at once",
+    "random scenes of up to 20 turns",
+    "test_choose.py::test_the_fast_extra_misses_none_either_and_foresees_only_long_runs",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +48,11 @@ class Direct:
 
 
 def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
-    answer = closed_form(scene, float(times[-1]), tol, best)
-    seen = Observed(*answer.motion(times), constant_momenta(scene, len(times)))
-    missed = ", more than tol" if answer.error > tol else ""
+    motion = closed_form(scene, float(times[-1]), tol, best)
+    seen = Observed(*motion.motion(times), constant_momenta(scene, len(times)))
+    missed = ", more than tol" if motion.error > tol else ""
     return Direct(
-        seen, answer.error, f"by name; {answer.reason}; estimated error {scientific(answer.error, 1)}{missed}"
+        seen, motion.error, f"by name; {motion.reason}; estimated error {scientific(motion.error, 1)}{missed}"
     )
 
 
@@ -53,12 +64,55 @@ def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
         return Direct(seen, nan, "by name")
 
 
-# (scene, times, tol, whether to give the best there is, by name, or what `choose` took)
+# (scene, times from its start, tol, whether to give the best there is, by name, or what `choose` took)
 DIRECT: dict[str, Callable[[Scene, Array, float, bool], Direct]] = {"closed_form": _closed_form, "linear": _linear}
 
 
+@dataclass(frozen=True)
+class Choice:
+    """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence."""
+
+    model: str
+    estimate: float
+    reason: str
+
+
+def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
+    """The cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
+
+    The errors of the closed forms and of the linear model are estimated analytically; no integration is needed. A short run
+    of a pair with its bar takes engine = "fast" less time than that estimate, and is integrated at once. An integrated
+    model is held to `tol` while it runs: see `lagrotor.numerics.estimated_run`.
+    """
+    turns, missed = (
+        typical_rate(scene) * t_end / (2 * pi),
+        "a run too short to estimate the cheaper ones' errors",
+    )
+    if engine == "core" or scene.link is None or turns > SHORT.value:
+        try:
+            motion = closed_form(scene, t_end, tol)
+            if motion.error <= tol:
+                return Choice("closed_form", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}")
+        except LagrotorError:
+            pass
+        try:
+            error = linear_error(scene, t_end)
+            if error <= tol:
+                return Choice(
+                    "linear", error, f"small motion: normal modes, whose next terms are at most {scientific(error, 1)}"
+                )
+            missed = f"normal modes have an error of {scientific(error, 1)}"
+        except LagrotorError as refusal:
+            missed = str(refusal).split(";")[0]
+    try:
+        check_range(minimal.MODEL, scene)
+    except LagrotorError as refusal:
+        return Choice("spheres", tol, f"regular everywhere; {refusal}")
+    return Choice("minimal", tol, f"least exact model: bar eliminated, six states; {missed}")
+
+
 def check_times(t: ArrayLike) -> Array:
-    """Times as a float array (n,), refused unless finite, increasing and not before 0."""
+    """Times as a float array (n,), refused unless finite and increasing."""
     try:
         if isinstance(t, str | bytes):
             raise TypeError
@@ -67,15 +121,11 @@ def check_times(t: ArrayLike) -> Array:
         raise InputError(f"simulate: t = {t!r} is not an array of times in s") from None
     if times.ndim != 1 or times.size == 0:
         raise InputError(f"simulate: t has shape {times.shape}: give a row of at least one time in s")
-    if times[0] >= 0 and times[-1] < np.inf and (times[1:] > times[:-1]).all():  # of a NaN nothing is true
-        return times
     if not np.isfinite(times).all():
         raise InputError("simulate: t holds a time that is not finite")
-    if times[0] < 0:
-        raise InputError(
-            f"simulate: t starts at {times[0]:g} s: the scene is given at t = 0, so times start there or later"
-        )
-    raise InputError("simulate: the times must increase; sort them and drop repeated ones")
+    if not (times[1:] > times[:-1]).all():
+        raise InputError("simulate: the times must increase; sort them and drop repeated ones")
+    return times
 
 
 def simulate(
@@ -86,15 +136,16 @@ def simulate(
     engine: str = "core",
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:
-    """Run `scene` from t = 0 and read it at the times `t` (n,), in s.
+    """Run `scene` from its start, which holds at t[0], through the times `t` (n,), in s.
 
     model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
-    of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: for "auto" that error
-    (tips: in units of R), for an integrated model the solver's relative and absolute local error, 1e-13 to 0.1.
+    of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: the largest error of an axis
+    (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
 
-    The trajectory carries `error`, the estimated largest error of an axis, and `horizon`, the time after which neighbouring
-    motions have parted too far for `tol` to be meant. An integrated run is compared with a second one at another tolerance
-    and held to what the motion conserves; a LagrotorWarning says when `tol` is not kept, and what was reached.
+    The trajectory carries `errors`, the estimated largest error of an axis up to each time, `horizon`, the time from which
+    they exceed `tol`, and `ending`. A run is integrated twice, at two tolerances, and held to what the motion conserves; a
+    LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
+    holds the times up to there.
 
     engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
     "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
@@ -103,126 +154,170 @@ def simulate(
     of the runs that are compared begins anew.
 
     Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
-    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError when the run cannot go on,
-    or did not conserve what it must.
+    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError where nothing of the run could
+    be computed, or it did not conserve what it must.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
     times, tolerance = check_times(t), check_tolerance(tol)
     check_engine(engine)
-    if model == "auto":
-        return _automatic(scene, times, tolerance, engine, progress)
+    at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
     if model in DIRECT:
-        direct = DIRECT[model](scene, times, tolerance, True)
+        direct = DIRECT[model](at_zero, times - times[0], tolerance, True)
+        if not direct.error <= tolerance:
+            error = "not known" if np.isnan(direct.error) else scientific(direct.error, 1)
+            said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}"
+            warnings.warn(said, LagrotorWarning, stacklevel=2)
         return _direct(scene, model, direct.reason, times, direct, tolerance)
-    if model not in MODELS:
+    if model == "auto":
+        choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
+        if choice.model in DIRECT:
+            direct = DIRECT[choice.model](at_zero, times - times[0], tolerance, False)
+            return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tolerance)
+    elif model not in MODELS:
         known = "auto", *DIRECT, *MODELS
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
-    return _by_name(MODELS[model], scene, times, tolerance, engine, progress)
+    elif engine == "fast" and not _fast_runs(MODELS[model], scene):
+        raise InputError(
+            f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "
+            "constraints fail; take minimal, or engine='core'"
+        )
+    # Time is counted from the pulse: one far off that is not felt is left out, it would only cost digits.
+    duration = float(times[-1] - times[0])
+    door = _Door(
+        natural_units(replace(at_zero, shock=at_zero.shock_until(duration))), times, tolerance, engine, progress
+    )
+    if model == "auto":
+        name, why, run = door.by_ladder(choice)
+    else:
+        name, why, run = model, "by name", door.run(MODELS[model], BY_NAME)
+    units = door.units
+    run.warn_unless_kept(name, tolerance)
+    seen, n = MODELS[name].observe(units.scene, run.states), len(run.t)
+    momenta = seen.momenta - constant_momenta(units.scene, n)
+    return Trajectory(
+        scene=scene,
+        model=name,
+        why=why,
+        t=times[:n],
+        axes=seen.axes,
+        rates=seen.rates * units.rate,
+        momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
+        errors=run.errors,
+        horizon=run.horizon,
+        evaluations=run.evaluations,
+        ending=run.ending,
+    )
 
 
 def _direct(scene: Scene, model: str, why: str, times: Array, direct: Direct, tol: float) -> Trajectory:
     seen, horizon = direct.seen, inf if direct.error <= tol else nan
     return Trajectory(
-        scene, model, why, times, seen.axes, seen.rates, seen.momenta, 0, error=direct.error, horizon=horizon
-    )
+        scene=scene, model=model, why=why, t=times, axes=seen.axes, rates=seen.rates, momenta=seen.momenta,
+        errors=np.full(len(times), direct.error), horizon=horizon, ending=Ending("end", float(times[-1])),
+    )  # fmt: skip
 
 
-def _by_name(
-    model: Model, scene: Scene, times: Array, tol: float, engine: str, progress: Callable[[float], None] | None
-) -> Trajectory:
-    if engine == "fast" and not _fast_runs(model, scene):
-        raise InputError(
-            f"simulate: engine='fast' does not run model={model.name!r} with this scene: a Taylor step may pass where its "
-            "constraints fail; take minimal, or engine='core'"
+@dataclass(frozen=True, eq=False)
+class _Door:
+    """A scene in natural units and how it is to be run: what the contract of runs needs of a model of it."""
+
+    units: NaturalUnits
+    times: Array
+    tol: float
+    engine: str
+    progress: Callable[[float], None] | None
+
+    def run(self, model: Model, patience: Patience, bounded: bool = False) -> EstimatedRun:
+        """The model's run; bounded: it ends where the model is badly conditioned, and another is at hand.
+
+        Raises StopError, in s, where nothing is reached.
+        """
+        scene, rate, begin = self.units.scene, self.units.rate, float(self.times[0])
+        t = (self.times - begin) * rate
+        engine = self.engine if _fast_runs(model, scene) else "core"
+        nodes = pulse_nodes(scene, float(t[-1]))
+        reported = 0.0
+
+        def report(s: float) -> None:
+            if self.progress is not None:
+                self.progress(begin + (reported + s) / rate)
+
+        shown = model if self.progress is None else replace(model, progress=report)
+
+        def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+            nonlocal reported
+            reported = float(times[0])
+            here, after = scene.since(reported), times - times[0]
+            here = replace(here, shock=here.shock_until(float(after[-1])))
+            try:
+                return integrate_model(shown, here, after, local, engine, bounded, companion, start, budget)
+            except StopError as stop:
+                stop.at += float(times[0])
+                raise
+
+        def defect(times: Array, states: Array) -> float:
+            felt = replace(scene, shock=scene.shock_until(float(times[-1])))
+            whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
+            return conservation_defect(felt, times, model.observe(scene, states), whole)
+
+        def distance(one: Array, other: Array) -> Array:
+            apart = model.observe(scene, one).axes - model.observe(scene, other).axes
+            return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
+
+        def difference(one: Array, other: Array) -> float:
+            apart = model.observe(scene, one).rates - model.observe(scene, other).rates
+            return float(np.abs(apart).max(initial=0.0)) / PACE
+
+        evolution = Evolution(
+            model.start(scene),
+            integrate,
+            distance,
+            turn=2 * pi / PACE,
+            patience=patience,
+            project=model.projection(scene) if model.projection else None,
+            defect=defect,
+            difference=difference,
+            watch=nodes.t if nodes else np.empty(0),
+            singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
+            elsewhere=bounded,
         )
-    units = _in_units(scene, times)
-    promised = gathered_error(tol, float(times[-1]) * units.rate * PACE)
-    try:
-        found = run_at(_reporting(model, units, progress), units.scene, times * units.rate, tol, engine, promised)
-    except StopError as stopped:
-        raise _in_seconds(stopped, units) from None
-    return _trajectory(scene, model.name, "by name", times, found, units, promised, tol)
-
-
-def _automatic(
-    scene: Scene, times: Array, tol: float, engine: str, progress: Callable[[float], None] | None
-) -> Trajectory:
-    choice = choose(scene, float(times[-1]), tol, engine)
-    if choice.model in DIRECT:
-        direct = DIRECT[choice.model](scene, times, tol, False)
-        return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tol)
-    units, why, spent = _in_units(scene, times), choice.reason, 0
-    for model in LADDER[[model.name for model in LADDER].index(choice.model) :]:
-        last, runs_by = model is LADDER[-1], engine if _fast_runs(model, scene) else "core"
         try:
-            reporting = _reporting(model, units, progress)
-            found = run_within(reporting, units.scene, times * units.rate, tol, runs_by, not last)
-            found = replace(found, nfev=found.nfev + spent)
-            return _trajectory(scene, model.name, why, times, found, units, tol, tol)
+            return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)
+        except StopError as stop:
+            at = begin + stop.at / rate
+            raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
         except IntegrationError as refusal:
-            if last:
-                raise _in_seconds(refusal, units) from None
-            why, spent = f"regular everywhere; {_in_seconds(refusal, units)}", spent + refusal.nfev
-    raise AssertionError("the last model returns or raises")
+            refusal.args = (f"{model.name}: {refusal}",)
+            raise
 
-
-def _reporting(model: Model, units: NaturalUnits, progress: Callable[[float], None] | None) -> Model:
-    return model if progress is None else replace(model, progress=lambda t: progress(t / units.rate))
+    def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
+        """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
+        else the one that comes farthest."""
+        begun = [model.name for model in LADDER].index(choice.model)
+        # Where none reaches the end, the first goes on where it is badly conditioned.
+        tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
+        tries += [(model, False) for model, bounded in tries if bounded]
+        spent, why, early, refused = 0, choice.reason, list[tuple[str, str, EstimatedRun]](), list[IntegrationError]()
+        for model, bounded in tries:
+            try:
+                run = self.run(model, REPLACEABLE, bounded)
+                stopped: object = run.ending
+                spent += run.evaluations
+                early.append((model.name, why, replace(run, evaluations=spent)))
+                if not run.ending.early:
+                    return early[-1]
+            except IntegrationError as refusal:
+                stopped, spent = refusal, spent + refusal.evaluations
+                refused.append(refusal)
+            why = f"regular everywhere; {model.name}: {stopped}" if bounded else f"{why}; {model.name}: {stopped}"
+        if not early:
+            refused[-1].evaluations = spent
+            raise refused[-1]
+        name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
+        return name, why, replace(run, evaluations=spent)
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:
     """Whether Taylor steps cannot pass a position at which the model's constraints fail."""
     return model.outside is None or scene.link is None
-
-
-def _in_units(scene: Scene, times: Array) -> NaturalUnits:
-    """Time is counted from the pulse: one far off that is not felt is left out, it would only cost digits."""
-    return natural_units(replace(scene, shock=scene.shock_until(float(times[-1]))))
-
-
-def _in_seconds(refusal: IntegrationError, units: NaturalUnits) -> IntegrationError:
-    return StopError(refusal.at / units.rate, refusal.reason) if isinstance(refusal, StopError) else refusal
-
-
-def _trajectory(
-    scene: Scene,
-    model: str,
-    why: str,
-    times: Array,
-    found: Estimated,
-    units: NaturalUnits,
-    promised: float,
-    tol: float,
-) -> Trajectory:
-    """The run in the units of the scene; warns where the estimate exceeds what was promised."""
-    error, horizon = float(found.errors[-1]), found.horizon / units.rate
-    if error > promised:
-        warnings.warn(_not_kept(model, tol, found, units.rate), LagrotorWarning, stacklevel=4)
-    seen, before = found.seen, constant_momenta(units.scene, len(times))
-    momentum = units.inertia * units.rate
-    return Trajectory(
-        scene=scene,
-        model=model,
-        why=why,
-        t=times,
-        axes=seen.axes,
-        rates=seen.rates * units.rate,
-        momenta=constant_momenta(scene, len(times)) + (seen.momenta - before) * momentum,
-        evaluations=found.nfev,
-        error=error,
-        horizon=horizon,
-    )
-
-
-def _not_kept(model: str, tol: float, found: Estimated, rate: float) -> str:
-    error, horizon = float(found.errors[-1]), found.horizon / rate
-    apart = error / found.tol
-    reason = (
-        f"neighbouring motions part about {scientific(apart)}-fold, and tol can be meant only up to"
-        if apart > 1e5
-        else "it is below what the solver can give after"
-    )
-    estimated = f"the estimated error is {scientific(error, 1)}"
-    beyond = f"; from t = {found.loosened / rate:.6g} s its local error is {BEYOND:g}" if found.loosened < inf else ""
-    return f"simulate: {model} does not keep tol = {tol:g}: {estimated}; {reason} t = {horizon:.6g} s{beyond}"

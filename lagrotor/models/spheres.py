@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
 CLEARANCE = 1e-5  # rad; nearer, the multipliers carry fewer than six digits
+NEAR = 1e-3  # rad from there, where a solver that stops has come to it
 # Massive bar, bar, shocked rotor (0: none).
 Kind = tuple[bool, bool, int]
 KINDS: tuple[Kind, ...] = tuple(
@@ -107,4 +108,11 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, len(states)))
 
 
-MODEL = Model("spheres", 12, _kind, program, _rhs, _start, _observe, _projection, at_dead_point, time_to_dead_point)
+def _singular(axes: Array) -> str:
+    near = axes[0, 0] * axes[1, 0] > 0.9 and _across(axes.ravel()) < NEAR
+    return "bar and axes come into line, where the motion is not determined" if near else ""
+
+
+MODEL = Model(
+    "spheres", 12, _kind, program, _rhs, _start, _observe, _singular, _projection, at_dead_point, time_to_dead_point
+)

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from lagrotor.numerics.segment import Array, Run, Segment, StopError
+from lagrotor.numerics.segment import Array, Segment, StopError, Stretch
 
 _BLOCK = 100
 _SWEEPS = 25
@@ -56,7 +56,7 @@ class _Piece:
     h: float
     states: Array
     velocities: Array
-    nfev: int
+    evaluations: int
     change: float
 
     def read(self, times: Array) -> Array:
@@ -79,9 +79,9 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     rhs = segment.rhs
     A, B, _ = adams_weights(q)
     states, velocities, off = np.empty((3, steps + 1, len(y)))
-    nfev, found = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
-    if not found:
-        return _Piece(q, t, h, states[:1], velocities[:1], nfev, 0.5)
+    evaluations, settled = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
+    if not settled:
+        return _Piece(q, t, h, states[:1], velocities[:1], evaluations, 0.5)
 
     # What rounding alone leaves of predictor less corrector, over h, in the component that moves fastest for its size.
     fastest = (np.abs(velocities[:q]).max(axis=0) / (1 + np.abs(states[q - 1]))).max()
@@ -96,7 +96,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
             states[n] = last = last + hB.dot(velocities[n - q + 1 : n + 1])
             off[n] = last - predicted
             velocities[n] = rhs(t + n * h, last)
-        nfev += 2 * len(block)
+        evaluations += 2 * len(block)
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
         worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
@@ -104,13 +104,13 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
             kept = block.start if block.start > q else 1
-            return _Piece(q, t, h, states[:kept], velocities[:kept], nfev, change)
+            return _Piece(q, t, h, states[:kept], velocities[:kept], evaluations, change)
         if segment.project is not None:
             states[n] = last = segment.project(last)
         n += 1
         if worst < max(limit / 300, noise) and n <= steps and 1.3 * h < segment.longest:
-            return _Piece(q, t, h, states[:n], velocities[:n], nfev, change)
-    return _Piece(q, t, h, states, velocities, nfev, 1.0)
+            return _Piece(q, t, h, states[:n], velocities[:n], evaluations, change)
+    return _Piece(q, t, h, states, velocities, evaluations, 1.0)
 
 
 def _first_nodes(
@@ -121,27 +121,27 @@ def _first_nodes(
     from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
     S, size = h * (from_middle - from_middle[0]), 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
-    nfev = 1
+    evaluations = 1
     for sweep in range(_SWEEPS):
         before = states.copy()
         states[:] = y + S @ velocities
         for i in range(1, q):
             velocities[i] = segment.rhs(t + i * h, states[i])
-        nfev += q - 1
+        evaluations += q - 1
         moved = np.abs(states - before).max()
         if sweep and not moved > 2e-15 * size:
             break
-    return nfev, bool(moved < 1e-13 * size)
+    return evaluations, bool(moved < 1e-13 * size)
 
 
 def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
     return segment.time_to_singular is not None and any(segment.clear(y) < h for y in states)
 
 
-def adams(segment: Segment, error: float) -> Run:
+def adams(segment: Segment, error: float) -> Stretch:
     """Adams predictor and corrector in equal steps, changed where the pair's own difference requires it.
 
-    Raises StopError with what was reached, also where far more than its share of `max_nfev` is spent, and where shorter
+    Raises StopError with what was reached, also where far more than its share of `budget` is spent, and where shorter
     steps leave as much: the right-hand side is not known well enough for the tolerance.
     """
     t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
@@ -151,12 +151,12 @@ def adams(segment: Segment, error: float) -> Run:
         segment.longest,
         min(limit ** (1 / q) / 5, 0.05) / (max(segment.relative_speed, segment.typical_rate) + 1e-300),
     )
-    found, done, nfev, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
+    states, done, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
         with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
             piece = _piece(replace(segment, longest=longest), q, y, t, h, steps, limit)
-        nfev += piece.nfev
+        evaluations += piece.evaluations
         in_vain = in_vain + 1 if len(piece.states) == 1 and piece.change > 0.5 else 0
         # A step too long once, for its error or because it is not stable, is not tried again for a while.
         if piece.change < 1:
@@ -166,20 +166,22 @@ def adams(segment: Segment, error: float) -> Run:
         if len(piece.states) > 1:
             reached = t + (len(piece.states) - 1) * h
             until = int(np.searchsorted(t_eval, reached, side="right")) if reached < right else len(t_eval)
-            found[done:until] = piece.read(t_eval[done:until])
+            states[done:until] = piece.read(t_eval[done:until])
             end = piece.read(np.array([right]))[0] if reached >= right else end
             done, t, y = until, reached, piece.states[-1]
         h = min(h * min(piece.change, 2.0), longest)
         share = (t - segment.left) / (right - segment.left)
-        spent = nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev)
+        spent = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
         if t < right and (spent or in_vain == _IN_VAIN or t + h == t):
-            reason = f"{nfev} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
-            raise StopError(t, reason, _on_constraints(segment, found[:done], y, nfev))
-    if not (np.isfinite(end).all() and np.isfinite(found).all()):
-        raise StopError(t, "a value is not finite", nfev=nfev)
-    return _on_constraints(segment, found, end, nfev)
+            reason = f"{evaluations} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
+            reached = _on_constraints(segment, states[:done], y, evaluations)
+            raise StopError(t, reason, reached, cause="budget" if spent else "stopped")
+    if not (np.isfinite(end).all() and np.isfinite(states).all()):
+        raise StopError(t, "a value is not finite", evaluations=evaluations)
+    return _on_constraints(segment, states, end, evaluations)
 
 
-def _on_constraints(segment: Segment, states: Array, end: Array, nfev: int) -> Run:
-    project = segment.project
-    return Run(project(states.T).T, project(end), nfev) if project and len(states) else Run(states, end, nfev)
+def _on_constraints(segment: Segment, states: Array, end: Array, evaluations: int) -> Stretch:
+    if segment.project and len(states):
+        states, end = segment.project(states.T).T, segment.project(end)
+    return Stretch(states, end, evaluations)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.numerics.segment import Run, Segment, StopError
+from lagrotor.numerics.segment import Segment, StopError, Stretch
 
 _TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
 _PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
@@ -34,27 +34,40 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
         if project is not None:  # no step over where the constraints fail
             turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
             solver.max_step = min(segment.longest, turned, segment.clear(solver.y))
+        t, y = solver.t, solver.y
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            raise StopError(solver.t, message or "a value is not finite", nfev=solver.nfev)
-        share = (solver.t - segment.left) / (segment.right - segment.left)
-        if solver.nfev > min(segment.max_nfev, _PATIENCE + share * segment.max_nfev):
-            raise StopError(solver.t, f"{solver.nfev} evaluations spent", nfev=solver.nfev)
+            reached = Stretch(np.empty((0, len(y))), y, solver.nfev)
+            raise StopError(t, message or "a value is not finite", reached)
         yield solver
+        share = (solver.t - segment.left) / (segment.right - segment.left)
+        if solver.status == "running" and solver.nfev > min(segment.budget, _PATIENCE + share * segment.budget):
+            reached = Stretch(np.empty((0, len(y))), solver.y, solver.nfev)
+            raise StopError(solver.t, f"{solver.nfev} evaluations spent", reached, cause="budget")
         if project is not None:
             solver.y = project(solver.y)
             solver.f = np.asarray(segment.rhs(solver.t, solver.y))
             solver.nfev += 1
 
 
-def dop853(segment: Segment, error: float) -> Run:
+def dop853(segment: Segment, error: float) -> Stretch:
     """The segment at a local error `error`, relative and absolute. Raises StopError with what was reached."""
     t_eval, project = segment.t_eval, segment.project
     states, done, solver = np.empty((len(t_eval), len(segment.start))), 0, None
-    for solver in dop853_steps(segment, error):
-        reached = int(np.searchsorted(t_eval, solver.t, side="right"))
-        if reached > done:
-            states[done:reached] = solver.dense_output()(t_eval[done:reached]).T
-            done = reached
+
+    def on_constraints() -> Any:
+        return project(states[:done].T).T if project and done else states[:done]
+
+    try:
+        for solver in dop853_steps(segment, error):
+            reached = int(np.searchsorted(t_eval, solver.t, side="right"))
+            if reached > done:
+                states[done:reached] = solver.dense_output()(t_eval[done:reached]).T
+                done = reached
+    except StopError as stop:
+        end = stop.reached.end if stop.reached else segment.start
+        raise StopError(
+            stop.at, stop.reason, Stretch(on_constraints(), end, stop.evaluations), cause=stop.cause
+        ) from None
     assert solver is not None  # a segment has a length
-    return Run(project(states.T).T if project and len(states) else states, solver.y, solver.nfev)
+    return Stretch(on_constraints(), solver.y, solver.nfev)

@@ -11,7 +11,7 @@ from lagrotor.numerics.adams import adams
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import segments
-from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHandSide, Run, Segment, StopError
+from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHandSide, Segment, StopError, Stretch
 from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
@@ -22,28 +22,20 @@ Engine = Literal["core", "fast"]
 class Problem:
     """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
 
-    `project` brings a state (d,), or states (d, n), back onto their constraints; `max_nfev` is how many evaluations the
+    `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
     no step is longer than half of `time_to_singular` of the state where it begins.
     """
 
     free: RightHandSide
     start: Array
-    max_nfev: float
+    budget: float
     driven: RightHandSide | None = None
     at: float = 0.0
     width: float = 0.0
     project: Projection | None = None
     typical_rate: float = 0.0
     time_to_singular: Callable[[Array], float] | None = None
-
-
-@dataclass(frozen=True)
-class Solution:
-    """States (n, d) at the times of the run, and how often the right-hand side was evaluated."""
-
-    states: Array
-    nfev: int
 
 
 def check_tolerance(tol: float) -> float:
@@ -59,46 +51,75 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
-def integrate(problem: Problem, times: Array, tol: float) -> Solution:
-    """Integrate from t = 0 through `times` (increasing, not negative); states (n, d) there.
+def integrate(problem: Problem, times: Array, tol: float) -> Stretch:
+    """Integrate from t = 0 through `times` (increasing, not negative) with a local error `tol`; states (n, d) there.
 
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
     at the pulse's edges, s = ± 6.5 width; within them no step is longer than `width`, so no tolerance can miss it.
 
-    Raises StopError, an IntegrationError with the time, when the solver cannot go on, or takes more than `max_nfev`.
+    Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
     """
     t_eval = times - problem.at
     begin, end = -problem.at, float(t_eval[-1])
-    states = np.empty((len(times), len(problem.start)))
-    states[t_eval == begin] = problem.start
-    y, nfev = problem.start, 0
+    parts, y, spent = [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)], problem.start, 0
     for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
         if right > left:
-            inside = (t_eval > left) & (t_eval <= right)
             segment = Segment(
                 problem.driven if pulsed and problem.driven else problem.free,
                 y,
                 left,
                 right,
-                t_eval[inside],
+                t_eval[(t_eval > left) & (t_eval <= right)],
                 problem.width if pulsed else np.inf,
-                problem.max_nfev - nfev,
+                problem.budget - spent,
                 problem.project,
                 problem.typical_rate,
                 problem.time_to_singular,
             )
             try:
-                run = _run(segment, pulsed, tol)
-            except StopError as stopped:
-                raise StopError(problem.at + stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
-            states[inside], y = run.states, run.end
-            nfev += run.nfev
-            if nfev > problem.max_nfev:
-                raise StopError(problem.at + right, f"{nfev} evaluations spent", nfev=nfev)
-    return Solution(states, nfev)
+                part = _by_fastest(segment, pulsed, tol)
+            except StopError as stop:
+                spent += stop.evaluations
+                reached = stop.reached or Stretch(np.empty((0, len(y))), y, 0)
+                so_far = Stretch(np.concatenate([*parts, reached.states]), reached.end, spent)
+                raise StopError(problem.at + stop.at, stop.reason, so_far, spent, stop.cause) from None
+            parts.append(part.states)
+            y, spent = part.end, spent + part.evaluations
+    return Stretch(np.concatenate(parts), y, spent)
 
 
-def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
+class _Progress:
+    """What has been made of a segment, and what is left of it."""
+
+    def __init__(self, segment: Segment) -> None:
+        self.segment, self.spent, self.parts = segment, 0, [np.empty((0, len(segment.start)))]
+
+    def rest(self, right: float) -> Segment:
+        """What is left up to `right`. Raises StopError where nothing may be spent on it."""
+        segment = self.segment
+        if self.spent > segment.budget:
+            raise self.stopped(StopError(segment.left, f"{self.spent} evaluations spent", cause="budget"))
+        inside = segment.t_eval <= right
+        return replace(segment, right=right, t_eval=segment.t_eval[inside], budget=segment.budget - self.spent)
+
+    def add(self, at: float, part: Stretch) -> None:
+        """What was made up to `at`, its evaluations apart."""
+        self.parts.append(part.states)
+        self.segment = replace(self.segment, start=part.end, left=at, t_eval=self.segment.t_eval[len(part.states) :])
+
+    def whole(self) -> Stretch:
+        return Stretch(np.concatenate(self.parts), self.segment.start, self.spent)
+
+    def stopped(self, stop: StopError) -> StopError:
+        """The stop with all that was reached and spent."""
+        self.spent += stop.evaluations
+        if stop.reached:
+            self.add(stop.at, stop.reached)
+        at = stop.at if isinstance(stop, OutsideError) else self.segment.left
+        return StopError(at, stop.reason, self.whole(), cause=stop.cause)
+
+
+def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
 
     The while is longer after each time that the solver took more evaluations than DOP853 does for as long a run.
@@ -106,47 +127,37 @@ def _run(segment: Segment, pulsed: bool, tol: float) -> Run:
     # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
     if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
         raise StopError(segment.left, "the right-hand side is not finite")
-    if pulsed and tol < CROSSOVER:
-        return dop853(segment, tol / 20)
-    whole, nfev, found, per_time = segment.right - segment.left, 0, list[Array](), np.inf
-    detour = DETOUR / segment.typical_rate if segment.typical_rate else whole
-    while True:
-        left = segment.left
-        try:
-            run = _fastest(replace(segment, max_nfev=segment.max_nfev - nfev), pulsed, tol)
-            break
-        except OutsideError:
-            raise
-        except StopError as stopped:
-            nfev += stopped.nfev
-            if stopped.reached:
-                segment = _after(segment, stopped.at, stopped.reached, found)
-                if stopped.nfev >= per_time * (stopped.at - left):
+    by_dop853, per_time, progress = pulsed and tol < CROSSOVER.value, np.inf, _Progress(segment)
+    detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
+    while progress.segment.left < segment.right:
+        if not by_dop853:
+            left = progress.segment.left
+            try:
+                run = _fastest(progress.rest(segment.right), pulsed, tol)
+                progress.spent += run.evaluations
+                progress.add(segment.right, run)
+                break
+            except StopError as stop:
+                if isinstance(stop, OutsideError):
+                    raise progress.stopped(stop) from None
+                progress.stopped(stop)
+                if not stop.reached or stop.evaluations >= per_time * (stop.at - left):
                     detour *= 4
-            else:
-                detour *= 4
-        left, right = segment.left, min(segment.left + detour, segment.right)
-        inside = segment.t_eval <= right
-        part = replace(segment, right=right, t_eval=segment.t_eval[inside], max_nfev=segment.max_nfev - nfev)
+        left = progress.segment.left
+        right = min(left + detour, segment.right)
+        part = progress.rest(right)
         try:
             run = dop853(part, tol / 20)
-        except StopError as stopped:
-            raise StopError(stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
-        if right == segment.right:
-            break
-        per_time = run.nfev / (right - left)
-        segment, nfev = _after(segment, right, run, found), nfev + run.nfev
-    return Run(np.concatenate([*found, run.states]), run.end, nfev + run.nfev)
+        except StopError as stop:
+            raise progress.stopped(stop) from None
+        per_time = run.evaluations / (right - left)
+        progress.spent += run.evaluations
+        progress.add(right, run)
+    return progress.whole()
 
 
-def _fastest(segment: Segment, pulsed: bool, tol: float) -> Run:
-    if tol >= CROSSOVER:
-        return lsoda(segment, min(tol / LSODA_SAFETY, 1e-6 if pulsed else np.inf))
+def _fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+    if tol >= CROSSOVER.value:
+        return lsoda(segment, min(tol / LSODA_SAFETY.value, 1e-6 if pulsed else np.inf))
     # Where equal steps do not pay, Adams is left soon.
-    return adams(replace(segment, max_nfev=min(segment.max_nfev, 5_000 + 0.15 * segment.max_nfev)), tol)
-
-
-def _after(segment: Segment, t: float, run: Run, found: list[Array]) -> Segment:
-    """What is left of a segment after a run up to t, whose states are added to what was found."""
-    found.append(run.states)
-    return replace(segment, start=run.end, left=t, t_eval=segment.t_eval[len(run.states) :])
+    return adams(replace(segment, budget=min(segment.budget, 5_000 + 0.15 * segment.budget)), tol)

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lagrotor.numerics.segment import LOST, Array, Run, Segment, StopError
+from lagrotor.numerics.segment import LOST, Array, Segment, StopError, Stretch
 
-_MAX_NFEV_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
+_BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
 _DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
 
 
-def lsoda(segment: Segment, error: float) -> Run:
+def lsoda(segment: Segment, error: float) -> Stretch:
     """The segment at a local error `error`, relative and absolute.
 
     The first step is given, not found from the first output, so outputs do not change the run. Where there are
@@ -20,60 +20,65 @@ def lsoda(segment: Segment, error: float) -> Run:
     """
     if segment.project is None:
         return _lsoda(segment, error)
-    found, nfev, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
+    parts, spent, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
     while left < segment.right:
+        if spent > segment.budget:
+            raise StopError(
+                left, f"{spent} evaluations spent", _on_constraints(segment, parts, y, spent), cause="budget"
+            )
         cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
         right = left + cut if left + 1.5 * cut < segment.right else segment.right
         # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
         longest = min(segment.longest, cut / 25)
         part = replace(segment, start=y, left=left, right=right, longest=longest)
         try:
-            part, run = _up_to_singular(part, min(segment.max_nfev - nfev, _MAX_NFEV_PART), error)
-            end, nfev = segment.project(run.end), nfev + run.nfev + 1
+            part, run = _up_to_singular(part, min(segment.budget - spent, _BUDGET_OF_A_PART), error)
+            end, spent = segment.project(run.end), spent + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError as stopped:
-            drifted, nfev = np.inf, nfev + stopped.nfev
-            if cut < longest_cut / 2 or nfev > segment.max_nfev:
-                raise StopError(left, stopped.reason, _read(segment, found, y, nfev)) from None
+            drifted, spent = np.inf, spent + stopped.evaluations
+            if cut < longest_cut / 2 or spent > segment.budget:
+                reached = _on_constraints(segment, parts, y, spent)
+                raise StopError(left, stopped.reason, reached, cause=stopped.cause) from None
         if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
             longest_cut = cut / 8
             if longest_cut < 1e-6 * (segment.right - segment.left):
                 reason = "the constraints drift faster than they can be kept"
-                raise StopError(left, reason, _read(segment, found, y, nfev))
+                raise StopError(left, reason, _on_constraints(segment, parts, y, spent))
             continue
-        found.append(run.states)
+        parts.append(run.states)
         y, left, longest_cut = end, part.right, 1.5 * longest_cut
-    run = _read(segment, found, y, nfev)
+    run = _on_constraints(segment, parts, y, spent)
     if not np.isfinite(run.states).all():
-        raise StopError(segment.left, "a state could not be brought back onto its constraints", nfev=nfev)
+        raise StopError(segment.left, "a state could not be brought back onto its constraints", evaluations=spent)
     return run
 
 
-def _read(segment: Segment, found: list[Array], y: Array, nfev: int) -> Run:
-    states = np.concatenate(found)
+def _on_constraints(segment: Segment, parts: list[Array], y: Array, spent: int) -> Stretch:
+    states = np.concatenate(parts)
     if segment.project and len(states):
         states = segment.project(segment.project(states.T)).T  # of a drift one step leaves about the square
-    return Run(states, y, nfev)
+    return Stretch(states, y, spent)
 
 
-def _up_to_singular(part: Segment, max_nfev: float, error: float) -> tuple[Segment, Run]:
+def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
     """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
     inside = (part.t_eval > part.left) & (part.t_eval <= part.right)
     if part.time_to_singular is None:
-        return part, _lsoda(replace(part, t_eval=part.t_eval[inside], max_nfev=max_nfev), error)
+        return part, _lsoda(replace(part, t_eval=part.t_eval[inside], budget=budget), error)
     watched = np.linspace(part.left, part.right, 66)[1:-1]
     t_eval = np.union1d(part.t_eval[inside], watched)
-    run = _lsoda(replace(part, t_eval=t_eval, max_nfev=max_nfev), error)
+    run = _lsoda(replace(part, t_eval=t_eval, budget=budget), error)
     for s, y in zip(t_eval, run.states, strict=True):
         if s < part.right and part.clear(y) < part.longest and s - part.left > part.longest:
             shorter = replace(part, right=float(s), longest=min(part.longest, (s - part.left) / 25))
             inside = (part.t_eval > part.left) & (part.t_eval <= s)
-            again = _lsoda(replace(shorter, t_eval=part.t_eval[inside], max_nfev=max_nfev), error)
-            return shorter, replace(again, nfev=again.nfev + run.nfev)
+            again = _lsoda(replace(shorter, t_eval=part.t_eval[inside], budget=budget), error)
+            return shorter, replace(again, evaluations=again.evaluations + run.evaluations)
     return part, replace(run, states=run.states[np.searchsorted(t_eval, part.t_eval[inside])])
 
 
-def _lsoda(segment: Segment, error: float) -> Run:
+def _lsoda(segment: Segment, error: float) -> Stretch:
     from scipy.integrate import odeint
 
     left, right, spent, lost = segment.left, segment.right, 0, False
@@ -83,7 +88,7 @@ def _lsoda(segment: Segment, error: float) -> Run:
         nonlocal spent, lost
         velocity = segment.rhs(s, y)
         spent, lost = spent + 1, lost or velocity[0] != velocity[0]
-        if lost or spent > segment.max_nfev:
+        if lost or spent > segment.budget:
             raise ValueError
         return velocity
 
@@ -102,14 +107,15 @@ def _lsoda(segment: Segment, error: float) -> Run:
                 full_output=True,
                 h0=first,
                 hmax=0.0 if np.isinf(segment.longest) else segment.longest,
-                mxstep=int(min(segment.max_nfev, 2**30)) + 1,
+                mxstep=int(min(segment.budget, 2**30)) + 1,
             )
     except LOST:
-        reason = "the right-hand side is not finite" if bare or lost else f"{spent} evaluations spent"
-        raise StopError(left, reason, nfev=spent) from None
+        if not (bare or lost):
+            raise StopError(left, f"{spent} evaluations spent", evaluations=spent, cause="budget") from None
+        raise StopError(left, "the right-hand side is not finite", evaluations=spent) from None
     if log["message"] != "Integration successful." or not np.isfinite(states).all():
-        raise StopError(left, log["message"], nfev=spent)
-    nfev = int(log["nfe"][-1]) + 1  # of a run that failed the count is not set
-    if nfev > segment.max_nfev:
-        raise StopError(right, f"{nfev} evaluations spent", nfev=nfev)
-    return Run(states[1:-1], states[-1], nfev)
+        # Of a run that failed the count is not set.
+        excess = "Excess work" in log["message"] and segment.budget < 2**30
+        reason = f"{int(segment.budget)} steps made" if excess else log["message"]
+        raise StopError(left, reason, evaluations=spent, cause="budget" if excess else "stopped")
+    return Stretch(states[1:-1], states[-1], int(log["nfe"][-1]) + 1)

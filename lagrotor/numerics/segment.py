@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 class Segment:
     """y' = rhs(s, y) from `start` at `left` to `right`, read at `t_eval` within; no step is longer than `longest`.
 
-    `project` brings a state (d,), or states (d, n), back onto constraints; `max_nfev`: evaluations after which the solver
+    `project` brings a state (d,), or states (d, n), back onto constraints; `budget`: evaluations after which the solver
     stops; no step is longer than half of `time_to_singular` of the state where it begins.
     """
 
@@ -29,7 +30,7 @@ class Segment:
     right: float
     t_eval: Array
     longest: float = np.inf
-    max_nfev: float = np.inf
+    budget: float = np.inf
     project: Projection | None = None
     typical_rate: float = 0.0
     time_to_singular: Callable[[Array], float] | None = None
@@ -44,34 +45,50 @@ class Segment:
         return self.time_to_singular(y) / 2 if self.time_to_singular else np.inf
 
 
-@dataclass(frozen=True)
-class Run:
-    """States (n, d) at the first n of `t_eval`, all of them if the end was reached; the last state; evaluations."""
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """States (n, d) at the first n of the times of a stretch of motion, all of them if its end was reached; the last state;
+    evaluations. jumps: times within at which an event changed the state.
+    """
 
     states: Array
     end: Array
-    nfev: int
+    evaluations: int
+    jumps: tuple[float, ...] = ()
 
 
-Engine = Callable[[Segment, float], Run]
+Engine = Callable[[Segment, float], Stretch]
+Cause = Literal["budget", "singular", "event", "stopped"]
+WAYS_OUT = {
+    "budget": "take a larger tol or a shorter run",
+    "singular": "the motion has a singular position there; end the run before, or describe it by other coordinates",
+    "event": "",
+    "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol or model",
+}
 
 
 class StopError(IntegrationError):
     """A solver that stopped at the time `at` (in a solver: the segment's own time), for a reason.
 
-    reached: the run up to there, where the solver can go on from it; nfev: evaluations spent.
+    cause: its evaluations are spent (budget), a singular position was measured, an event ends the run, or it cannot go on and
+    the reason is all that is known. reached: the motion up to there, with its last state; evaluations: those spent.
     """
 
-    def __init__(self, at: float, reason: str, reached: Run | None = None, nfev: int = 0) -> None:
-        super().__init__(
-            f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): the motion reaches a singular position of these "
-            "coordinates, or the tolerance is out of reach; try another model or a larger tol"
-        )
-        self.at, self.reason, self.reached, self.nfev = at, reason, reached, reached.nfev if reached else nfev
+    def __init__(
+        self,
+        at: float,
+        reason: str,
+        reached: Stretch | None = None,
+        evaluations: int = 0,
+        cause: Cause = "stopped",
+    ) -> None:
+        super().__init__(f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): {WAYS_OUT[cause]}")
+        self.at, self.reason, self.reached, self.cause = at, reason, reached, cause
+        self.evaluations = max(evaluations, reached.evaluations if reached else 0)
 
 
 class OutsideError(StopError):
     """A run that left the range in which its right-hand side is well conditioned."""
 
     def __init__(self, at: float) -> None:
-        super().__init__(at, "the coordinates become singular")
+        super().__init__(at, "the coordinates become singular", cause="singular")

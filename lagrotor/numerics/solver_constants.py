@@ -19,24 +19,23 @@ class Calibrated(NamedTuple, Generic[Value]):
 # LSODA leaves up to 200 times the error that it is given, and cannot be given much less than 1e-13. 10 s of the displaced
 # pair: an error of 1e-10 takes LSODA 9 ms, Adams of order 12 11 ms, DOP853 in Python 60; one of 1e-13 only Adams reaches,
 # in 16 ms.
-TABLE = {
-    "CROSSOVER": Calibrated(
-        5e-11,
-        "tolerance from which LSODA is faster than Adams in equal steps",
-        "10 s of the displaced pair at tolerances 1e-3 to 1e-13",
-        "test_scenes_and_methods.py::test_errors_and_evaluations_stay_under_their_ceilings",
-    ),
-    "LSODA_SAFETY": Calibrated(
-        200.0,
-        "tolerance of a run over the local error that LSODA is given",
-        "10 s of the displaced pair at tolerances 1e-3 to 1e-10",
-        "test_scenes_and_methods.py::test_errors_and_evaluations_stay_under_their_ceilings",
-    ),
-    "DETOUR": Calibrated(
-        4 * pi,
-        "angle (rad, of the typical rate) over which DOP853 first goes on where another solver stops",
-        "the 1,000 wide scenes: those of more than 500 turns beside a dead point",
-        "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung",
-    ),
-}
-CROSSOVER, LSODA_SAFETY, DETOUR = (entry.value for entry in TABLE.values())
+CROSSOVER = Calibrated(
+    5e-11,
+    "tolerance from which LSODA is faster than Adams in equal steps",
+    "10 s of the displaced pair at tolerances 1e-3 to 1e-13",
+    "test_scenes_and_methods.py::test_errors_and_evaluations_stay_under_their_ceilings",
+)
+LSODA_SAFETY = Calibrated(
+    200.0,
+    "tolerance of a run over the local error that LSODA is given",
+    "10 s of the displaced pair at tolerances 1e-3 to 1e-10",
+    "test_scenes_and_methods.py::test_errors_and_evaluations_stay_under_their_ceilings",
+)
+DETOUR = Calibrated(
+    4 * pi,
+    "angle (rad, of the typical rate) over which DOP853 first goes on where another solver stops",
+    "the 1,000 wide scenes: those of more than 500 turns beside a dead point",
+    "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung",
+)
+
+TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

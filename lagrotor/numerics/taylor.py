@@ -3,11 +3,16 @@
 A cyclic coordinate and an angle, which may grow without end, are carried so small that they are never the largest state, which
 heyoka measures its error by. What is compiled, one or two seconds a program and order, is kept for the process, by heyoka on
 disk. The read-out at any time is as exact as the run.
+
+heyoka takes its order from the tolerance that it is compiled for, and a step that leaves this tolerance times the largest
+component of the state. A constant dummy state, the last one, of a size chosen at each run, decouples the step size from the
+order: three orders serve every tolerance, each in the steps that pay.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import exp
 from threading import get_ident
 from typing import Any
 
@@ -16,20 +21,13 @@ from numpy.typing import NDArray
 
 from lagrotor.numerics.codegen import Program, reduce_common
 from lagrotor.numerics.heyoka_programs import heyoka_module, translated
-from lagrotor.numerics.integrate import Solution
 from lagrotor.numerics.pulse import segments
-from lagrotor.numerics.segment import Projection, StopError
-from lagrotor.numerics.taylor_steps import (
-    MOST_STEPS,
-    compiled_solver,
-    dummy_size,
-    march,
-    taylor_order,
-)
+from lagrotor.numerics.segment import Projection, StopError, Stretch
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
+MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
@@ -54,7 +52,7 @@ def integrate_taylor(
     longest_between: float = np.inf,
     order: int | None = None,
     angles: tuple[int, ...] = (),
-) -> Solution:
+) -> Stretch:
     """Integrate from t = 0 through `times`; states (n, d) there, and steps times order for evaluations.
 
     Cut at the pulse's edges as `integrate` is, and projected there, at the end, and after no more than `longest_between`.
@@ -66,7 +64,7 @@ def integrate_taylor(
     at, width = (pulse.at, pulse.width) if pulse else (0.0, 0.0)
     t_eval = times - at if pulse else times
     found: list[Array] = []
-    d, y, nfev = len(start), start, 0
+    d, y, spent = len(start), start, 0
     for left, right, driven in segments(-at, float(t_eval[-1]), width):
         program, values = generated(driven)
         solver, scale = _solver(program, d, driven, order, 1, get_ident(), angles), _carried(program, d, angles)
@@ -81,11 +79,18 @@ def integrate_taylor(
                 solver, y * scale, inside, (left, right), dummy_size(tol, order), onto, longest_between, longest
             )
         except StopError as stopped:
-            raise StopError(at + stopped.at, stopped.reason, nfev=nfev + stopped.nfev) from None
+            so_far = stopped.reached or Stretch(np.empty((0, d)), y * scale, 0)
+            found.append(so_far.states / scale)
+            reached = Stretch(_onto(project, found), so_far.end / scale, spent + stopped.evaluations)
+            raise StopError(at + stopped.at, stopped.reason, reached, cause=stopped.cause) from None
         found.append(states / scale)
-        y, nfev = y / scale, nfev + more
-    states = np.concatenate(found)
-    return Solution(states if project is None else project(states.T).T, nfev)
+        y, spent = y / scale, spent + more
+    return Stretch(_onto(project, found), y, spent)
+
+
+def _onto(project: Projection | None, parts: list[Array]) -> Array:
+    states = np.concatenate(parts)
+    return states if project is None or not len(states) else project(states.T).T
 
 
 def companion_order(tol: float) -> int:
@@ -93,7 +98,9 @@ def companion_order(tol: float) -> int:
     return taylor_order(tol) - 1
 
 
-def march_taylor(program: Program, start: Array, parameters: Array, times: Array, tol: float) -> tuple[Array, Counts]:
+def march_taylor(
+    program: Program, start: Array, parameters: Array, times: Array, tol: float, companion: bool = False
+) -> tuple[Array, Counts]:
     """States (n, m, d) at times (m,) of n starts (d, n) with parameters (p, n), LANES at a time, and evaluations (n,).
 
     The lanes of a processor's vectors step together, each with its own step. One that stops leaves NaN. Raises InputError
@@ -101,13 +108,14 @@ def march_taylor(program: Program, start: Array, parameters: Array, times: Array
     """
     (d, n), m = start.shape, len(times)
     states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
-    solver = _solver(program, d, False, taylor_order(tol), LANES, get_ident())
+    order = companion_order(tol) if companion else taylor_order(tol)
+    solver = _solver(program, d, False, order, LANES, get_ident())
     first, cyclic = int(times[0] == 0), _cyclic(program, d)
     grid = np.repeat(np.concatenate([[0.0], times[first:]])[:, None], LANES, axis=1)
     for begin in range(0, n, LANES):
         lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
         solver.set_time(np.zeros(LANES))
-        solver.state[:d], solver.state[d] = start[:, lanes], dummy_size(tol, taylor_order(tol))
+        solver.state[:d], solver.state[d] = start[:, lanes], dummy_size(tol, order)
         solver.state[cyclic] *= _CARRIED
         solver.pars[:] = parameters[:, lanes]
         _, found = solver.propagate_grid(grid, max_steps=MOST_STEPS)
@@ -156,3 +164,96 @@ def _solver(
     # A pulse is short: there what compiles faster pays.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))
+
+
+def taylor_order(tol: float) -> int:
+    """The cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher ones outgrows a cache."""
+    return 10 if tol >= 1e-7 else 14 if tol >= 1e-11 else 16
+
+
+def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:
+    """The integrator of (variable, its rate) of this order, its state one constant component longer.
+
+    compact: its loops are not unrolled, which compiles many times faster and runs a little slower.
+    """
+    heyoka = heyoka_module()
+    equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
+    given = {"tol": _compiled_for(order), "fast_math": True}
+    if lanes > 1:
+        zero = np.zeros((len(equations), lanes))
+        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **given)
+    return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **given)
+
+
+def dummy_size(tol: float, order: int) -> float:
+    """Of the constant dummy state: with it a step of this order leaves a tenth of `tol`."""
+    return tol / 10 / _compiled_for(order)
+
+
+def march(
+    solver: Any,
+    y: Array,
+    times: Array,
+    span: tuple[float, float],
+    size: float | Array,
+    project: Projection | None = None,
+    longest_between: float = np.inf,
+    longest: float = np.inf,
+    after_step: Callable[[Any], bool] | None = None,
+) -> tuple[Array, Array, int]:
+    """States (n, d) at the times within the span, begun with y (d,); the state at its end; evaluations, steps times order.
+
+    With a solver of L lanes, which step side by side, each its own way, y is (d, L), size (L,) and the states (n, d, L).
+    size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
+    longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
+    """
+    (left, right), parts, steps = span, [np.empty((0, *np.shape(y)))], 0
+    while left < right or len(parts) == 1:
+        solver.state[:-1], solver.state[-1] = y, size
+        until = min(right, left + longest_between)
+        inside = times[(times > left if len(parts) > 1 else times >= left) & (times <= until)]
+        states, y, more, at = _propagated(solver, left, inside, until, longest, after_step)
+        parts.append(states)
+        steps += more
+        if at is not None:
+            reached = Stretch(np.concatenate(parts), y, steps * solver.order)
+            raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
+        y, left = (y if project is None else project(y)), until
+    return np.concatenate(parts), y, steps * solver.order
+
+
+def _propagated(
+    solver: Any, begin: float, t_eval: Array, until: float, longest: float, after_step: Callable[[Any], bool] | None
+) -> tuple[Array, Array, int, float | None]:
+    """States (n, d) at the times from `begin` to `until`, the state there, and steps; where it stops, those up to that time,
+    and the time."""
+    before = 0 if len(t_eval) and t_eval[0] == begin else 1
+    after = 0 if len(t_eval) and t_eval[-1] == until else int(until > begin)
+    grid = np.concatenate([[begin] * before, t_eval, [until] * after])
+    more: dict[str, Any] = {"max_delta_t": longest, "max_steps": MOST_STEPS}
+    more |= {} if after_step is None else {"callback": after_step}
+    if solver.state.ndim > 1:
+        solver.set_time(begin)
+        _, states = solver.propagate_grid(np.repeat(grid[:, None], solver.state.shape[1], axis=1), **more)
+        outcomes, steps = [each[0] for each in solver.propagate_res], sum(each[3] for each in solver.propagate_res)
+    else:
+        solver.time = begin
+        outcome, _, _, steps, _, states = solver.propagate_grid(grid, **more)
+        outcomes = [outcome]
+    shown = np.isfinite(states).all(axis=tuple(range(1, states.ndim)))
+    if any("time_limit" not in str(outcome) for outcome in outcomes) or not shown.all():
+        kept = states[: len(shown) if shown.all() else int(np.argmin(shown)), :-1]
+        at = float(grid[len(kept) - 1]) if len(kept) else begin
+        return (
+            kept[before : before + len(t_eval)].copy(),
+            kept[-1].copy() if len(kept) else solver.state[:-1],
+            steps,
+            at,
+        )
+    states = states[:, :-1]
+    return states[before : before + len(t_eval)].copy(), states[-1].copy(), steps, None
+
+
+def _compiled_for(order: int) -> float:
+    """The tolerance of which heyoka makes this order, the least whole number not under 1 − ln(tol)/2."""
+    return exp(-2 * (order - 1)) * (1 + 1e-9)

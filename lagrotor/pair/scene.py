@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from html import escape
 from math import fsum, hypot, pi, sqrt
 
@@ -94,6 +94,10 @@ class Shock:
         """Time (s) after which the pulse is below the last bit of its peak."""
         return self.at + PULSE_REACH * self.width
 
+    def since(self, begin: float) -> Shock:
+        """The shock with time counted from `begin` (s)."""
+        return replace(self, at=self.at - begin)
+
 
 _UP: tuple[Vector, Vector] = ((0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
 _REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -103,7 +107,7 @@ _REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 class Scene:
     """Two equal rotors of given axial angular velocities (rad/s), the bar between their tips, a shock, a start.
 
-    `axes` are the unit vectors r_i and `rates` their r_i' (1/s) at t = 0; they must satisfy
+    `axes` are the unit vectors r_i and `rates` their r_i' (1/s) at the start of a run; they must satisfy
     |r_i| = 1, |ell e_x + R (r_2 − r_1)| = ell, and the rates be tangent to both.
     `link=None` leaves the two rotors uncoupled.
     """
@@ -167,6 +171,10 @@ class Scene:
     def shock_until(self, t_end: float) -> Shock | None:
         """The shock, if its pulse acts at any time between 0 and t_end (s)."""
         return self.shock if self.shock and self.shock.begin < t_end and self.shock.end > 0 else None
+
+    def since(self, begin: float) -> Scene:
+        """The scene with time counted from `begin` (s)."""
+        return replace(self, shock=self.shock.since(begin)) if self.shock and begin else self
 
     @property
     def momenta(self) -> tuple[float, float]:

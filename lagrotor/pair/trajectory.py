@@ -1,9 +1,7 @@
-"""What a run leaves: the axes over time and everything read off them, the same for every model."""
+"""What a run of the pair leaves: the axes over time and everything read off them, the same for every model."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from importlib import import_module
-from math import inf, nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
+from lagrotor.numerics.any_run import Quantity, Run, read_run
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.shown import Shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,28 +22,32 @@ Array = NDArray[np.float64]
 # How far the length of a stored axis may be off one: what the loosest tolerances leave.
 UNIT_ERROR = 1e-3
 
-UNITS = {"t": "s", "axes": "1", "rates": "1/s", "tips": "m", "energy": "J", "link_length": "m", "momenta": "kg m²/s"}
+UNITS = {
+    "axes": "1",
+    "rates": "1/s",
+    "tips": "m",
+    "energy": "J",
+    "link_length": "m",
+    "momenta": "kg m²/s",
+    "P": "kg m²/s",
+}
+_AXES = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(Shown):
-    """A run of a scene by a model.
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Trajectory(Run):
+    """A run of a scene by a model: why it was chosen is a sentence.
 
-    t (n,) in s; axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s). error: the
-    estimated largest error of an axis over the run (tips: in units of R), NaN where none is known. horizon: time (s) after
-    which neighbouring motions have parted too far for the tolerance to be meant.
+    axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s). errors: of an axis (tips: in
+    units of R).
     """
 
     scene: Scene
     model: str
     why: str
-    t: Array
     axes: Array
     rates: Array
     momenta: Array
-    evaluations: int
-    error: float = nan
-    horizon: float = inf
 
     @property
     def joints(self) -> Array:
@@ -126,65 +127,24 @@ class Trajectory(Shown):
     def summary(self) -> dict[str, str]:
         """What the run is and how well it kept what it should keep, name → words."""
         first, last = float(self.energy[0]), float(self.energy[-1])
-        return self.scene.summary() | {
-            "model": f"{self.model}: {self.why}",
-            "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
-            "evaluations": str(self.evaluations),
-            "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
-            "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
-        }
+        return (
+            self.scene.summary()
+            | {"model": f"{self.model}: {self.why}"}
+            | super().summary()
+            | {
+                "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
+                "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
+            }
+        )
 
-    def to_dataframe(self) -> Any:
-        """The run as a pandas DataFrame, t (s) its index: tips, axes, energy, bar's length, momenta, a column a component.
+    def quantities(self) -> dict[str, Quantity]:
+        """axes, rates, tips, energy, link_length, momenta, and P, the momentum about the joint line."""
+        held = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
+        return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in held.items()}
 
-        Raises InputError where pandas is not installed.
-        """
-        pandas = _installed("pandas")
-        table = {f"tip_{i + 1}_{x}": self.tips[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
-        table |= {f"r_{i + 1}_{x}": self.axes[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
-        table |= {"energy": self.energy, "link_length": self.link_length, **self.invariants}
-        return pandas.DataFrame(table, index=pandas.Index(self.t, name="t"))
-
-    def to_xarray(self) -> Any:
-        """The run as an xarray Dataset over rotor, t (s) and component, each variable with its unit.
-
-        Raises InputError where xarray is not installed.
-        """
-        xarray = _installed("xarray")
-        kinds = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
-        held = {name: getattr(self, name) for name in UNITS if name != "t"} | {"P": self.joint_line_momentum}
-        units = UNITS | {"P": UNITS["momenta"]}
-        variables = {name: (kinds[np.ndim(v)], v, {"units": units[name]}) for name, v in held.items()}
-        places = {"t": ("t", self.t, {"units": "s"}), "rotor": [1, 2], "component": list("xyz")}
-        return xarray.Dataset(variables, coords=places, attrs={"model": self.model, "why": self.why})
-
-    def save(self, path: str | Path) -> Path:
-        """Write the run by the name's ending; `Trajectory.load` reads a `.npz` back.
-
-        .npz: t, axes, rates, tips, energy, link_length, momenta, P, and as JSON the scene, model, error, horizon, version and
-        a digest of it all. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`. Raises InputError
-        for another ending.
-        """
-        target = Path(path)
-        if target.suffix == ".npz":
-            arrays = {name: getattr(self, name) for name in UNITS} | {"P": self.joint_line_momentum}
-            names = ("model", "why", "evaluations", "error", "horizon")
-            about = {"scene": asdict(self.scene)} | {name: getattr(self, name) for name in names}
-            return write_arrays(target, about, arrays)
-        if target.suffix == ".csv":
-            return write_text(target, self._columns())
-        if target.suffix in PICTURES:
-            return write_beside(target, lambda file: self.plot().savefig(file, format=target.suffix[1:]))
-        if target.suffix in FILMS:
-            return self.animate(target)
-        raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
-
-    def _columns(self) -> str:
-        tips = {f"tip_{i + 1}_{x} [m]": self.tips[i, :, j] for i in (0, 1) for j, x in enumerate("xyz")}
-        energy, length, P = self.energy, self.link_length, self.joint_line_momentum
-        held = {"t [s]": self.t, **tips, "energy [J]": energy, "link_length [m]": length, "P [kg m2/s]": P}
-        rows = (",".join(map(repr, row)) for row in np.column_stack(list(held.values())).tolist())
-        return "\n".join([",".join(held), *rows, ""])
+    def about(self) -> dict[str, Any]:
+        """The scene, the model and why it was chosen."""
+        return {"scene": asdict(self.scene), "model": self.model, "why": self.why}
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
@@ -193,34 +153,23 @@ class Trajectory(Shown):
         Raises InputError where that is not what the file is: not whole, or not a motion (times that do not increase, axes
         that are no unit vectors, numbers that are not finite).
         """
-        about, held = read_arrays(Path(path))
+        about, held, known = read_run(path)
         try:
             given = about["scene"]
             parts = {"rotor": Rotor, "link": Link, "shock": Shock}
             given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
-            t, axes, rates, momenta = (held[name] for name in ("t", "axes", "rates", "momenta"))
-            scene, model, why, evaluations = Scene(**given), about["model"], about["why"], about["evaluations"]
-            error, horizon = about["error"], about["horizon"]
+            axes, rates, momenta = (held[name] for name in ("axes", "rates", "momenta"))
+            scene, model, why = Scene(**given), about["model"], about["why"]
         except (KeyError, TypeError, AttributeError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run saved as .npz ({refusal}): give a file that `save` wrote"
             ) from None
-        wrong = _wrong(t, axes, rates, momenta)
-        if not (isinstance(model, str) and isinstance(why, str) and type(evaluations) is int and evaluations >= 0):
-            wrong = "its model or its number of evaluations is none"
-        if any(type(number) is not float or number < 0 for number in (error, horizon)):  # NaN: not known
-            wrong = "its error or its horizon is no number"
+        wrong = _wrong(known["t"], axes, rates, momenta)
+        if not (isinstance(model, str) and isinstance(why, str)):
+            wrong = "its model is none"
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
-        return Trajectory(scene, model, why, t, axes, rates, momenta, evaluations, error, horizon)
-
-
-def _installed(name: str) -> Any:
-    """An optional package; raises InputError with the way to it."""
-    try:
-        return import_module(name)
-    except ModuleNotFoundError:
-        raise InputError(f"{name} is not installed: pip install {name}") from None
+        return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **known)
 
 
 def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
@@ -231,8 +180,6 @@ def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
         return f"t {t.shape}, axes {axes.shape}, rates {rates.shape}, momenta {momenta.shape} do not fit together"
     if not all(np.isfinite(part).all() for part, _ in wanted):
         return "some of its numbers are not finite"
-    if (np.diff(t) <= 0).any():
-        return "its times do not increase"
     if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > UNIT_ERROR:
         return "its axes are no unit vectors"
     return None

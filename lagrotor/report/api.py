@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import Any
 
 import lagrotor
+from lagrotor.numerics.any_run import Run
 from lagrotor.report.page.page_pieces import code, prose
 
 # What the names of `lagrotor` return or are chosen by, and where more of them are.
 _BESIDE = {
     "Ensemble": "lagrotor.models.sweeps.ensemble",
-    "choose": "lagrotor.models.choose",
+    "choose": "lagrotor.models.simulate",
     "exact_orbit": "lagrotor.models.orbits.shooting",
     "ClosedForm": "lagrotor.theory.closed_form",
     "Frame": "lagrotor.mechanics",
@@ -53,7 +54,10 @@ def entries() -> Iterator[ApiEntry]:
 def _entry(name: str, module: str, thing: Any) -> ApiEntry:
     members: tuple[tuple[str, str], ...] = ()
     if inspect.isclass(thing):
-        public = [(n, value) for n, value in vars(thing).items() if not n.startswith("_") and _documented(value)]
+        # Those of `Run`, which every run extends, belong to it.
+        kinds = [thing, *([Run] if issubclass(thing, Run) else [])]
+        held = {n: value for kind in reversed(kinds) for n, value in vars(kind).items()}
+        public = [(n, value) for n, value in held.items() if not n.startswith("_") and _documented(value)]
         members = tuple((_call(n, value), _first_line(value)) for n, value in public)
     return ApiEntry(name, module, _call(name, thing), inspect.getdoc(thing) or "", members)
 

@@ -9,8 +9,8 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import DomainError
 from lagrotor.models import closed_form, exact_orbit, minimal
-from lagrotor.models.integrated import integrated
 from lagrotor.theory import parallel_scene, series_orbit
+from tests.models.one_integration import observed
 
 T = np.linspace(0, 5, 101)
 ROTOR = Rotor(1.3, 0.9, 0.7, 1.1)
@@ -69,7 +69,7 @@ def test_paired_precession_from_any_phase_and_azimuth(link: Link, sign: int) -> 
     c, s = cos(1.1), sin(1.1)
     turn = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
     for at in (0.0, 0.17, 0.31):
-        now = simulate(orbit.scene, [at], "minimal", 1e-13)
+        now = simulate(orbit.scene, np.union1d(0.0, at), "minimal", 1e-13).after(at)
         axes, rates = ((part[:, 0] @ turn.T).tolist() for part in (now.axes, now.rates))
         check(replace(orbit.scene, axes=axes, rates=rates), 1e-8)
 
@@ -95,7 +95,7 @@ def test_a_start_off_the_orbit_is_in_the_error() -> None:
 def test_where_the_orbit_is_hyperbolic_what_is_foreseen_grows(r0: float, t_end: float) -> None:
     """Over hundreds of turns a start that is off by the series' last terms parts from the orbit."""
     scene, times = series_orbit(Scene((-5.1, 5.1), link=Link(1.3, 0.5, 0.2)), r0, 15).start, np.linspace(0, t_end, 60)
-    exact = integrated(minimal.MODEL, scene, times, 1e-9).seen.axes  # told.error is above 1e-4
+    exact = observed(minimal.MODEL, scene, times, 1e-9).axes  # told.error is above 1e-4
     for best in (False, True):
         told = closed_form(scene, t_end, 1e-4, best)
         assert np.linalg.norm(told.motion(times)[0] - exact, axis=-1).max() < told.error > 1e-4

@@ -8,16 +8,21 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.models import closed_form, conservation_defect, estimated, euler, minimal, parting, periodic_orbit
-from lagrotor.models import staged as in_stages
+from lagrotor.models import closed_form, conservation_defect, euler, minimal, parting, periodic_orbit
+from lagrotor.models import simulate as simulating
 from lagrotor.models.conserved import pulse_nodes
-from lagrotor.models.integrated import integrated
 from lagrotor.models.natural_units import natural_units, typical_rate
+from lagrotor.numerics import estimated_run
+from tests.models.one_integration import observed
 
 SHOCKED = Scene(
     (10, -9), link=Link(0.8, 0.3, 0.05), shock=Shock((40, -11, 5), 0.6, 0.05, 2), rates=((0.4, 1, 0), (0.4, -0.5, 0))
 )
-T = np.linspace(0, 3, 31)
+T, START = np.linspace(0, 3, 31), np.zeros(1)
+
+
+def set_to(monkeypatch: pytest.MonkeyPatch, constant: str, value: float) -> None:
+    monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=value))
 
 
 def scaled(scene: Scene, mass: float, length: float, time: float) -> Scene:
@@ -45,7 +50,7 @@ def test_units_change_nothing_but_rounding(units: tuple[float, float, float], mo
     assert other.rates * units[2] == pytest.approx(run.rates, abs=1e-9)
     # Twin: integrated in the units that it is given in, slow rates are hardly seen by an absolute tolerance.
     if units[2] == 1e6:
-        raw = integrated(minimal.MODEL, scaled(SHOCKED, *units), T * units[2], 1e-8).seen.axes
+        raw = observed(minimal.MODEL, scaled(SHOCKED, *units), T * units[2], 1e-8).axes
         assert np.abs(raw - run.axes).max() > 1e-9
 
 
@@ -66,11 +71,11 @@ def test_the_estimate_bounds_the_error_and_the_run_keeps_tol() -> None:
 
 def test_a_tolerance_out_of_reach_is_named_with_what_was_reached() -> None:
     with pytest.warns(LagrotorWarning, match=r"does not keep tol = 1e-13: the estimated error is .* t = [\d.]+ s"):
-        run = simulate(SHOCKED, [5.0, 10.0], tol=1e-13)
+        run = simulate(SHOCKED, [0.0, 5.0, 10.0], tol=1e-13)
     assert run.error > 1e-13 and 0 < run.horizon < 10
     with warnings.catch_warnings():  # twin: a tolerance within reach is kept, and nothing is said
         warnings.simplefilter("error")
-        assert simulate(SHOCKED, [5.0, 10.0], tol=1e-8).horizon == np.inf
+        assert simulate(SHOCKED, [0.0, 5.0, 10.0], tol=1e-8).horizon == np.inf
 
 
 def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,12 +90,11 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
         kind, values = right(scene, driven)
         return kind, (*values[:-1], 0.98 * values[-1])
 
-    changed = replace(minimal.MODEL, kind=wrong)
-    units = natural_units(SHOCKED)
-    with pytest.raises(IntegrationError, match="the run followed another motion"):
-        estimated.run_at(changed, units.scene, T * units.rate, 1e-9, "core", 1.0)
-    monkeypatch.setattr(estimated, "KEPT", np.inf)  # twin: unchecked, it passes with a small error estimate
-    assert estimated.run_at(changed, units.scene, T * units.rate, 1e-9, "core", 1.0).errors[-1] < 1e-6
+    monkeypatch.setitem(simulating.MODELS, "minimal", replace(minimal.MODEL, kind=wrong))
+    with pytest.raises(IntegrationError, match=r"minimal: .* the run followed another motion"):
+        simulate(SHOCKED, T, "minimal", 1e-9)
+    set_to(monkeypatch, "KEPT", np.inf)  # twin: unchecked, it passes with a small error estimate
+    assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-9
 
 
 def test_the_work_of_the_shock_is_in_the_energy() -> None:
@@ -98,7 +102,7 @@ def test_the_work_of_the_shock_is_in_the_energy() -> None:
     nodes = pulse_nodes(scene, 3.0)
     assert nodes is not None
     t = np.union1d(np.linspace(0, 3, 50), nodes.t)
-    seen = integrated(minimal.MODEL, scene, t, 1e-12).seen
+    seen = observed(minimal.MODEL, scene, t, 1e-12)
     assert conservation_defect(scene, t, seen, nodes) < 1e-10
     weaker = replace(nodes, weights=0.99 * nodes.weights, lower=0.99 * nodes.lower)
     assert conservation_defect(scene, t, seen, weaker) > 1e-4  # twin
@@ -110,34 +114,35 @@ TUMBLING = consistent_scene(
 
 
 def test_where_two_runs_have_parted_the_rest_is_cheap(monkeypatch: pytest.MonkeyPatch) -> None:
-    times = np.array([4.0, 200.0])
+    times = np.array([0.0, 4.0, 200.0])
     with pytest.warns(LagrotorWarning, match=r"only up to t = [\d.]+ s; from t = [\d.]+ s its local error is 1e-06"):
         run = simulate(TUMBLING, times, tol=1e-5)
     assert run.error == 2 and 4 < run.horizon < 20
     assert np.ptp(run.energy) < 1e-5 * run.energy[0] and np.ptp(run.link_length) < 1e-13
-    assert run.axes[:, 0] == pytest.approx(simulate(TUMBLING, [4.0], "spheres", 1e-11).axes[:, 0], abs=1e-5)
+    assert run.axes[:, 1] == pytest.approx(simulate(TUMBLING, [0.0, 4.0], "spheres", 1e-11).axes[:, 1], abs=1e-5)
     # Twin: compared at the end only, both runs go on in vain.
-    monkeypatch.setattr(in_stages, "STAGE", 1e3)
+    set_to(monkeypatch, "STAGE", 1e3)
     with pytest.warns(LagrotorWarning, match=r"only up to t = [\d.]+ s$"):
         assert simulate(TUMBLING, times, tol=1e-5).evaluations > 1.3 * run.evaluations
 
 
 @pytest.mark.parametrize("lost", [(3.0, 5.0), (5.0, 3.0)])
 def test_of_two_pairs_that_part_the_one_that_lasts_is_kept(monkeypatch: pytest.MonkeyPatch, lost: tuple) -> None:
-    runs = in_stages.StagedRun(1e-5, True), in_stages.StagedRun(1e-7, False)
-    pairs = [estimated._Pair(*runs, 1, np.array([2.0]), t) for t in lost]
-    monkeypatch.setattr(estimated, "_loosest", lambda watched, tol: pairs[0])
-    monkeypatch.setattr(estimated, "_hopeless", lambda watched, pair: pair is pairs[1])
-    monkeypatch.setattr(estimated, "_compared", lambda watched, loose, tight: pairs[1])
-    watched = in_stages.watch(minimal.MODEL, natural_units(SHOCKED).scene, T, "core")
-    assert estimated._best(watched, 1e-5, 1e-6).lost == 5
+    runs = estimated_run._Integration(1e-5, True), estimated_run._Integration(1e-7, False)
+    pairs = [estimated_run._Comparison(*runs, 1, np.array([2.0]), t) for t in lost]
+    monkeypatch.setattr(estimated_run, "_loosest", lambda course, tol: pairs[0])
+    monkeypatch.setattr(estimated_run, "_hopeless", lambda course, pair: pair is pairs[1])
+    monkeypatch.setattr(estimated_run, "_compare", lambda course, loose, tight: pairs[1])
+    monkeypatch.setattr(estimated_run, "_whole", lambda course, best, tol: best)
+    still = estimated_run.Evolution(START, lambda *_: None, lambda *_: None, 1.0, estimated_run.Patience(1, 1))
+    assert estimated_run.estimate_run(still, T, 1e-6).lost == 5
 
 
 def test_a_run_in_stages_is_the_run_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pulse falls into the third of the stages, the readings into all."""
     times = np.linspace(0, 3, 31)
     whole = simulate(SHOCKED, times, "spheres", 1e-10)
-    monkeypatch.setattr(in_stages, "STAGE", typical_rate(SHOCKED) * 3 / (2 * np.pi) / 8)
+    set_to(monkeypatch, "STAGE", typical_rate(SHOCKED) * 3 / (2 * np.pi) / 8)
     reached: list[float] = []
     staged = simulate(SHOCKED, times, "spheres", 1e-10, progress=reached.append)
     assert max(reached) == pytest.approx(3, abs=0.1)
@@ -154,8 +159,8 @@ def test_a_bar_almost_as_long_as_the_axes_loses_no_digit_at_the_fold(gap: float)
     assert np.abs(run.axes - exact.axes).max() < max(1e-9, 3 * exact.error)
     # Twin: through the fold by Mercator coordinates, outside the range in which they are well conditioned.
     units = natural_units(scene)
-    through = integrated(minimal.MODEL, units.scene, times * units.rate, 1e-9)
-    assert np.abs(through.seen.axes - exact.axes).max() > 1e-5
+    through = observed(minimal.MODEL, units.scene, times * units.rate, 1e-9)
+    assert np.abs(through.axes - exact.axes).max() > 1e-5
 
 
 @pytest.mark.parametrize("turns", [20, pytest.param(1000, marks=pytest.mark.slow)])
@@ -165,7 +170,7 @@ def test_euler_angles_keep_the_bar_for_long(turns: int) -> None:
     # An azimuth of so many turns is rounded to about 10⁻¹⁵ of them.
     assert np.abs(simulate(scene, times, "euler", 1e-9).link_length - 1).max() < 2e-15 * turns
     units = natural_units(scene)  # twin: not brought back onto the bar, they lose it
-    loose = integrated(replace(euler.MODEL, projection=None), units.scene, times * units.rate, 1e-9).seen.axes
+    loose = observed(replace(euler.MODEL, projection=None), units.scene, times * units.rate, 1e-9).axes
     assert np.abs(np.linalg.norm([1, 0, 0] + loose[1] - loose[0], axis=-1) - 1).max() > 1e-12
 
 
@@ -189,10 +194,10 @@ def test_ten_thousand_turns_of_the_paired_precession() -> None:
 
 def test_runs_that_take_the_same_steps_are_not_known_to_be_right(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stretch so short that loose tolerances allow a few steps only, the same for both: their difference says nothing."""
-    times = np.array([2e-5])
+    times = np.array([0.0, 2e-5])
     exact = simulate(SHOCKED, times, "spheres", 1e-13).axes
     run = simulate(SHOCKED, times, "minimal", 1e-2)
     error = np.linalg.norm(run.axes - exact, axis=-1).max()
     assert error < run.error < 1e-4
-    monkeypatch.setattr(estimated, "LEAST", 0.0)
+    set_to(monkeypatch, "LEAST", 0.0)
     assert simulate(SHOCKED, times, "minimal", 1e-2).error < error  # twin

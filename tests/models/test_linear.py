@@ -12,8 +12,7 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, LagrotorError, SingularError
 from lagrotor.models import linear_error, linear_run
-from lagrotor.models.estimate_constants import LINEAR_MARGIN
-from lagrotor.models.linear import modes
+from lagrotor.models.linear import LINEAR_MARGIN, modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import measured_order
 from lagrotor.theory import impulse_matrices
@@ -65,7 +64,7 @@ def test_error_is_foreseen(link: Link, body: int) -> None:
     t = np.linspace(0, 6, 400)
     shock = Shock((1.0, -0.7, 0.4), 1.5, 0.05, body)
     for scene in (started(0.01, link=link), replace(started(0.01, link=link), shock=shock)):
-        assert linear_error(scene, 6.0) / LINEAR_MARGIN == pytest.approx(error(scene, t), rel=0.1)
+        assert linear_error(scene, 6.0) / LINEAR_MARGIN.value == pytest.approx(error(scene, t), rel=0.1)
 
 
 @pytest.mark.parametrize("link", [Link(), Link(1.3, 1.0, 0.05), Link(0.7, 1.0, 1.0)])
@@ -161,4 +160,6 @@ def estimates_and_errors(seed: int, count: int) -> list[tuple[float, float]]:
 def test_the_linear_error_is_bounded(count: int) -> None:
     found = estimates_and_errors(23, count)
     assert all(error <= estimate for estimate, error in found)
-    assert sum(error > estimate / LINEAR_MARGIN for estimate, error in found) > count / 20  # twin: without a margin
+    assert (
+        sum(error > estimate / LINEAR_MARGIN.value for estimate, error in found) > count / 20
+    )  # twin: without a margin

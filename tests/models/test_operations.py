@@ -16,7 +16,7 @@ MINIMAL = {
 SPHERES = {False: 130, True: 273}
 # Evaluations of the design's example at tol 1e-11, its companion's included; the solver's own versions may move them
 # by a twentieth.
-EVALUATIONS = {"minimal": 8438, "spheres": 7788}
+EVALUATIONS = {"minimal": 11572, "spheres": 10751}
 
 
 @pytest.mark.parametrize(("massive", "ratio"), MINIMAL)
@@ -43,4 +43,4 @@ def test_the_designs_example_takes_no_more_evaluations(model: str) -> None:
     evaluations = simulate(scene, np.linspace(0, 10, 1001), model, 1e-11).evaluations
     assert evaluations <= 1.05 * EVALUATIONS[model]
     # Twin: a looser run takes clearly fewer, so the ceiling is on this tolerance.
-    assert simulate(scene, [10.0], model, 1e-4).evaluations < 0.6 * evaluations
+    assert simulate(scene, [0.0, 10.0], model, 1e-4).evaluations < 0.6 * evaluations

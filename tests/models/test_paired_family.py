@@ -62,8 +62,8 @@ def test_family_agrees_with_shooting():
     family = orbit_family(scene, [0.1, 0.4])
     for i, r0 in enumerate((0.1, 0.4)):
         assert family.frequencies[i] == pytest.approx(exact_orbit(scene, r0).frequency, rel=1e-10)
-    end = simulate(family.orbit(1).scene, np.array([2 * np.pi / family.frequencies[1]]), "minimal", 1e-13)
-    assert np.abs(end.axes[:, 0] - np.array(family.orbit(1).scene.axes)).max() < 1e-9
+    end = simulate(family.orbit(1).scene, [0.0, 2 * np.pi / family.frequencies[1]], "minimal", 1e-13)
+    assert np.abs(end.axes[:, 1] - np.array(family.orbit(1).scene.axes)).max() < 1e-9
 
 
 def test_refused():

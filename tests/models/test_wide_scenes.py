@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Trajectory, simulate
+from lagrotor import Trajectory
 from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
-from lagrotor.models import estimated
 from lagrotor.models import simulate as simulating
-from lagrotor.numerics import taylor
-from lagrotor.numerics.taylor_steps import taylor_order
+from lagrotor.numerics import estimated_run, taylor
+from lagrotor.numerics.taylor import taylor_order
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
+from tests.models.wide_scenes import run as run_of
 
 RECORDED = np.load(Path(__file__).with_name("wide_scenes.npz"))
 PREDICTABLE = 1e4  # parting of neighbouring motions below which no miss may be silent
@@ -27,6 +27,7 @@ ENGINES = ["core", pytest.param("fast", marks=NO_HEYOKA)]
 TRIALS = wide_scenes(SEED, COUNT)
 LONG_TWIST = 639  # 1,200 turns of a bar longer than the rotors, that goes round and round
 DOUBTFUL = (77, 736), (78, 122), (78, 3850), (79, 571)  # seed, number
+LARGER_THAN_THE_DIFFERENCE = [28, 106]  # whose error exceeds how far their two runs are apart
 SHORT = [i for i, trial in enumerate(TRIALS) if turns(trial) < 10][:100]
 
 
@@ -55,7 +56,7 @@ def outcomes(which: list[int], engine: str) -> Iterator[Outcome]:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             try:
-                run = simulate(trial.scene, trial.t, tol=trial.tol, engine=engine)
+                run = run_of(trial, engine=engine)
             except (IntegrationError, SingularError):
                 yield Outcome(trial, None, np.nan, growth, True)
                 continue
@@ -93,11 +94,22 @@ def test_no_miss_is_silent_on_a_thousand_scenes(engine: str) -> None:
 def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Twin: one integration at the wanted tolerance, its error taken for granted, misses in silence."""
 
-    def trusting(model, scene, times, wanted, engine, bounded):  # type: ignore[no-untyped-def]
-        found = simulating.run_at(model, scene, times, wanted, engine, np.inf)
-        return type(found)(found.seen, np.full(len(times), wanted), np.inf, found.nfev, wanted, np.inf)
+    def trusting(evolution, times, tol):  # type: ignore[no-untyped-def]
+        once = evolution.integrate(evolution.start, times, tol, False, 1e7)
+        read = lambda times: once.states[: len(times)]  # noqa: E731
+        return estimated_run.EstimatedRun(
+            times,
+            once.states,
+            np.full(len(times), tol),
+            np.inf,
+            0,
+            estimated_run.Ending("end", times[-1]),
+            tol,
+            np.inf,
+            read,
+        )
 
-    monkeypatch.setattr(simulating, "run_within", trusting)
+    monkeypatch.setattr(simulating, "estimate_run", trusting)
     assert len(judge(SHORT[1::2], "core")[0]) > 1
 
 
@@ -115,27 +127,22 @@ def test_taylor_steps_that_the_states_set_and_not_the_tolerance_hide_no_error(mo
 
 
 @NO_HEYOKA
-def test_where_rounding_is_all_that_two_runs_resolve_their_difference_is_not_trusted(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Scenes apart from the recorded ones, whose two runs agree better than either is right."""
-    trials = [wide_scenes(seed, last + 1)[last] for seed, last in DOUBTFUL]
-    exact = [reference(trial, np.random.default_rng(0))[0] for trial in trials]
+def test_where_rounding_is_all_that_two_runs_resolve_their_difference_is_not_trusted() -> None:
+    """Scenes apart from the recorded ones, whose two runs agree better than either is right; see test_estimated_run, too."""
+    for seed, last in DOUBTFUL:
+        trial = wide_scenes(seed, last + 1)[last]
+        exact, _, _ = reference(trial, np.random.default_rng(0))
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            run = run_of(trial)
+        error = float(np.linalg.norm(run.axes - exact, axis=-1).max())
+        assert said or error <= trial.tol
 
-    def silent() -> list[bool]:
-        found = list[bool]()
-        for trial, axes in zip(trials, exact, strict=True):
-            with warnings.catch_warnings(record=True) as said:
-                warnings.simplefilter("always")
-                run = simulate(trial.scene, trial.t, tol=trial.tol)
-            found.append(not said and float(np.linalg.norm(run.axes - axes, axis=-1).max()) > trial.tol)
-        return found
 
-    assert not any(silent())
-    for constant, as_if_none in (("RESOLVED", 0.0), ("SAFETY", 1.0)):
-        with monkeypatch.context() as twin:
-            twin.setattr(estimated, constant, as_if_none)
-            assert any(silent()), constant
+def test_the_difference_itself_is_no_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert all(one.error <= one.run.error for one in outcomes(LARGER_THAN_THE_DIFFERENCE, "core") if one.run)
+    monkeypatch.setattr(estimated_run, "SAFETY", estimated_run.SAFETY._replace(value=1.0))  # twin
+    assert any(one.error > one.run.error for one in outcomes(LARGER_THAN_THE_DIFFERENCE, "core") if one.run)
 
 
 @NO_HEYOKA

@@ -7,12 +7,13 @@ to 10⁴ rad/s in all combinations, starts anywhere and beside the joint line, s
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor import Link, Rotor, Scene, Shock
-from lagrotor.errors import InputError
+from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
+from lagrotor.errors import InputError, IntegrationError
 from tests.models.oracle import exact_axes, pace
 
 Array = NDArray[np.float64]
@@ -97,6 +98,14 @@ def _start(rng: np.random.Generator, k: float, bar: bool) -> tuple[Array, Array]
     tangents = np.linalg.svd(normals)[2][len(normals) :]
     v = rng.normal(size=len(tangents)) @ tangents
     return np.array([r1, r2]), (v / np.linalg.norm(v)).reshape(2, 3)
+
+
+def run(trial: Wide, **how: Any) -> Trajectory:
+    """`simulate` at the trial's tolerance, at its times. Raises what it does, and IntegrationError for a run that ended early."""
+    whole = simulate(trial.scene, [0.0, *trial.t], tol=trial.tol, **how)
+    if whole.ending.early:
+        raise IntegrationError(str(whole.ending))
+    return whole.after(trial.t[0])
 
 
 def turns(trial: Wide) -> float:

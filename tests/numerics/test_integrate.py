@@ -13,7 +13,7 @@ from lagrotor.errors import InputError, IntegrationError
 from lagrotor.numerics import Problem, adams
 from lagrotor.numerics import integrate as module
 from lagrotor.numerics.integrate import check_tolerance, integrate
-from lagrotor.numerics.segment import Array, RightHandSide, Run, Segment, StopError
+from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
 from lagrotor.numerics.solver_constants import DETOUR
 
 ENOUGH = 1e6
@@ -52,7 +52,7 @@ def test_the_oscillator_oscillates() -> None:
     exact = np.column_stack([np.cos(times), -np.sin(times)])
     assert solution.states == pytest.approx(exact, abs=1e-11)
     assert solution.states != pytest.approx(np.column_stack([np.cos(1.0001 * times), -np.sin(times)]), abs=1e-11)
-    assert solution.nfev > 0
+    assert solution.evaluations > 0
 
 
 def test_the_error_falls_with_the_tolerance_and_stays_below_it() -> None:
@@ -60,7 +60,7 @@ def test_the_error_falls_with_the_tolerance_and_stays_below_it() -> None:
     for tol in (1e-3, 1e-6, 1e-9, 1e-12):
         solution = integrate(Problem(oscillate, START, ENOUGH), np.array([10.0]), tol)
         errors.append(abs(solution.states[0, 0] - cos(10)))
-        evaluations.append(solution.nfev)
+        evaluations.append(solution.evaluations)
         assert errors[-1] < tol
     assert errors == sorted(errors, reverse=True)
     assert evaluations == sorted(evaluations)
@@ -78,7 +78,7 @@ def test_evaluations_are_counted() -> None:
 
     problem = Problem(counted, START, ENOUGH, project=lambda y: y / np.hypot(*y))
     solution = integrate(problem, np.array([1.0, 3.0]), 1e-8)
-    assert solution.nfev == pytest.approx(calls, abs=1)
+    assert solution.evaluations == pytest.approx(calls, abs=1)
 
 
 WIDTHS = [1e-1, 1e-3, 1e-5, 1e-7, 1e-9]
@@ -158,7 +158,7 @@ def test_output_times_may_lie_on_the_edges() -> None:
 def test_the_start_alone_and_a_late_start() -> None:
     only = integrate(Problem(oscillate, START, ENOUGH), np.array([0.0]), 1e-9)
     assert only.states.tolist() == [[1, 0]]
-    assert only.nfev == 0
+    assert only.evaluations == 0
     late = integrate(Problem(oscillate, START, ENOUGH), np.array([2.0, 3.0]), 1e-10).states
     assert late[:, 0] == pytest.approx(np.cos([2, 3]), abs=1e-9)
     pulsed = integrate(Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 0.3, 0.1), np.array([0.0]), 1e-9)
@@ -181,7 +181,7 @@ def test_the_projection_is_applied_to_every_state_read() -> None:
 
 
 def test_a_motion_that_blows_up_is_stopped_where_it_does() -> None:
-    with pytest.raises(IntegrationError, match=r"near t = 0\.5 s .* try another model or a larger tol"):
+    with pytest.raises(IntegrationError, match=r"near t = 0\.5 s .* take another tol or model"):
         integrate(Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH), np.array([1.0]), 1e-9)
     # Twin: short of the pole it is followed.
     near = integrate(Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH), np.array([0.49]), 1e-9)
@@ -204,14 +204,14 @@ def test_a_rate_that_is_not_finite_stops_the_run(since: float, bad: float) -> No
 def test_a_run_that_crawls_is_stopped() -> None:
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(Problem(oscillate, START, 500), np.array([1e4]), 1e-9)
-    assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).nfev < 500
+    assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).evaluations < 500
 
 
 def test_the_allowance_is_for_the_whole_run() -> None:
     """The segments before, in and after the pulse share it."""
     problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, 0.1)
-    needed = integrate(problem, np.array([4.0]), 1e-11).nfev
-    tight = Problem(drift, np.zeros(2), needed - 10, kick(1, 0.1), 2.0, 0.1)
+    needed = integrate(problem, np.array([4.0]), 1e-11).evaluations
+    tight = Problem(drift, np.zeros(2), needed / 2, kick(1, 0.1), 2.0, 0.1)
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(tight, np.array([4.0]), 1e-11)
 
@@ -226,9 +226,9 @@ def test_steps_are_not_shortened_for_what_rounding_leaves(monkeypatch: pytest.Mo
     problem = Problem(rounded, START, ENOUGH, typical_rate=1.0)
     found = integrate(problem, times, 1e-12)
     assert found.states[:, 0] == pytest.approx(np.cos(times), abs=5e-12)
-    assert found.nfev < 8_000
+    assert found.evaluations < 8_000
     monkeypatch.setattr(adams, "_IN_VAIN", 1_000)
-    assert integrate(problem, times, 1e-12).nfev > 40_000
+    assert integrate(problem, times, 1e-12).evaluations > 40_000
 
 
 @pytest.mark.parametrize("tol", [0, -1e-9, 1e-14, 0.2, float("nan"), float("inf"), "1e-9", None])
@@ -249,7 +249,7 @@ def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
     """From where it came, or from where it began and for four times as long if nothing is left of its run."""
     begun, right = list[float](), module.lsoda
 
-    def stops(segment: Segment, error: float) -> Run:
+    def stops(segment: Segment, error: float) -> Stretch:
         begun.append(segment.left)
         if segment.left > 3:
             return right(segment, error)
@@ -259,7 +259,7 @@ def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
 
     monkeypatch.setattr(module, "lsoda", stops)
     times = np.linspace(0, 20, 81)
-    problem = Problem(oscillate, START, ENOUGH, typical_rate=DETOUR)  # a first detour of one second
+    problem = Problem(oscillate, START, ENOUGH, typical_rate=DETOUR.value)  # a first detour of one second
     solution = integrate(problem, times, 1e-8)
     assert solution.states[:, 0] == pytest.approx(np.cos(times), abs=1e-7)
     assert begun[:2] == pytest.approx([0, 2] if reached else [0, 4]) and begun[-1] > 3

@@ -64,7 +64,7 @@ def test_a_run_is_a_frame_and_a_dataset_where_they_are_installed() -> None:
     pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
     frame, data = run.to_dataframe(), run.to_xarray()
     assert isinstance(frame, pandas.DataFrame) and isinstance(data, xarray.Dataset)
-    assert frame["tip_1_x"].to_numpy() == pytest.approx(run.tips[0, :, 0])
+    assert frame["tips_1_x"].to_numpy() == pytest.approx(run.tips[0, :, 0])
     assert data["tips"].sel(rotor=2, component="z").to_numpy() == pytest.approx(run.tips[1, :, 2])
     assert data["energy"].attrs["units"] == "J"
 

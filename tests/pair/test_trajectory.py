@@ -15,6 +15,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays, write_beside, write_text
+from lagrotor.numerics.any_run import Ending
 from lagrotor.pair import UNITS
 
 TIMES = np.linspace(0, 2, 21)
@@ -31,8 +32,8 @@ def run() -> Trajectory:
 def test_shapes_are_one_row_a_time(run: Trajectory) -> None:
     n = len(TIMES)
     assert run.t.tolist() == TIMES.tolist()
-    assert {name: getattr(run, name).shape for name in UNITS} == {
-        "t": (n,), "axes": (2, n, 3), "rates": (2, n, 3), "tips": (2, n, 3),
+    assert {name: getattr(run, name).shape for name in UNITS if name != "P"} == {
+        "axes": (2, n, 3), "rates": (2, n, 3), "tips": (2, n, 3),
         "energy": (n,), "link_length": (n,), "momenta": (2, n),
     }  # fmt: skip
     assert {name: part.shape for name, part in run.invariants.items()} == dict.fromkeys(("G_1", "G_2", "P"), (n,))
@@ -47,7 +48,7 @@ def test_the_first_row_is_the_start(run: Trajectory) -> None:
 
 def test_rates_are_the_derivatives_of_the_axes() -> None:
     h = 1e-4
-    near = simulate(SCENE, [1 - h, 1, 1 + h], "minimal", 1e-12)
+    near = simulate(SCENE, [0, 1 - h, 1, 1 + h], "minimal", 1e-12).after(0.5)
     slope = (near.axes[:, 2] - near.axes[:, 0]) / (2 * h)
     assert near.rates[:, 1] == pytest.approx(slope, abs=1e-5)
     assert near.rates[:, 1] != pytest.approx(-slope, abs=1e-1)
@@ -105,8 +106,8 @@ def test_angles_describe_the_axes(run: Trajectory) -> None:
 def test_npz_holds_what_the_run_holds(run: Trajectory, tmp_path: Path) -> None:
     target = run.save(tmp_path / "run.npz")
     with np.load(target) as kept:
-        assert set(kept) == {*UNITS, "P", "about"}
-        for name in UNITS:
+        assert set(kept) == {*UNITS, "t", "errors", "about"}
+        for name in ("t", "errors", *(name for name in UNITS if name != "P")):
             assert kept[name].tolist() == getattr(run, name).tolist()
         assert kept["P"].tolist() == run.joint_line_momentum.tolist()
 
@@ -115,13 +116,15 @@ def test_csv_holds_every_digit_under_named_columns(run: Trajectory, tmp_path: Pa
     target = run.save(str(tmp_path / "run.csv"))
     with target.open() as file:
         rows = list(csv.reader(file))
+    kinds = (("axes", "1"), ("rates", "1/s"), ("tips", "m"))
     assert rows[0] == [
         "t [s]",
-        *(f"tip_{i}_{letter} [m]" for i in (1, 2) for letter in "xyz"),
-        "energy [J]", "link_length [m]", "P [kg m2/s]",
+        *(f"{name}_{i}_{letter} [{unit}]" for name, unit in kinds for i in (1, 2) for letter in "xyz"),
+        "energy [J]", "link_length [m]", "momenta_1 [kg m²/s]", "momenta_2 [kg m²/s]", "P [kg m²/s]",
     ]  # fmt: skip
     table = np.array(rows[1:], dtype=float)
-    expected = [run.t, *run.tips[0].T, *run.tips[1].T, run.energy, run.link_length, run.joint_line_momentum]
+    vectors = [column for part in (run.axes, run.rates, run.tips) for i in (0, 1) for column in part[i].T]
+    expected = [run.t, *vectors, run.energy, run.link_length, *run.momenta, run.joint_line_momentum]
     assert table.T.tolist() == [column.tolist() for column in expected]
 
 
@@ -173,10 +176,12 @@ def test_a_saved_run_is_read_back_with_its_scene(run: Trajectory, tmp_path: Path
     assert (again.scene, again.model, again.why, again.evaluations) == (run.scene, run.model, run.why, run.evaluations)
     assert (again.axes == run.axes).all() and (again.energy == run.energy).all()
     assert (again.error, again.horizon) == (run.error, run.horizon) and 0 < run.error < 1e-6
-    parted = replace(run, error=0.3, horizon=1.25)
+    assert again.ending == run.ending and (again.errors == run.errors).all()
+    ending = Ending("budget", 1.9, "9 evaluations spent")
+    parted = replace(run, errors=0.3 * run.t, horizon=1.25, ending=ending)
     again = Trajectory.load(parted.save(tmp_path / "parted.npz"))
-    assert (again.error, again.horizon) == (0.3, 1.25)
-    unknown = Trajectory.load(replace(run, error=np.nan, horizon=np.nan).save(tmp_path / "unknown.npz"))
+    assert (again.error, again.horizon, again.ending) == (0.6, 1.25, ending)
+    unknown = Trajectory.load(replace(run, errors=np.nan * run.t, horizon=np.nan).save(tmp_path / "unknown.npz"))
     assert np.isnan([unknown.error, unknown.horizon]).all()
     shocked = Scene((3, 1), link=None, shock=Shock((1, 0, 0), 0.1, 0.05))
     assert Trajectory.load(simulate(shocked, [0.0, 1.0]).save(tmp_path / "two.npz")).scene == shocked
@@ -217,9 +222,11 @@ def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Tra
         (lambda about, held: held.update(axes=held["axes"] * 1.01), "no unit vectors"),
         (lambda about, held: about.update(evaluations=-1), "number of evaluations"),
         (lambda about, held: about.update(model=None), "its model"),
-        (lambda about, held: about.update(error=-1.0), "its error"),
-        (lambda about, held: about.update(horizon="late"), "its horizon"),
-        (lambda about, held: about.pop("error"), "no run saved"),
+        (lambda about, held: held.update(errors=-held["errors"]), "its errors"),
+        (lambda about, held: about["ending"].update(kind="late"), "horizon or its ending"),
+        (lambda about, held: about["ending"].update(colour="red"), "no run saved"),
+        (lambda about, held: about.update(horizon="late"), "horizon or its ending"),
+        (lambda about, held: held.pop("errors"), "no run saved"),
         (lambda about, held: about.update(scene=[1, 2]), "no run saved"),
         (lambda about, held: about["scene"].update(spins=[1]), "no run saved"),
         (lambda about, held: about["scene"]["rotor"].update(mass="heavy"), "no run saved"),

@@ -81,7 +81,7 @@ def test_a_long_chain_moves() -> None:
     run = s.simulate([0.0, 0.05], rates=rates, tol=1e-6)
     assert np.abs(run.axes[0, 1, :2]).max() > 1e-5
     assert np.abs(run.axes[900:, 1, :2]).max() < 1e-12
-    assert np.ptp(run.bar_length) < 1e-12
+    assert np.ptp(run.link_length) < 1e-12
 
 
 def segments_of(s: Structure) -> tuple[set[int], float]:

@@ -18,7 +18,7 @@ def steady(s: Structure, rate: float, **driven) -> np.ndarray:
     """Amplitudes (N, 2) of the exact motion, once its start is forgotten."""
     after = 18 / -s.modes().growth.max()
     t = after + np.linspace(0, 2 * np.pi / rate, 17)[:-1]
-    run = s.simulate(t, **driven, tol=1e-12)
+    run = s.simulate([0.0, *t], **driven, tol=1e-12).after(t[0])
     feet = np.column_stack([s.joints, [rotor.length for rotor in s.rotor]])[:, None]
     return 2j * ((run.tips - feet)[..., :2] * np.exp(-1j * rate * t)[:, None]).mean(1)
 

@@ -10,8 +10,7 @@ from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal, spheres
-from lagrotor.models.integrated import integrated
-from lagrotor.models.model import Model
+from lagrotor.models.model import Model, integrate_model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.models.spring_link.rigid_body import printed_rotation
@@ -130,7 +129,7 @@ def passes(miss: float) -> bool:
     """Whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
     swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
     try:
-        integrated(spheres.MODEL, swing, np.array([2.0]), 1e-8)
+        integrate_model(spheres.MODEL, swing, np.array([2.0]), 1e-8)
     except IntegrationError:
         return False
     return True

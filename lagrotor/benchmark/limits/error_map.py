@@ -45,7 +45,7 @@ def usefulness(
     starts = [exact_orbit(base, float(r0)).scene for r0 in amplitudes]
     scenes = [replace(scene, spins=(spin, -spin * (1 - float(d)))) for d in departures for scene in starts]
     times = 2 * pi / natural_rate(base) * np.arange(1, _TIMES + 1) / _TIMES
-    exact = sweep(scenes, times, tol).axes.reshape(len(departures), len(amplitudes), 2, _TIMES, 3)
+    exact = sweep(scenes, [0.0, *times], tol).axes[:, :, 1:].reshape(len(departures), len(amplitudes), 2, _TIMES, 3)
     errors = np.empty((len(orders), len(departures), len(amplitudes)))
     for i, order in enumerate(orders):
         series = paired_series(order, *shape_of(base))

@@ -104,7 +104,10 @@ def long_run(turns: int, solver: str, tol: float) -> LongRun:
     else:
         states, spent = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
         seen = MODEL.observe(orbit.scene, states)
-        run = Trajectory(orbit.scene, "minimal", solver, times, seen.axes, seen.rates, seen.momenta, spent)
+        run = Trajectory(
+            scene=orbit.scene, model="minimal", why=solver, t=times, axes=seen.axes, rates=seen.rates, momenta=seen.momenta,
+            errors=np.full(len(times), np.nan), evaluations=spent,
+        )  # fmt: skip
     spinning = (run.momenta[:, 0] ** 2).sum() / (2 * run.scene.rotor.I3)
     momentum = run.joint_line_momentum
     off, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]

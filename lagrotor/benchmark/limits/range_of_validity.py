@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
-from lagrotor.models.integrated import integrated
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.model import integrate_model
 from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
@@ -23,6 +23,10 @@ PAIR = Scene((10.0, -10.0))
 _PHASES = np.linspace(0, 2 * pi, 25)
 
 
+def _axes(scene: Scene, times: Array, local: float, start: Array | None = None) -> Array:
+    return MODEL.observe(scene, integrate_model(MODEL, scene, times, local, start=start).states).axes
+
+
 def _series(scene: Scene, order: int) -> PairedSeries:
     return paired_series(order, *shape_of(scene))
 
@@ -31,7 +35,7 @@ def series_error(scene: Scene, order: int, r0: float) -> float:
     """Largest distance between the axes of the series and of the exact orbit at equal phases, over a turn."""
     orbit = _orbit(scene, r0)
     times = _PHASES / abs(orbit.frequency)
-    exact = integrated(MODEL, orbit.scene, times, 1e-11).seen.axes
+    exact = _axes(orbit.scene, times, 1e-11)
     return float(np.linalg.norm(_series(scene, order).axes(r0, _PHASES) - exact, axis=-1).max())
 
 
@@ -84,14 +88,14 @@ def _within_turns(spins: tuple[float, float], r0: float, turns: float) -> Array:
     """The axes (2, 24, 3) within `turns` of the periodic orbit of r0, started on it with these spins."""
     orbit = _orbit(PAIR, r0)
     times = turns * _PHASES[1:] / abs(orbit.frequency)
-    return integrated(MODEL, replace(orbit.scene, spins=spins), times, 1e-12).seen.axes
+    return _axes(replace(orbit.scene, spins=spins), times, 1e-12)
 
 
 def off_equal(share: float, r0: float) -> float:
     """How far apart the axes of a parallel pair twist within a turn when spin 2 is (1 − share) times spin 1."""
     start = parallel_scene(Scene((10.0, 10.0)), r0)
     times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
-    axes = integrated(MODEL, replace(start, spins=(10.0, 10.0 * (1 - share))), times, 1e-12).seen.axes
+    axes = _axes(replace(start, spins=(10.0, 10.0 * (1 - share))), times, 1e-12)
     return float(np.linalg.norm(axes[1] - axes[0], axis=-1).max())
 
 
@@ -158,8 +162,6 @@ def horizon_limits(quick: bool) -> list[Limit]:
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
     start = MODEL.start(scene)
-    one, other = (
-        integrated(MODEL, scene, times, apart / 10, start=state).seen.axes for state in (start, start + apart)
-    )
+    one, other = (_axes(scene, times, apart / 10, start=state) for state in (start, start + apart))
     away = np.linalg.norm(one - other, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")

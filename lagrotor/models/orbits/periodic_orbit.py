@@ -6,9 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.models.integrated import integrated, problem_of
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array
+from lagrotor.models.model import Array, integrate_model, problem_of
 from lagrotor.models.natural_units import natural_units
 from lagrotor.numerics.integrate import TIGHTEST, integrate
 from lagrotor.pair.scene import Scene
@@ -39,7 +38,8 @@ def periodic_orbit(scene: Scene, period: float) -> PeriodicOrbit:
     units = natural_units(scene)
     turn = period * units.rate
     for _ in range(3):
-        seen = integrated(MODEL, units.scene, turn * np.linspace(0.0, 1.0, _SAMPLES + 1), TIGHTEST, bounded=True).seen
+        times = turn * np.linspace(0.0, 1.0, _SAMPLES + 1)
+        seen = MODEL.observe(units.scene, integrate_model(MODEL, units.scene, times, TIGHTEST, bounded=True).states)
         off, ahead = seen.axes[:, -1] - seen.axes[:, 0], seen.rates[:, 0]
         shift = float((off * ahead).sum() / (ahead**2).sum())
         last, turn = turn, turn - shift
@@ -66,7 +66,7 @@ def parting(orbit: PeriodicOrbit, t_end: float) -> float:
 
 def _monodromy(scene: Scene, turn: float) -> Array:
     """d state(T)/d state(0), by central differences of integrations over a period."""
-    problem = problem_of(MODEL, scene, turn)
+    problem = problem_of(MODEL, scene)
     ends = [
         [
             integrate(replace(problem, start=problem.start + sign * step), np.array([turn]), 1e-12).states[0]

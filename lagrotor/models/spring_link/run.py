@@ -66,7 +66,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
     miss it); IntegrationError when the state is not a number, or beyond LOST.
     """
-    times = check_times(t)
+    times = _times(t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
         raise InputError(f"run_steps: dt = {dt!r} s must be a finite number above zero")
     counts = np.rint(times / dt).astype(int)
@@ -108,7 +108,7 @@ def run_solver(
     """
     from scipy.integrate import solve_ivp
 
-    times, error = check_times(t), check_tolerance(tol) / 20
+    times, error = _times(t), check_tolerance(tol) / 20
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     rate = rate_function(system, shock)
@@ -136,6 +136,16 @@ def run_solver(
         states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
         evaluations += found.nfev
     return _read(system, times, states, evaluations)
+
+
+def _times(t: ArrayLike) -> Array:
+    """Times of the paper's program, which begins at 0."""
+    times = check_times(t)
+    if times[0] < 0:
+        raise InputError(
+            f"simulate: t starts at {times[0]:g} s: the bodies are given at t = 0, so times start there or later"
+        )
+    return times
 
 
 def _strength(shock: Shock | None, s: float) -> float:

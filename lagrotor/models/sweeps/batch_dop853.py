@@ -38,6 +38,12 @@ class Swarm:
     at: Array
     width: Array
 
+    def part(self, who: Index) -> "Swarm":
+        """Those of the indices `who`."""
+        return Swarm(
+            lambda left: self.rates(who[left]), self.start[:, who], self.fastest[who], self.at[who], self.width[who]
+        )
+
 
 def march(swarm: Swarm, times: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
     """States (n, m, d) at the times (m,), increasing from 0 or later, and evaluations (n,).

@@ -1,5 +1,6 @@
 """Scenes of one kind side by side: the minimal model on arrays, every trajectory with its own step."""
 
+import warnings
 from collections.abc import Sequence
 from math import hypot
 from typing import NamedTuple
@@ -7,11 +8,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import IntegrationError
+from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
+from lagrotor.models.natural_units import typical_rate
 from lagrotor.models.simulate import simulate
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march
+from lagrotor.numerics.estimate_constants import APART, FIRST, LEAST, RESOLVED, ROUNDING, SAFETY, START
+from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.taylor import march_taylor
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -19,33 +24,42 @@ MODELS = ("minimal", "spheres", "none")
 
 
 class Chunk(NamedTuple):
-    """axes, rates (n, 2, m, 3), evaluations (n,), models (n,) of part of an ensemble."""
+    """axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,), models (n,) of part of an ensemble."""
 
     axes: Array
     rates: Array
+    errors: Array
     evaluations: NDArray[np.int64]
     models: NDArray[np.int64]
 
 
 def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Chunk:
-    """The work of one process: a few thousand scenes at once by `minimal`, those that it cannot hold by `spheres`."""
-    n, shape = len(scenes), (len(scenes), 2, len(times), 3)
-    found = Chunk(np.full(shape, np.nan), np.full(shape, np.nan), np.zeros(n, np.int64), np.full(n, 2))
+    """The work of one process: a few thousand scenes at once by `minimal`, those that it cannot hold by `spheres`.
+
+    Each scene starts at times[0] = 0. Every run is within `tol` by its estimate, or has the best there is.
+    """
+    n, m = len(scenes), len(times)
+    axes, rates = np.full((2, n, 2, m, 3), np.nan)
+    none = np.full(n, MODELS.index("none"))
+    chunk = Chunk(axes, rates, np.full((n, m), np.nan), np.zeros(n, np.int64), none)
     groups: dict[Kind | None, list[int]] = {}
     for i, scene in enumerate(scenes):
         groups.setdefault(kind_of(scene), []).append(i)
     for kind, group in groups.items():
         if kind is not None:
-            _by_minimal(kind, [scenes[i] for i in group], np.array(group), times, tol, engine, found)
-    for i in np.flatnonzero(found.models == MODELS.index("none")).tolist():
-        # Beside a singular position any error grows a millionfold: the solver gives all it has.
-        try:
-            run = simulate(scenes[i], times, "spheres", TIGHTEST if scenes[i].link else tol)
-        except IntegrationError:
-            continue
-        found.axes[i], found.rates[i], found.models[i] = run.axes, run.rates, MODELS.index("spheres")
-        found.evaluations[i] += run.evaluations
-    return found
+            _by_minimal(kind, [scenes[i] for i in group], np.array(group), times, tol, engine, chunk)
+    for i in np.flatnonzero(chunk.models == MODELS.index("none")).tolist():
+        with warnings.catch_warnings():  # what is not kept is said once for all
+            warnings.simplefilter("ignore", LagrotorWarning)
+            try:
+                run = simulate(scenes[i], times, "spheres", tol)
+            except (IntegrationError, SingularError):
+                continue
+        chunk.evaluations[i] += run.evaluations
+        if not run.ending.early:
+            chunk.axes[i], chunk.rates[i], chunk.errors[i] = run.axes, run.rates, run.errors
+            chunk.models[i] = MODELS.index("spheres")
+    return chunk
 
 
 def kind_of(scene: Scene) -> Kind | None:
@@ -61,27 +75,49 @@ def kind_of(scene: Scene) -> Kind | None:
 
 
 def _by_minimal(
-    kind: Kind, scenes: list[Scene], places: Index, times: Array, tol: float, engine: str, found: Chunk
+    kind: Kind, scenes: list[Scene], places: Index, times: Array, tol: float, engine: str, chunk: Chunk
 ) -> None:
-    """Run scenes of one kind side by side and put what comes out whole into its places."""
+    """Run scenes of one kind side by side, at one local error after another, each APART times tighter, until two that follow
+    each other agree within `tol`; put what comes out whole into its places."""
     ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
+    turns = np.array([typical_rate(scene) for scene in scenes])[:, None] * times / (2 * np.pi)
+    rounding = ROUNDING.value * (START.value + turns)
     columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
-    if engine == "fast":
-        from lagrotor.numerics.taylor import march_taylor
-
-        states, spent = march_taylor(program(*kind), start, np.array(columns), times, tol)
-    else:
-        states, spent = march(_swarm(kind, scenes, columns, start), times, tol)
-    found.evaluations[places] = spent
-    whole = np.isfinite(states).all((1, 2))
-    found.models[places[whole]] = MODELS.index("minimal")
-    for k in np.unique(ratios):
-        alike = np.flatnonzero(whole & (ratios == k))
-        if len(alike):
-            seen = MODEL.observe(scenes[alike[0]], states[alike].reshape(-1, 6))
-            for name, part in (("axes", seen.axes), ("rates", seen.rates)):
-                rows = part.reshape(2, len(alike), len(times), 3).swapaxes(0, 1)
-                getattr(found, name)[places[alike]] = rows
+    swarm, who, local, companion = _swarm(kind, scenes, columns, start), np.arange(len(scenes)), tol * FIRST.value, True
+    before = np.full((len(scenes), 2, len(times), 3), np.nan)
+    while who.size:
+        local = max(local, TIGHTEST)
+        if engine == "fast":
+            parameters = np.array([column[who] for column in columns])
+            states, spent = march_taylor(program(*kind), start[:, who], parameters, times, local, companion)
+        else:
+            states, spent = march(swarm.part(who), times, local)
+        chunk.evaluations[places[who]] += spent
+        whole = np.isfinite(states).all((1, 2))
+        who, states = who[whole], states[whole]
+        axes, rates = np.empty((2, len(who), 2, len(times), 3))
+        for k in np.unique(ratios[who]):
+            alike = np.flatnonzero(ratios[who] == k)
+            seen = MODEL.observe(scenes[who[alike[0]]], states[alike].reshape(-1, 6))
+            for rows, part in ((axes, seen.axes), (rates, seen.rates)):
+                rows[alike] = part.reshape(2, len(alike), len(times), 3).swapaxes(0, 1)
+        safety = SAFETY.value ** (2 if local < RESOLVED.value else 1)
+        apart = safety * np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
+        errors = np.maximum.accumulate(np.maximum(apart, LEAST.value * local) + rounding[who], axis=1)
+        before[who] = axes
+        if not np.isnan(apart).any():  # of the first there is nothing to compare
+            # Where a tighter run is farther from the last than that was from the one before it, rounding is all that differs.
+            better = who[~(errors[:, -1] >= chunk.errors[places[who], -1])]
+            at = np.searchsorted(who, better)
+            here = places[better]
+            chunk.axes[here], chunk.rates[here], chunk.errors[here] = (
+                axes[at],
+                rates[at],
+                np.minimum(errors[at], UNKNOWN),
+            )
+            chunk.models[here] = MODELS.index("minimal")
+            who = who[(errors[:, -1] > tol) & (local > TIGHTEST)]
+        local, companion = local / APART.value, not companion
 
 
 def _columns(kind: Kind, scenes: list[Scene], ratios: Array) -> list[Array]:

@@ -62,9 +62,9 @@ def chunk_folder(
 def _is_whole(found: Chunk, shape: tuple[int, ...]) -> bool:
     """Whether the arrays are those of a chunk of this shape: finite motions of unit axes, NaN only where none ended."""
     n = shape[0]
-    if any(part.shape != s for part, s in zip(found, (shape, shape, (n,), (n,)), strict=True)):
+    if any(part.shape != s for part, s in zip(found, (shape, shape, (n, shape[2]), (n,), (n,)), strict=True)):
         return False
-    if not all(part.dtype == kind for part, kind in zip(found, (float, float, np.int64, np.int64), strict=True)):
+    if not all(part.dtype == kind for part, kind in zip(found, (float, float, float, np.int64, np.int64), strict=True)):
         return False
     none = found.models == MODELS.index("none")
     done = ~none
@@ -73,5 +73,6 @@ def _is_whole(found: Chunk, shape: tuple[int, ...]) -> bool:
         and np.isnan(found.axes[none]).all()
         and np.isfinite(found.axes[done]).all()
         and np.isfinite(found.rates[done]).all()
+        and (found.errors[done] >= 0).all()
         and (np.abs(np.linalg.norm(found.axes[done], axis=-1) - 1) < UNIT_ERROR).all()
     )

@@ -4,31 +4,36 @@ A chunk is one call of `run_chunk`, which needs nothing but its arguments: any e
 it, on this machine or on others.
 """
 
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.simulate import check_times
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, kind_of, run_chunk
 from lagrotor.models.sweeps.chunk_files import chunk_folder
+from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
-from lagrotor.shown import Shown
+from lagrotor.shown import Shown, scientific
 
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Ensemble(Shown):
-    """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), evaluations (n,).
+    """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,).
+
+    errors: the estimated largest error of an axis up to each time, as a `Trajectory` has it.
 
     models (n,): index into MODELS. "spheres" ran, one by one, those without a bar and those that met a singular position
     of the minimal coordinates; what neither could finish is "none", its axes NaN.
@@ -38,6 +43,8 @@ class Ensemble(Shown):
     t: Array
     axes: Array
     rates: Array
+    errors: Array
+    tol: float
     evaluations: NDArray[np.int64]
     models: NDArray[np.int64]
 
@@ -49,8 +56,14 @@ class Ensemble(Shown):
             "times": f"{len(self.t)}, from {self.t[0]:g} to {self.t[-1]:g} s",
             "models": ", ".join(f"{count} by {name}" for name, count in by_model.items() if count),
             "evaluations": f"{int(self.evaluations.sum()):,}",
+            "largest estimated error": scientific(float(np.nanmax(self.error, initial=0.0)), 1),
             "failed": str(len(self.failed)),
         }
+
+    @property
+    def error(self) -> Array:
+        """The estimated largest error of an axis over each run, (n,); NaN where none was finished."""
+        return self.errors[:, -1]
 
     @property
     def failed(self) -> NDArray[np.int64]:
@@ -59,10 +72,14 @@ class Ensemble(Shown):
 
     def trajectory(self, i: int) -> Trajectory:
         """Number i, with all that can be read off it."""
-        scene, name = self.scenes[i], MODELS[self.models[i]]
+        scene, name, errors = self.scenes[i], MODELS[self.models[i]], self.errors[i]
         momenta = np.repeat(np.array(scene.momenta)[:, None], len(self.t), axis=1)
-        spent = int(self.evaluations[i])
-        return Trajectory(scene, name, "one of an ensemble", self.t, self.axes[i], self.rates[i], momenta, spent)
+        beyond = np.flatnonzero(errors > self.tol)
+        return Trajectory(
+            scene=scene, model=name, why="one of an ensemble", t=self.t, axes=self.axes[i], rates=self.rates[i], momenta=momenta,
+            errors=errors, horizon=float(self.t[beyond[0]]) if len(beyond) else inf, evaluations=int(self.evaluations[i]),
+            ending=Ending("stopped" if name == "none" else "end", float(self.t[-1])),
+        )  # fmt: skip
 
 
 def sweep(
@@ -76,10 +93,11 @@ def sweep(
     folder: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Ensemble:
-    """Run every scene from t = 0 and read it at the times `t` (m,) in s.
+    """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
 
-    tol: local relative and absolute error, as of `simulate` with a model by name; the global error is larger, about ten
-    times for small motions. Look at `failed` of the result: rows that no model could finish are NaN.
+    tol: the largest error of an axis over each whole run, as of `simulate`; estimated by runs at several tolerances, which are
+    compared at the times `t`. A LagrotorWarning says how many runs do not keep it. Look at `failed` of the result: rows that
+    no model could finish are NaN.
 
     engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
     time. executor: where chunks run; here, one after another, when None. folder: an existing folder for the finished
@@ -93,8 +111,10 @@ def sweep(
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else chunk_folder(folder, members, times, tolerance, chunk, engine)
     shape = (len(members), 2, len(times), 3)
-    whole = Ensemble(members, times, *np.empty((2, *shape)), *np.zeros((2, len(members)), np.int64))
-    done = 0
+    (axes, rates), errors = np.empty((2, *shape)), np.empty((len(members), len(times)))
+    evaluations, models = np.zeros((2, len(members)), np.int64)
+    whole = Ensemble(members, times, axes, rates, errors, tolerance, evaluations, models)
+    done, begin = 0, float(times[0])
 
     def keep(number: int, found: Chunk) -> None:
         nonlocal done
@@ -109,11 +129,14 @@ def sweep(
         if target and (stored := target.read(number, (len(part), *shape[1:]))):
             keep(number, stored)
         else:
-            work[number] = [members[i] for i in part], times, tolerance, engine
+            work[number] = [members[i].since(begin) for i in part], times - begin, tolerance, engine
     for number, found in _run(work, executor):
         if target:
             target.write(number, found)
         keep(number, found)
+    if missed := int((whole.error > tolerance).sum()):
+        said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
+        warnings.warn(said, LagrotorWarning, stacklevel=2)
     return whole
 
 

@@ -34,7 +34,8 @@ def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
     """The exact pair from the end of its shock until `seconds` after the peak, read 40 times a second."""
     shock = shock_of(scene)
     first, last = shock.at + PULSE_REACH * shock.width, shock.at + seconds
-    return simulate(scene, np.linspace(first, last, round(40 * seconds) + 1), "spheres", tol)
+    times = np.linspace(first, last, round(40 * seconds) + 1)
+    return simulate(scene, [0.0, *times], "spheres", tol).after(first)
 
 
 def angle_between(axes: Array) -> Array:

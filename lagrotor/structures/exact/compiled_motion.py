@@ -13,9 +13,8 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.heyoka_programs import heyoka_module, summed
-from lagrotor.numerics.integrate import Solution
-from lagrotor.numerics.segment import RightHandSide
-from lagrotor.numerics.taylor_steps import compiled_solver, dummy_size, march, taylor_order
+from lagrotor.numerics.segment import RightHandSide, Stretch
+from lagrotor.numerics.taylor import companion_order, compiled_solver, dummy_size, march, taylor_order
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion
@@ -37,30 +36,28 @@ def runs_by_series(motion: ExactMotion) -> bool:
 
 
 def integrate_series(
-    s: Assembly, motion: ExactMotion, start: Array, times: Array, tols: tuple[float, float]
-) -> list[Solution]:
-    """For both tolerances, which a processor's vectors integrate side by side at the price of the tighter one: states
-    (n, 6 N) as of `motion.rhs` at its times, off the constraints by their error; steps times order for evaluations.
+    s: Assembly, motion: ExactMotion, start: Array, times: Array, local: float, companion: bool
+) -> Stretch:
+    """States (n, 6 N) as of `motion.rhs` at its times, the start at the first of them; steps times order for evaluations.
 
-    Raises InputError without heyoka, and StopError where it stops.
+    companion: by another order. Raises InputError without heyoka, and StopError where it stops.
     """
-    order, watch = taylor_order(min(tols)), LineWatch(motion)
+    order, watch = companion_order(local) if companion else taylor_order(local), LineWatch(motion)
     solver = _solver(_without_spins(s), order, get_ident())
-    solver.pars[:] = _parameters(motion)[:, None]
-    watch.keep(0.0, start)
+    solver.pars[:] = _parameters(motion)
+    watch.keep(float(times[0]), start)
 
     def keep(stepped: Any) -> bool:
-        watch.keep(stepped.time[-1], stepped.state[:, -1])
+        watch.keep(stepped.time, stepped.state)
         return True
 
     def onto(y: Array) -> Array:
         watch.check()
         return motion.projected(y)
 
-    both, sizes = np.repeat(start[:, None], 2, axis=1), np.array([dummy_size(tol, order) for tol in tols])
-    span = (0.0, float(times[-1]))
-    states, _, nfev = march(solver, both, times, span, sizes, onto, _BETWEEN, after_step=keep)
-    return [Solution(found, nfev // 2) for found in states.transpose(2, 0, 1)]
+    span, size = (float(times[0]), float(times[-1])), dummy_size(local, order)
+    states, end, spent = march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
+    return Stretch(motion.projected(states.T).T, end, spent)
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
@@ -96,8 +93,8 @@ def _without_spins(s: Assembly) -> Assembly:
 
 @lru_cache(maxsize=16)
 def _solver(bare: Assembly, order: int, thread: int) -> Any:
-    """The integrator of the state (r, r'/rate), in two lanes; parameters: the axial momenta G (N), the rate."""
-    return compiled_solver(_equations(bare), order, lanes=2)
+    """The integrator of the state (r, r'/rate); parameters: the axial momenta G (N), the rate."""
+    return compiled_solver(_equations(bare), order)
 
 
 @lru_cache(maxsize=16)

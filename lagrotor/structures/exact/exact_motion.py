@@ -114,6 +114,16 @@ class ExactMotion:
         stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
+    def energy_scale(self, r: Array, v: Array) -> float:
+        """How much the energy (J) of some of the states r, v (n, N, 3) changes by an error of 1 of axes and v/rate, at most."""
+        c = self.c
+        speed, theta = np.linalg.norm(v, axis=-1), np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
+        momentum = (c.A * speed).sum(-1) + (np.abs(c.coupling) * (speed[:, c.i] + speed[:, c.j])).sum(-1)
+        weight = abs(c.gravity) * np.abs(c.S).sum() + (c.hinge * theta).sum(-1)
+        stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
+        pull = (c.stiffness * np.abs(stretch) * 2 * c.R[c.brace_tip]).sum(-1)
+        return float((c.rate * momentum + weight + pull).max())
+
     def off(self, r: Array) -> Array:
         """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
         c = self.c

@@ -52,7 +52,7 @@ class LineWatch:
         self._look()
         if self.passed:
             at, bar = self.passed
-            raise StopError(at, f"bar {bar} comes into line with both its axes")
+            raise StopError(at, f"bar {bar} comes into line with both its axes", cause="singular")
 
     def _look(self) -> None:
         across = self.motion.across(np.array([y for _, y in self.kept]).reshape(len(self.kept), -1, 3))

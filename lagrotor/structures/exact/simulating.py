@@ -1,16 +1,16 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
-import warnings
 from dataclasses import dataclass
-from functools import partial
+from math import pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.numerics.integrate import Engine, Problem, Solution, check_engine, check_tolerance, integrate
-from lagrotor.numerics.segment import RightHandSide, StopError
+from lagrotor.errors import InputError, SingularError
+from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
+from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
+from lagrotor.numerics.segment import RightHandSide, StopError, Stretch
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact import compiled_motion
@@ -20,9 +20,8 @@ from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from lagrotor.structures.exact.structure_run import StructureRun
 
-_APART = 30.0  # the two runs' tolerances: the difference is the error of the looser one
-_FIRST = 1e-2  # of tol: the local error that the first run is given
-_ROUNDING = 2e-15  # error a turn of the fastest axis that no tolerance avoids, in both runs alike
+_PATIENCE = Patience(50_000, 2_000 * 2 * pi)
+_IN_LINE = 1e-3  # sine of the angle between a bar and both its axes at which a solver that stops has come to it
 
 
 def simulate(
@@ -35,74 +34,113 @@ def simulate(
     tol: float = 1e-9,
     engine: Engine = "core",
 ) -> StructureRun:
-    """The exact motion from t = 0, read at the increasing times t (n,), s.
+    """The exact motion from its start, which holds at t[0], read at the increasing times t (n,), s.
 
     tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
     Both are brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and
     `run.rates[:, 0]` show.
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
-    tol: the largest error of an axis over the run, 1e-13 to 0.1; `run.error` is its estimate, from a second run at another
-    tolerance, and a LagrotorWarning says when it exceeds tol. engine: "core", or "fast" with heyoka (`pip install
+    tol: the largest error of an axis over the whole run, 1e-13 to 0.1; `run.errors` are its estimate, from two runs at two
+    tolerances, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
+    before its last time; it then holds the times up to there. engine: "core", or "fast" with heyoka (`pip install
     lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
 
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
-    where bars and axes are in line, IntegrationError where they come to be, or the motion cannot go on.
+    where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
     """
     times, wanted = _times(t), check_tolerance(tol)
     check_engine(engine)
-    shape = (len(s.joints), 3)
+    shape, begin = (len(s.joints), 3), float(times[0])
     drives = _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times)
-    motion = exact_motion(s, *drives)
-    start, local = _start(motion, tilt, rates), max(wanted * _FIRST, 3e-12)
-    run = partial(_integrated, s, motion, start, times, engine)
-    (coarse, fine), N = run(local), len(s.joints)
-    nfev, unavoidable = coarse.nfev + fine.nfev, _ROUNDING * (1 + motion.c.rate * float(times[-1]) / (2 * np.pi))
-    while True:
-        off = (fine.states - coarse.states)[:, : 3 * N].reshape(-1, N, 3)
-        error = float(np.linalg.norm(off, axis=-1).max()) + unavoidable
-        if error <= wanted or local <= 3e-12 or unavoidable > wanted:
-            break
-        local = max(local / _APART**2, 3e-12)
-        coarse, fine = run(local)
-        nfev += coarse.nfev + fine.nfev
-    if error > wanted:
-        why = "as neighbouring motions part" if 2 * unavoidable < error else "as rounding adds up over its turns"
-        warnings.warn(
-            f"simulate: tol = {wanted:g} is not kept: the error is {error:.1e}, {why}; shorten the run",
-            LagrotorWarning,
-            stacklevel=2,
-        )
-    states = motion.projected(fine.states.T).T if engine == "fast" else fine.states
-    axes, velocities = states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
-    return StructureRun(s, times, axes, motion.c.rate * velocities, error, nfev)
+    motion = exact_motion(s, *(each and each.since(begin) for each in drives))
+    c, N = motion.c, len(motion.c.R)
+    integrator = _Integrator(s, motion, engine)
 
+    def axes_of(states: Array) -> Array:
+        return states[:, : 3 * N].reshape(-1, N, 3)
 
-def _integrated(
-    s: Assembly, motion: ExactMotion, start: Array, times: Array, engine: Engine, local: float
-) -> list[Solution]:
-    """States (n, 6 N) of (r, r'/rate) with the local error and a tighter one; those of a Taylor series are off the
-    constraints by their error.
-    """
-    rate, tols = motion.c.rate, (local, max(local / _APART, 1e-13))
+    def rates_of(states: Array) -> Array:
+        return states[:, 3 * N :].reshape(-1, N, 3)
+
+    def distance(one: Array, other: Array) -> Array:
+        return np.asarray(np.linalg.norm(axes_of(one) - axes_of(other), axis=-1).max(axis=1))
+
+    def defect(_: Array, states: Array) -> float:
+        r, v = axes_of(states), rates_of(states) * c.rate
+        off = float((np.abs(motion.off(r)) / np.append(np.ones(N), c.ell)).max())
+        if any(drives) or c.decay.any() or c.friction.any() or c.damping.any():
+            return off
+        energy, scale = motion.energy(r, v), motion.energy_scale(r, v)
+        return max(off, float(np.ptp(energy)) / scale if scale > 0 else 0.0)
+
+    def singular(y: Array) -> str:
+        across = np.linalg.norm(motion.across(y[: 3 * N].reshape(N, 3)), axis=-1) / (c.R[c.j] * c.ell)
+        in_line = np.flatnonzero((across < _IN_LINE).all(axis=0))
+        return f"bar {in_line[0]} comes into line with both its axes" if len(in_line) else ""
+
+    evolution = Evolution(
+        _start(motion, tilt, rates),
+        integrator.integrate,
+        distance,
+        turn=2 * pi,
+        patience=_PATIENCE,
+        project=motion.projected,
+        defect=defect,
+        difference=lambda one, other: float(np.abs(rates_of(one) - rates_of(other)).max(initial=0.0)),
+        singular=singular,
+    )
     try:
-        if engine == "fast" and compiled_motion.runs_by_series(motion):
-            return compiled_motion.integrate_series(s, motion, start, rate * times, tols)
-        rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
-        return [_by_right_hand_side(motion, rhs, start, rate * times, tol) for tol in tols]
-    except StopError as stopped:  # at a time without unit
-        for drive in (motion.force, motion.ground):
-            if isinstance(drive, _Checked) and drive.refused:
-                raise InputError(drive.refused) from None
-        raise StopError(stopped.at / rate, stopped.reason) from None
+        run = estimate_run(evolution, c.rate * (times - begin), wanted).by_clock(begin, 1 / c.rate)
+    except StopError as stop:  # at a time without unit
+        for each in drives:
+            if each and each.refused:
+                raise InputError(each.refused) from None
+        at = begin + stop.at / c.rate
+        raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
+    for each in drives:
+        if each and each.refused and run.ending.early:
+            raise InputError(each.refused)
+    run.warn_unless_kept("the structure's run", wanted)
+    axes, velocities = run.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
+    return StructureRun(
+        structure=s, t=times[: len(run.t)], axes=axes, rates=c.rate * velocities,
+        momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)), errors=run.errors,
+        horizon=run.horizon, evaluations=run.evaluations, ending=run.ending,
+    )  # fmt: skip
 
 
-def _by_right_hand_side(motion: ExactMotion, rhs: RightHandSide, start: Array, times: Array, tol: float) -> Solution:
-    watch, most = LineWatch(motion), 50_000 + 2_000 * float(times[-1])
-    problem: Any = Problem(watch.watched(rhs), start, most, project=motion.projected, typical_rate=1.0)
-    found = integrate(problem, times, tol)
-    watch.keep(float(times[-1]), found.states[-1])
-    watch.check()
-    return found
+class _Integrator:
+    """The integration of a stretch by what runs the structure fastest, in the time c.rate t since the start."""
+
+    def __init__(self, s: Assembly, motion: ExactMotion, engine: Engine) -> None:
+        self.s, self.motion = s, motion
+        self.by_series = engine == "fast" and compiled_motion.runs_by_series(motion)
+        self.rhs: RightHandSide | None = None
+        if not self.by_series:
+            compiled = compiled_motion.compiled_right_hand_side
+            self.rhs = compiled(s, motion) if engine == "fast" else right_hand_side(motion)
+
+    def integrate(self, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        if self.rhs is None:
+            return compiled_motion.integrate_series(self.s, self.motion, start, times, local, companion)
+        watch, begin = LineWatch(self.motion), float(times[0])
+        problem: Any = Problem(
+            watch.watched(self.rhs), start, budget, at=-begin, project=self.motion.projected, typical_rate=1.0
+        )
+        try:
+            part = integrate(problem, times - begin, local)
+        except StopError as stop:
+            stop.at += begin
+            raise
+        watch.keep(float(times[-1]), part.end)
+        try:
+            watch.check()
+        except StopError as stop:
+            before = part.states[times < stop.at]
+            raise StopError(
+                stop.at, stop.reason, Stretch(before, before[-1], part.evaluations), cause="singular"
+            ) from None
+        return part
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
@@ -153,25 +191,29 @@ class _Checked:
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
         try:
-            found = finite(where, self.given(t))
-            if found.shape == self.shape:
-                return found
-            self.refused = f"{where} must give an array of shape {self.shape}, not {found.shape}"
+            value = finite(where, self.given(t))
+            if value.shape == self.shape:
+                return value
+            self.refused = f"{where} must give an array of shape {self.shape}, not {value.shape}"
         except InputError as error:
             self.refused = str(error)
         except Exception as error:
             self.refused = f"{where} fails with {error!r}"
         return np.full(self.shape, np.nan)
 
+    def since(self, begin: float) -> Drive:
+        """The drive as a function of the time since `begin`."""
+        return lambda t: self(begin + t)
 
-def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> Drive | None:
-    """The drive, tried at t = 0 and at the times of the run."""
+
+def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> _Checked | None:
+    """The drive, tried at the times of the run."""
     if drive is None:
         return None
     if not callable(drive):
         raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
     checked = _Checked(drive, name, shape)
-    for t in (0.0, *times.tolist()):
+    for t in times.tolist():
         checked(t)
         if checked.refused:
             raise InputError(checked.refused)
@@ -180,6 +222,6 @@ def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Arra
 
 def _times(t: ArrayLike) -> Array:
     times = np.atleast_1d(finite("simulate: t", t))
-    if times.ndim != 1 or not len(times) or times[0] < 0 or (np.diff(times) <= 0).any():
-        raise InputError("simulate: t must be an increasing row of finite times in s, from 0 on")
+    if times.ndim != 1 or not len(times) or (np.diff(times) <= 0).any():
+        raise InputError("simulate: t must be an increasing row of finite times in s")
     return times

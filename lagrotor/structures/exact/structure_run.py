@@ -1,13 +1,15 @@
-"""A structure's run: axes, tips, energy, bars; its plot and its film."""
+"""A structure's run: axes, tips, energy, bars; its plot and its film; written and read back."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lagrotor.shown import Shown, scientific
-from lagrotor.structures.assembly import Assembly
+from lagrotor.errors import InputError
+from lagrotor.numerics.any_run import Quantity, Run, read_run
+from lagrotor.pair.scene import Link, Rotor
+from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import exact_motion
 
@@ -15,30 +17,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class StructureRun(Shown):
-    """Times t (n,) in s, axes r_i and rates r_i' (N, n, 3), 1/s.
-
-    error: the estimated largest error of an axis; nfev: evaluations of the right-hand side, of all runs.
-    """
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class StructureRun(Run):
+    """Axes r_i and rates r_i' (N, n, 3), 1/s; momenta G_i = I3 omega_i (N, n), axial, kg m²/s, which the spins' own friction
+    takes. errors: of an axis, a unit vector."""
 
     structure: Assembly
-    t: Array
     axes: Array
     rates: Array
-    error: float
-    nfev: int
+    momenta: Array
 
     def summary(self) -> dict[str, str]:
         """The structure, the times, and how well the run is known, name → words."""
         s, energy = self.structure, self.energy
-        return {
-            "structure": f"{len(s.joints)} rotors, {len(s.bars)} bars",
-            "times": f"{len(self.t)}, 0 to {self.t[-1]:g} s",
-            "estimated error of an axis": scientific(self.error, 1),
-            "energy [J]": f"{energy[0]:.6g} at first, {energy[-1]:.6g} at last",
-            "evaluations": str(self.nfev),
-        }
+        return (
+            {"structure": f"{len(s.joints)} rotors, {len(s.bars)} bars"}
+            | super().summary()
+            | {"energy [J]": f"{energy[0]:.6g} at first, {energy[-1]:.6g} at last"}
+        )
 
     @property
     def tips(self) -> Array:
@@ -47,15 +43,64 @@ class StructureRun(Shown):
         return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
 
     @property
-    def energy(self) -> Array:
-        """Kinetic and potential energy, (n,), J; the spins' own energy left out. Constant without friction and drive."""
+    def spin_energy(self) -> Array:
+        """Kinetic energy of the spins, G_i²/(2 I3) summed, (n,), J."""
+        I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
+        return np.asarray((self.momenta**2 / (2 * I3[:, None])).sum(0))
+
+    @property
+    def tilt_energy(self) -> Array:
+        """Kinetic energy of the tilting axes and bars, and potential energy, (n,), J."""
         return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
 
     @property
-    def bar_length(self) -> Array:
+    def energy(self) -> Array:
+        """The whole energy, that of the spins included, (n,), J. Constant without friction and drive."""
+        return self.tilt_energy + self.spin_energy
+
+    @property
+    def link_length(self) -> Array:
         """Lengths of the bars, (B, n), m."""
         c = coefficients(self.structure)
         return np.asarray(np.linalg.norm(self.tips[c.j] - self.tips[c.i], axis=-1))
+
+    def quantities(self) -> dict[str, Quantity]:
+        """axes, rates, tips, energy, link_length, momenta."""
+        rotors = "rotor", "t", "component"
+        return {
+            "axes": Quantity(self.axes, rotors, "1"),
+            "rates": Quantity(self.rates, rotors, "1/s"),
+            "tips": Quantity(self.tips, rotors, "m"),
+            "energy": Quantity(self.energy, ("t",), "J"),
+            "link_length": Quantity(self.link_length, ("bar", "t"), "m"),
+            "momenta": Quantity(self.momenta, ("rotor", "t"), "kg m²/s"),
+        }
+
+    def about(self) -> dict[str, Any]:
+        """The structure."""
+        return {"structure": asdict(self.structure)}
+
+    @staticmethod
+    def load(path: str | Path) -> "StructureRun":
+        """The run that `save` wrote as `.npz`; its structure is an `Assembly`.
+
+        Raises InputError where that is not what the file is: not whole, or not a motion of that structure.
+        """
+        about, held, known = read_run(path)
+        try:
+            kinds: dict[str, Any] = {"rotor": Rotor, "link": Link, "braces": Brace}
+            given = about["structure"]
+            given |= {name: [kind(**each) for each in given[name]] for name, kind in kinds.items()}
+            s, (axes, rates, momenta) = Assembly(**given), (held[name] for name in ("axes", "rates", "momenta"))
+        except (KeyError, TypeError, AttributeError, ValueError) as refusal:
+            raise InputError(
+                f"load: {path} is no run of a structure ({refusal}): give a file that `save` wrote"
+            ) from None
+        shape = (len(s.joints), len(known["t"]), 3)
+        wanted = (axes, shape), (rates, shape), (momenta, shape[:2])
+        if any(part.shape != size or not np.isfinite(part).all() for part, size in wanted):
+            raise InputError(f"load: {path} is no run: its axes and rates are not finite numbers {shape}")
+        return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **known)
 
     def plot(self) -> "Figure":
         """Tips over time and from above, and the energy: a figure that a notebook shows."""

@@ -74,7 +74,7 @@ def test_the_plan_moves_as_the_structure_does() -> None:
         SOURCE,
     )
     moved, rates = (1e-5 * np.array([of[place] for place in "014"]) for of in (tilts, pushed))
-    exact = structure(spins, *board).simulate([1.0], rates=rates, tol=1e-11)
+    exact = structure(spins, *board).simulate([0.0, 1.0], rates=rates, tol=1e-11).after(1.0)
     assert moved == pytest.approx(exact.axes[:, 0, :2], abs=1e-11)
 
 

@@ -98,7 +98,7 @@ def _counted(scene: Scene) -> dict[str, float]:
 def measure_c24(spins: Spins) -> dict[str, float]:
     """The counts, and a run after 0.5 N along x and 0.3 N along y fitted by a constant, a slope and the natural rate."""
     scene = Scene(spins, link=HEAVY_LINK, shock=Shock((0.5, 0.3, 0), 0.2, 1 / 50))
-    run = simulate(scene, np.linspace(0.4, 8, 200), "spheres", 1e-11)
+    run = simulate(scene, [0.0, *np.linspace(0.4, 8, 200)], "spheres", 1e-11).after(0.4)
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     fit = harmonics_at(run.t, x_y, natural_rate(scene), 1)
     (x_1, y_1, x_2, y_2), slope = fit.waves[0], fit.slope

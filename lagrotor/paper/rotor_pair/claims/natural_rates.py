@@ -41,7 +41,7 @@ def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = P
     """Rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and how far x_1 goes."""
     scene = _scene(spins, bar, force)
     after = shock_of(scene).at + 0.33
-    run = simulate(scene, np.linspace(after, after + seconds, 400), "spheres", 1e-9)
+    run = simulate(scene, [0.0, *np.linspace(after, after + seconds, 400)], "spheres", 1e-9).after(after)
     x = run.axes[0, :, 0]
     return best_harmonics(run.t, x, natural_rate(scene)).rate, float(abs(x).max())
 

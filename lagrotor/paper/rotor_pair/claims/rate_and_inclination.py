@@ -60,7 +60,8 @@ def _after_shock(spins: Spins, bar: Link) -> float:
     """c after a weak shock along x from rest, over three cycles; θ̄ of half the swing of x."""
     scene = shocked_scene(spins, (WEAK, 0, 0), bar, 1 / 20)
     natural, after = natural_rate(scene), shock_of(scene).at + 0.33
-    run = simulate(scene, after + np.linspace(0, 3 * 2 * np.pi / natural, 201), "spheres", 1e-11)
+    times = after + np.linspace(0, 3 * 2 * np.pi / natural, 201)
+    run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(after)
     x = run.axes[0, :, 0]
     return float((best_harmonics(run.t, x, natural).rate / natural - 1) / (np.ptp(x) / 2) ** 2)
 

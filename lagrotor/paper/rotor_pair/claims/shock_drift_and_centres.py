@@ -38,7 +38,8 @@ def shocked_run(spins: Spins, force: Vector) -> Trajectory:
     """The exact pair with the bar and the shock of 5.2.1, from the end of the shock on."""
     scene = shocked_scene(spins, force, LIGHT, 1 / 20)
     at = shock_of(scene).at
-    return simulate(scene, np.linspace(at + 0.33, at + PAPER_RUN, 400), "spheres", 1e-9)
+    times = np.linspace(at + 0.33, at + PAPER_RUN, 400)
+    return simulate(scene, [0.0, *times], "spheres", 1e-9).after(times[0])
 
 
 def harmonics(run: Trajectory) -> Harmonics:

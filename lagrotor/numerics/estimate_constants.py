@@ -1,0 +1,89 @@
+"""Constants of the estimate of a run that were found by trial: what each was calibrated on, and the test that holds it."""
+
+from lagrotor.numerics.solver_constants import Calibrated
+
+_WIDE = "300 wide scenes of rotor pairs of up to 100 turns against 80-bit integrations, core and fast"
+_BEYOND = "test_estimated.py::test_where_two_runs_have_parted_the_rest_is_cheap"
+_COST = "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung"
+_TRIAL = "test_wide_scenes.py::test_no_miss_is_silent"
+_ROUNDED = "test_wide_scenes.py::test_where_rounding_is_all_that_two_runs_resolve_their_difference_is_not_trusted"
+APART = Calibrated(
+    5.0,
+    "ratio of the local errors of a run and its companion: their difference bounds the better one's error",
+    "518 pairs of runs of 175 wide scenes at ratios of 30, 10 and 5: SAFETY times the difference is 57, 21, 11 times the error "
+    "in the median, and no safer for the larger ratios",
+    _TRIAL,
+)
+FIRST = Calibrated(
+    1 / 3,
+    "local error of the first companion over the wanted error of the run",
+    f"{_WIDE}: 19 of 20 need no other",
+    _TRIAL,
+)
+SHORTEST = Calibrated(
+    400.0,
+    "ten turns over the run beyond which the local error of the first companion no longer grows with their ratio",
+    "554 wide scenes of up to 11 turns: local errors gather to less than in proportion in nine of ten",
+    _COST,
+)
+SAFETY = Calibrated(
+    2.0,
+    "error of the better of two runs over their difference, where rounding hides nothing; where it does, its square",
+    "518 pairs of runs at APART: exceeded where rounding is most of both, by none of the others",
+    _ROUNDED,
+)
+RESOLVED = Calibrated(
+    5e-12,
+    "local error of the better run below which rounding may be nearly all that differs between the two",
+    "the same pairs: those that exceed SAFETY are all below it",
+    _ROUNDED,
+)
+LEAST = Calibrated(
+    1e-3,
+    "least error over the local error: two runs of a short stretch may take the same few steps and agree",
+    "3,881 scenes of up to 20 turns, apart from the recorded ones",
+    "test_estimated.py::test_runs_that_take_the_same_steps_are_not_known_to_be_right",
+)
+MORE = Calibrated(
+    3.0,
+    "evaluations of a run over those of a looser one beyond which rounding is all that it resolves",
+    "554 wide scenes of up to 11 turns",
+    _COST,
+)
+LOOSEST = Calibrated(
+    0.1,
+    "largest local error that a solver is given",
+    "the solvers' own tests",
+    "test_integrate.py::test_tolerances_out_of_reach_are_refused",
+)
+GIVEN_UP = Calibrated(1e-5, "local error beyond which no looser run is tried", _WIDE, _TRIAL)
+LOST = Calibrated(
+    0.1, "error at which two runs have parted; where no tolerance keeps below it, none is tried", _WIDE, _TRIAL
+)
+ROUNDING = Calibrated(2e-15, "error a turn that no tolerance avoids", _WIDE, _TRIAL)
+START = Calibrated(
+    3.0,
+    "turns whose rounding the start alone brings, in coordinates that it is not given in",
+    "the pairs of APART: without it two runs of 0.03 turns are off by 1.7 times what is estimated",
+    _TRIAL,
+)
+STAGE = Calibrated(
+    64.0,
+    "turns after which two runs are first compared, then after twice as many each time",
+    f"{_WIDE}; the 1,000 wide scenes: none is lost in fewer that costs much",
+    _BEYOND,
+)
+BEYOND = Calibrated(
+    1e-6,
+    "local error of a run from where it is lost",
+    "the pair of the test, tumbling: its energy stays within 4e-7 of itself in 800 turns",
+    _BEYOND,
+)
+KEPT = Calibrated(
+    100.0,
+    "times the error estimate that conserved quantities may be off",
+    f"{_WIDE}: 99 of 100 runs are off by less than twice the estimate",
+    "test_estimated.py::test_a_run_that_does_not_conserve_is_refused",
+)
+
+TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

@@ -1,0 +1,414 @@
+"""The contract of runs: a motion integrated twice, at two tolerances, in stages, and what is known of its error.
+
+SAFETY times the difference of the two runs is taken for the error of the better one, its square where rounding may be most of
+it. It is also how far neighbouring motions part: where it exceeds the tolerance, the run has reached its horizon. Where it
+exceeds LOST, nothing is known any more: there the comparison ends, and the better run goes on alone. What the motion
+conserves must be kept as well as the error allows.
+"""
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from math import inf, log
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import IntegrationError, LagrotorWarning
+from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.estimate_constants import (
+    APART,
+    BEYOND,
+    FIRST,
+    GIVEN_UP,
+    KEPT,
+    LEAST,
+    LOOSEST,
+    LOST,
+    MORE,
+    RESOLVED,
+    ROUNDING,
+    SAFETY,
+    SHORTEST,
+    STAGE,
+    START,
+)
+from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
+from lagrotor.shown import scientific
+
+UNKNOWN = 2.0  # the most by which two states differ, relative to their size: an error of which nothing is known
+_SAMPLES = 65  # times of a stage at which a run is watched besides those it is read at
+
+
+class Patience(NamedTuple):
+    """Evaluations that an integration may take: `begin` in all, and `turn` more for each turn of the motion."""
+
+    begin: float
+    turn: float
+
+
+@dataclass(frozen=True, eq=False)
+class Evolution:
+    """A motion to be run: its start (d,), and what a run needs to know of it.
+
+    integrate: (start (d,), times (n,), local error, companion, most evaluations) → the motion from times[0], where the start
+    holds; companion: by another order or other steps, where the local error does not set them. Raises StopError, its time one of
+    the same clock, with what was reached. distance: two runs (n, d) → how far apart they are (n,), relative to the size of the
+    states. turn: the time (s) in which the motion typically turns. project: brings a state back onto its constraints.
+    defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
+    difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
+    defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
+    none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again.
+    """
+
+    start: Array
+    integrate: Callable[[Array, Array, float, bool, float], Stretch]
+    distance: Callable[[Array, Array], Array]
+    turn: float
+    patience: Patience
+    project: Projection | None = None
+    defect: Callable[[Array, Array], float] | None = None
+    difference: Callable[[Array, Array], float] | None = None
+    watch: Array = field(default_factory=lambda: np.empty(0))
+    singular: Callable[[Array], str] | None = None
+    elsewhere: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class EstimatedRun:
+    """States (n, d) at the times t (n,) that were reached, the largest error up to each (n,), the horizon, the evaluations of
+    all integrations, and how it ended.
+
+    local: the local error of the better run. loosened: the time from which nothing is known of it and it goes on at BEYOND.
+    """
+
+    t: Array
+    states: Array
+    errors: Array
+    horizon: float
+    evaluations: int
+    ending: Ending
+    local: float
+    loosened: float
+    _read: Callable[[Array], Array] = field(repr=False)
+
+    def read(self, times: Array) -> Array:
+        """States (m, d) at any times (m,) within the run, as exact as it: integrated from where it was watched before each."""
+        return self._read(times)
+
+    def by_clock(self, begin: float, unit: float) -> "EstimatedRun":
+        """The same run by a clock (s) that shows `begin` where this one shows 0, its unit of time `unit` s."""
+
+        def at(time: float) -> float:
+            return begin + unit * time
+
+        def read(times: Array) -> Array:
+            return self.read((times - begin) / unit)
+
+        ending = replace(self.ending, at=at(self.ending.at))
+        parts: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon), "loosened": at(self.loosened)}
+        return replace(self, ending=ending, _read=read, **parts)
+
+    def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2) -> None:
+        """A LagrotorWarning where `tol` is not kept, or the run ended early."""
+        said, error = [], float(self.errors[-1])
+        if error > tol:
+            apart = error / self.local
+            reason = (
+                f"neighbouring motions part about {scientific(apart)}-fold, and tol can be meant only up to"
+                if apart > 1e5
+                else "it is below what the solver can give after"
+            )
+            beyond = f"; from t = {self.loosened:.6g} s its local error is {BEYOND.value:g}"
+            said.append(
+                f"{name} does not keep tol = {tol:g}: the estimated error is {scientific(error, 1)}; {reason} "
+                f"t = {self.horizon:.6g} s{beyond if self.loosened < inf else ''}"
+            )
+        if self.ending.early:
+            said.append(f"{name} ended early: {self.ending}; it holds what was reached")
+        if said:
+            warnings.warn("simulate: " + "; ".join(said), LagrotorWarning, stacklevel=stacklevel + 1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Integration:
+    """An integration at one local error, made stage by stage as it is needed; companion: from a start off by rounding."""
+
+    local: float
+    companion: bool
+    stages: list[Stretch] = field(default_factory=list)
+    stops: list[StopError] = field(default_factory=list)
+
+
+@dataclass(frozen=True, eq=False)
+class _Comparison:
+    """Two integrations compared in the first `stages`: errors up to each time, lost: when beyond LOST; refusal: why the
+    better one is not the motion up to its last time."""
+
+    loose: _Integration
+    tight: _Integration
+    stages: int
+    errors: Array
+    lost: float
+    refusal: IntegrationError | None = None
+
+    @property
+    def error(self) -> float:
+        return UNKNOWN if self.lost < inf or self.refusal else float(np.max(self.errors, initial=0.0))
+
+    @property
+    def merit(self) -> tuple[bool, float, float, int]:
+        """Smaller is better: not refused, a small error, kept for long."""
+        return self.refusal is not None, self.error, -self.lost, -len(self.errors)
+
+
+class _Course:
+    """A motion, the stages in which it is integrated with the times at which it is watched, and what was spent on it so far.
+
+    The first stage is STAGE turns, each other one ends at twice the time of the one before it. spent: evaluations; refused: the
+    local errors at which an integration stopped.
+    """
+
+    def __init__(self, evolution: Evolution, times: Array) -> None:
+        begin, end = float(times[0]), float(times[-1])
+        first = STAGE.value * evolution.turn
+        doublings = int(max(0.0, np.ceil(np.log2((end - begin) / first)))) if end > begin else 0
+        ends = [begin, *(begin + first * 2.0**n for n in range(doublings)), end]
+        t = np.unique(np.concatenate([times, *(np.linspace(a, b, _SAMPLES) for a, b in pairwise(ends))]))
+        t = np.union1d(t, evolution.watch[(evolution.watch > begin) & (evolution.watch < end)])
+        self.evolution, self.times = evolution, times
+        self.stages = np.split(t, np.searchsorted(t, ends[1:-1], side="right"))
+        self.t, self.read = t, np.isin(t, times)
+        self.spent, self.refused = 0, list[float]()
+        self.integrations: dict[tuple[float, bool], _Integration] = {}
+
+    def turns(self, t: Array | float) -> Array:
+        return np.asarray(t - self.times[0]) / self.evolution.turn
+
+    def integration(self, local: float, companion: bool) -> _Integration:
+        return self.integrations.setdefault((local, companion), _Integration(local, companion))
+
+    def stage(self, run: _Integration, n: int, beside: _Integration | None = None) -> Stretch:
+        """Stage n of an integration, made if it is not yet; beside: a looser one, MORE times whose evaluations it may take."""
+        evolution = self.evolution
+        while len(run.stages) <= n:
+            if run.stops:
+                raise run.stops[0]
+            i, t = len(run.stages), self.stages[len(run.stages)]
+            start = run.stages[-1].end if i else self._beside_start() if run.companion else evolution.start
+            t = np.concatenate([self.stages[i - 1][-1:], t]) if i else t
+            begin = max(evolution.patience.begin, MORE.value * beside.stages[i].evaluations if beside else 0)
+            most = begin + evolution.patience.turn * (t[-1] - t[0]) / evolution.turn
+            try:
+                part = evolution.integrate(start, t, run.local, run.companion, most)
+            except StopError as stop:
+                self.spent += stop.evaluations
+                self.refused.append(run.local)
+                if stop.reached:
+                    stop.reached = replace(stop.reached, states=stop.reached.states[min(i, 1) :])
+                run.stops.append(stop)
+                raise
+            self.spent += part.evaluations
+            run.stages.append(replace(part, states=part.states[1:]) if i else part)
+        return run.stages[n]
+
+    def _beside_start(self) -> Array:
+        """The start off by rounding, in no special direction."""
+        start, project = self.evolution.start, self.evolution.project
+        beside = start * (1 + np.finfo(float).eps * np.cos(np.arange(1, len(start) + 1)))
+        return project(beside) if project else beside
+
+
+def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
+    """The motion at increasing times (n,), the start holding at times[0], at tolerances that keep it within `tol` as the
+    estimate has it, else the best there is.
+
+    Each integration is compared with the one before it, at APART times the local error. Where the two differ by more than `tol`,
+    a third is enough if the second's local error gives it in proportion; else a pair follows at those that do. From where no
+    tolerance keeps two together, the best goes on at BEYOND. A run that cannot reach its last time is what was reached, and its
+    ending says why. Raises IntegrationError for a motion that does not conserve what it must, or of which nothing is reached;
+    with its evaluations.
+    """
+    course = _Course(evolution, times)
+    best = comparison = _loosest(course, tol)
+    unavoidable = ROUNDING.value * (START.value + float(course.turns(times[-1])))
+    while unavoidable <= tol < comparison.error and not comparison.refusal and not _hopeless(course, comparison):
+        following = _following(course, comparison, tol)
+        if following is None:
+            break
+        comparison = following
+        best = min(comparison, best, key=lambda one: one.merit)
+    refusal = best.refusal
+    if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
+        refusal.evaluations = course.spent
+        raise refusal
+    return _whole(course, best, tol)
+
+
+def _loosest(course: _Course, tol: float) -> _Comparison:
+    """The first pair of integrations of which none is refused, to looser local errors up to GIVEN_UP; else the one that lasts
+    longest. The companion begins at the larger an error, the shorter the run, in which it gathers to less."""
+    turns = max(float(course.turns(course.times[-1])), 10 / SHORTEST.value)
+    local = max(min(tol * FIRST.value * max(1.0, 10 / turns), LOOSEST.value), APART.value * TIGHTEST)
+    tight: _Integration | None = None
+    best: _Comparison | None = None
+    while True:
+        loose = course.integration(local, tight is None or not tight.companion)
+        tight = tight or course.integration(max(local / APART.value, TIGHTEST), not loose.companion)
+        comparison = _compare(course, loose, tight)
+        best = comparison if best is None else min(comparison, best, key=lambda one: one.merit)
+        if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value:
+            return best
+        # One that was not refused is compared with a looser one.
+        stopped = isinstance(comparison.refusal, StopError) and len(loose.stages) <= len(tight.stages)
+        tight, local = (None, local * APART.value**2) if stopped else (loose, local * APART.value)
+
+
+def _following(course: _Course, comparison: _Comparison, tol: float) -> _Comparison | None:
+    """A pair at the local errors that give `tol` in proportion; where one is refused there, one with the next tighter."""
+    loose, tight = comparison.loose, comparison.tight
+    if tight.local < APART.value * TIGHTEST:
+        return None
+    local = max(min(tight.local, loose.local * tol / comparison.error / 2), APART.value * TIGHTEST)
+    third = comparison.error * tight.local / loose.local <= tol / 2
+    for companion in (tight,) if third else (course.integration(local, True), tight):
+        better = course.integration(max(companion.local / APART.value, TIGHTEST), not companion.companion)
+        if better.local > max(course.refused, default=0.0):
+            following = _compare(course, companion, better)
+            if not following.refusal:
+                return following
+    return None
+
+
+def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comparison:
+    """The two up to the stage in which they part or one stops; refused if the better one does not conserve what it must."""
+    evolution, parts, alone = course.evolution, list[Array](), list[NDArray[np.bool_]]()
+    reached, farther, lost, stop = list[Array](), 0.0, inf, None
+    for n, t in enumerate(course.stages):
+        one = _states(course, loose, n, None)
+        stop = loose.stops[0] if len(loose.stages) <= n else None
+        # Where another model or a looser pair is tried next, nothing more is spent on this one.
+        if stop and (evolution.elsewhere or (stop.cause == "budget" and loose.local <= GIVEN_UP.value)):
+            break
+        other = _states(course, tight, n, loose)
+        stop = tight.stops[0] if len(tight.stages) <= n else stop
+        m = min(len(one.states), len(other.states))
+        one_states, states, at = one.states[:m], other.states[:m], t[:m]
+        passed = [
+            np.searchsorted([jump for part in (*run.stages[:n], last) for jump in part.jumps], at, side="right")
+            for run, last in ((loose, one), (tight, other))
+        ]
+        apart = SAFETY.value * evolution.distance(one_states, states)
+        if course.refused or tight.local < RESOLVED.value:  # rounding may be nearly all that both resolve
+            apart = SAFETY.value * apart
+        parts.append(np.maximum(apart, LEAST.value * tight.local) + ROUNDING.value * (START.value + course.turns(at)))
+        alone.append(passed[0] != passed[1])
+        reached.append(states)
+        together = ~alone[-1]
+        if evolution.difference and together.any():
+            farther = max(farther, evolution.difference(one_states[together], states[together]))
+        lost = _first(at, (parts[-1] > LOST.value) & together)
+        if lost < inf or stop:
+            break
+    errors, between = np.concatenate([np.empty(0), *parts]), np.concatenate([np.empty(0, bool), *alone])
+    grown = np.maximum.accumulate(np.where(between, 0.0, errors)) if len(errors) else errors
+    errors = np.where(between, np.maximum(errors, grown), grown)
+    # Once one of the two has stopped, the pair is refused even if it conserves what it must.
+    refusal: IntegrationError | None = stop
+    if len(grown) and not (refusal and course.evolution.elsewhere):
+        wrong = _not_conserving(course, np.concatenate(reached), max(float(grown[-1]), tight.local, farther))
+        refusal = wrong or refusal
+    return _Comparison(loose, tight, len(parts), errors, lost, refusal)
+
+
+def _states(course: _Course, run: _Integration, n: int, beside: _Integration | None) -> Stretch:
+    """Stage n of an integration, or what was reached of it."""
+    try:
+        return course.stage(run, n, beside if beside and len(beside.stages) > n else None)
+    except StopError as stop:
+        nothing = Stretch(np.empty((0, len(course.evolution.start))), course.evolution.start, 0)
+        return (stop.reached or nothing) if len(run.stages) == n else nothing
+
+
+def _not_conserving(course: _Course, states: Array, error: float) -> IntegrationError | None:
+    """What is wrong with states that do not conserve what they must as well as their error allows; None where nothing is."""
+    if not (np.isfinite(states).all() and np.isfinite(error)):
+        return IntegrationError("a value is not finite: take another model or a smaller tol")
+    if course.evolution.defect is None:
+        return None
+    defect = course.evolution.defect(course.t[: len(states)], states)
+    if defect <= KEPT.value * error:
+        return None
+    return IntegrationError(
+        f"what the motion conserves is off by as much as an error of {defect:.1e} makes, although {error:.1e} is "
+        "estimated: the run followed another motion; take another model or a smaller tol"
+    )
+
+
+def _whole(course: _Course, best: _Comparison, tol: float) -> EstimatedRun:
+    """The better integration to the end: after the stage in which the two part at BEYOND, at its own local error if that stops;
+    and what is known of its error."""
+    last, known = len(course.stages) - 1, best.tight.stages[: best.stages]
+    run, evolution = best.tight, course.evolution
+    if len(known) == best.stages <= last:
+        for local in (max(BEYOND.value, run.local), run.local):
+            run = replace(run, local=local, stages=list(known), stops=[])
+            try:
+                course.stage(run, last)
+                break
+            except StopError:
+                continue
+    stages = [*run.stages, *(stop.reached for stop in run.stops[:1] if stop.reached)]
+    states = np.concatenate([stage.states for stage in stages])
+    t, read = course.t[: len(states)], course.read[: len(states)]
+    errors = np.full(len(t), UNKNOWN)
+    m = min(len(best.errors), len(t))
+    errors[:m] = best.errors[:m]
+    errors[t >= best.lost] = UNKNOWN
+    ending = Ending("lost", best.lost) if best.lost < inf else Ending("end", float(course.times[-1]))
+    if run.stops and len(run.stages) <= last:
+        stop = run.stops[0]
+        words = evolution.singular(stages[-1].end) if evolution.singular and stop.cause == "stopped" else ""
+        ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
+    loosened = float(course.stages[best.stages - 1][-1]) if run.local > best.tight.local else inf
+
+    def reread(times: Array) -> Array:
+        at = np.clip(np.searchsorted(t, times, side="right") - 1, 0, len(t) - 1)
+        again = np.empty((len(times), states.shape[1]))
+        for i in np.unique(at):
+            here = at == i
+            wanted = np.unique(times[here])
+            local = run.local if t[i] >= loosened else best.tight.local
+            grid = wanted if wanted[0] == t[i] else np.append(t[i], wanted)
+            part = evolution.integrate(states[i], grid, local, False, inf) if grid[-1] > t[i] else None
+            found = part.states if part else states[i : i + 1]
+            again[here] = found[np.searchsorted(grid, times[here])]
+        return again
+
+    return EstimatedRun(
+        t[read], states[read], errors[read], _first(t, errors > tol), course.spent, ending, best.tight.local,
+        loosened, reread,
+    )  # fmt: skip
+
+
+def _first(t: Array, where: NDArray[np.bool_]) -> float:
+    return float(t[np.argmax(where)]) if where.any() else inf
+
+
+def _hopeless(course: _Course, comparison: _Comparison) -> bool:
+    """Whether two integrations parted so fast that no tolerance keeps LOST to the end.
+
+    Their difference grew from the looser local error to LOST at `lost`, half the way by `early` (in logarithms): by e^(λt), or
+    by a power of t. A tighter tolerance comes as far as the more hopeful of the two says.
+    """
+    local, begin = comparison.loose.local, float(course.times[0])
+    grown, tighter = log(LOST.value / local), log(local / TIGHTEST)
+    if comparison.lost == inf or grown <= 0:
+        return False
+    t, lost = course.t[: len(comparison.errors)] - begin, comparison.lost - begin
+    early = max(_first(t, comparison.errors > (LOST.value * local) ** 0.5), float(t[1]))
+    by_power = (lost / early) ** (tighter / (grown / 2))
+    return lost * max(1 + tighter / grown, by_power) < course.times[-1] - begin

@@ -1,0 +1,223 @@
+"""The contract of runs, held to motions whose errors are made: what is told of a run is what its two integrations say."""
+
+import warnings
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lagrotor.errors import IntegrationError, LagrotorWarning
+from lagrotor.numerics import estimated_run
+from lagrotor.numerics.estimated_run import UNKNOWN, EstimatedRun, Evolution, Patience, estimate_run
+from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.segment import Array, StopError, Stretch
+
+T = np.linspace(0.0, 10.0, 11)
+ENOUGH = Patience(1e6, 1e6)
+SAFETY, APART, FIRST, ROUNDING, START, LEAST, RESOLVED, LOST = (
+    getattr(estimated_run, name).value
+    for name in ("SAFETY", "APART", "FIRST", "ROUNDING", "START", "LEAST", "RESOLVED", "LOST")
+)
+
+
+class Made:
+    """A state that stays at 1, integrated with an error of `share` times the local error times t; what was asked of it."""
+
+    def __init__(self, share: float = 1.0, least: float = 0.0, growth: float = 0.0, cost: int = 100) -> None:
+        self.share, self.least, self.growth, self.cost = share, least, growth, cost
+        self.locals, self.budgets, self.spent = list[float](), list[float](), 0
+        self.fails: dict[float, StopError] = {}
+        self.begun = 0.0
+
+    def __call__(self, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        self.locals.append(local)
+        self.budgets.append(budget)
+        self.spent += self.cost
+        error = max(local * self.share, self.least) * (1 if companion else 0.5 if self.least else 1)
+        since = times - self.begun
+        wrong = error * (np.expm1(self.growth * since) if self.growth else since)
+        states = 1 + wrong[:, None]
+        stop = next((stop for above, stop in self.fails.items() if local <= above), None)
+        if stop and times[0] <= stop.at < times[-1]:
+            kept = states[times <= stop.at]
+            raise StopError(stop.at, stop.reason, Stretch(kept, kept[-1], self.cost), cause=stop.cause)
+        return Stretch(states, states[-1], self.cost)
+
+    def evolution(self, **more: Any) -> Evolution:
+        given: dict[str, Any] = {"turn": 1.0, "patience": ENOUGH} | more
+        return Evolution(np.ones(1), self, lambda one, other: np.abs(one - other)[:, 0], **given)
+
+    def run(self, tol: float, times: Array = T, **more: Any) -> EstimatedRun:
+        self.begun = float(times[0])
+        return estimate_run(self.evolution(**more), times, tol)
+
+
+def rounding(t: Array) -> Array:
+    return ROUNDING * (START + t)
+
+
+def test_the_error_is_safety_times_the_difference_and_what_rounding_adds() -> None:
+    made = Made(share=0.1)
+    run = made.run(1e-6)
+    loose, tight = made.locals[:2]
+    assert loose == pytest.approx(1e-6 * FIRST) and tight == pytest.approx(loose / APART)
+    apart = SAFETY * 0.1 * (loose - tight) * T
+    assert run.errors == pytest.approx(np.maximum(apart, LEAST * tight) + rounding(T), rel=1e-6)
+    assert run.ending.kind == "end" and run.horizon == np.inf and run.local == tight
+    assert run.evaluations == made.spent == 200
+    true = np.abs(run.states[:, 0] - 1)
+    assert (true <= run.errors).all() and run.errors[-1] < 10 * true[-1]
+
+
+def test_below_what_is_resolved_safety_counts_twice() -> None:
+    made = Made(share=0.01)
+    run = made.run(1e-11, T[[0, -1]])
+    assert run.local < RESOLVED and len(made.locals) == 2
+    apart = SAFETY**2 * 0.01 * (made.locals[0] - made.locals[1]) * T[-1]
+    assert run.errors[-1] == pytest.approx(apart + rounding(T)[-1], rel=1e-2, abs=0)
+    above = Made(share=0.1).run(10 * RESOLVED * APART / FIRST, T)
+    assert above.local > RESOLVED and above.errors[-1] < 1.01 * SAFETY * 0.1 * above.local * (APART - 1) * T[-1] + 1e-13
+
+
+def test_two_that_agree_are_known_no_better_than_a_share_of_their_local_error() -> None:
+    run = Made(share=0.0).run(1e-4)
+    assert run.errors == pytest.approx(LEAST * run.local + rounding(T))
+
+
+def test_the_shorter_a_run_the_looser_it_begins() -> None:
+    long, short, shortest = Made(share=0.0), Made(share=0.0), Made(share=0.0)
+    long.run(1e-8, 10 * T), short.run(1e-8, 0.1 * T), shortest.run(1e-8, 1e-6 * T)
+    limit = estimated_run.SHORTEST.value
+    assert [made.locals[0] * 1e8 / FIRST for made in (long, short, shortest)] == pytest.approx([1, 10, limit])
+    loosest = Made(share=0.0)
+    loosest.run(0.1, 1e-6 * T)
+    assert loosest.locals[0] == estimated_run.LOOSEST.value
+
+
+def test_where_the_two_differ_by_too_much_a_third_is_enough_or_a_pair_follows_in_proportion() -> None:
+    near = Made(
+        share=FIRST
+    )  # the first two differ by twice the tolerance or so, the second and a third by a fifth of that
+    run = near.run(1e-6)
+    assert len(near.locals) == 3 and near.locals[2] == pytest.approx(near.locals[1] / APART)
+    assert near.locals[1] == pytest.approx(near.locals[0] / APART) and run.errors[-1] <= 1e-6
+    far = Made(share=100.0)
+    run = far.run(1e-6)
+    assert len(far.locals) == 4 and far.locals[2] < far.locals[1] / APART
+    assert run.errors[-1] <= 1e-6 < 20 * run.errors[-1]
+    assert run.evaluations == far.spent == 400
+
+
+def test_what_no_tolerance_keeps_is_the_best_there_is_and_is_said() -> None:
+    made = Made(share=1e4)
+    run = made.run(1e-12)
+    assert min(made.locals) == TIGHTEST and run.local <= APART * TIGHTEST
+    assert run.errors[-1] > 1e-12 and 0 < run.horizon < 10
+    with pytest.warns(LagrotorWarning, match=r"made does not keep tol = 1e-12: .* t = [\d.e-]+ s"):
+        run.warn_unless_kept("made", 1e-12)
+    with warnings.catch_warnings():  # twin
+        warnings.simplefilter("error")
+        Made(share=0.1).run(1e-6).warn_unless_kept("made", 1e-6)
+
+
+def test_rounding_that_breaks_a_tolerance_is_not_run_against() -> None:
+    made = Made(share=0.01)
+    run = made.run(1e-13, 1e3 * T)
+    assert run.errors[-1] > ROUNDING * 1e4
+    assert set(made.locals) == {APART * TIGHTEST, TIGHTEST}
+
+
+def test_where_two_have_parted_nothing_is_known_and_the_better_one_goes_on_alone() -> None:
+    made = Made(growth=1.0)
+    run = made.run(1e-6, np.linspace(0.0, 200.0, 21))
+    assert run.ending.kind == "lost" and run.errors[-1] == UNKNOWN
+    lost = run.t[np.argmax(run.errors == UNKNOWN)]
+    assert run.ending.at <= lost < 60 and run.horizon < run.ending.at
+    with pytest.warns(LagrotorWarning, match="only up to"):
+        run.warn_unless_kept("made", 1e-6)
+
+
+def test_the_stages_double() -> None:
+    made = Made(share=0.0)
+    made.run(1e-6, np.array([0.0, 1000.0]))
+    stage = estimated_run.STAGE.value
+    assert len(made.locals) == 2 * len([end for n in range(20) if (end := stage * 2.0**n) < 1000] + [1000])
+
+
+@pytest.mark.parametrize("cause", ["budget", "singular", "stopped"])
+def test_a_run_that_stops_is_what_was_reached(cause: Any) -> None:
+    made = Made(share=0.1)
+    made.fails[1.0] = StopError(7.3, "it stops.", cause=cause)
+    run = made.run(1e-6)
+    assert run.t.tolist() == T[:8].tolist() and run.states.shape == (8, 1)
+    assert (run.ending.kind, run.ending.at, run.ending.reason) == (cause, 7.3, "it stops")
+    assert run.evaluations == made.spent and (np.abs(run.states[:, 0] - 1) <= run.errors).all()
+    with pytest.warns(LagrotorWarning, match=r"ended early: .* at t = 7\.3 s: it stops"):
+        run.warn_unless_kept("made", 1e-6)
+
+
+def test_a_singular_position_is_said_only_where_it_is_measured() -> None:
+    made = Made(share=0.1)
+    made.fails[1.0] = StopError(7.3, "no step")
+    measured = made.run(1e-6, singular=lambda y: "the pole" if y[0] > 1 else "")
+    assert (measured.ending.kind, measured.ending.reason) == ("singular", "the pole")
+    assert made.run(1e-6, singular=lambda y: "").ending.kind == "stopped"
+
+
+def test_where_the_tight_one_stops_a_looser_pair_runs() -> None:
+    made = Made(share=0.1)
+    made.fails[1e-7] = StopError(7.3, "too many", cause="budget")
+    run = made.run(1e-6)
+    assert run.ending.kind == "end" and run.local > 1e-7
+    elsewhere = Made(share=0.1)
+    elsewhere.fails = made.fails
+    run = elsewhere.run(1e-6, elsewhere=True)  # twin: where other coordinates are at hand, it is left to them
+    assert run.ending.kind == "budget" and len(elsewhere.locals) == 2
+
+
+def test_the_budget_grows_with_the_turns_and_with_what_a_looser_one_took() -> None:
+    made = Made(share=0.1)
+    made.run(1e-6, patience=Patience(1_000, 10))
+    assert made.budgets == [1_100, 1_100]
+    dear = Made(share=0.1, cost=5_000)
+    dear.run(1e-6, patience=Patience(1_000, 10))
+    assert dear.budgets == [1_100, estimated_run.MORE.value * 5_000 + 100]
+
+
+def test_what_is_conserved_is_held_to_the_error() -> None:
+    kept = estimated_run.KEPT.value
+    error = Made(share=0.1).run(1e-6).errors[-1]
+    assert Made(share=0.1).run(1e-6, defect=lambda t, y: 0.99 * kept * error).ending.kind == "end"
+    with pytest.raises(IntegrationError, match="followed another motion") as refusal:
+        Made(share=0.1).run(1e-6, defect=lambda t, y: 1.01 * kept * error, elsewhere=True)
+    assert refusal.value.evaluations > 0
+    far = {"difference": lambda one, other: 10 * error, "defect": lambda t, y: 9.9 * kept * error}
+    assert Made(share=0.1).run(1e-6, **far).ending.kind == "end"
+    with pytest.raises(IntegrationError, match="not finite"):
+        Made(share=np.nan).run(1e-6, elsewhere=True)
+
+
+def test_a_run_is_read_at_any_time_by_its_own_integration() -> None:
+    made = Made(share=0.1)
+    run = made.run(1e-6)
+    spent, at = run.evaluations, np.array([0.0, 0.123, 4.0, 9.99, 10.0])
+    read = run.read(at)
+    assert read.shape == (5, 1) and np.abs(read - 1).max() < 1e-6 and run.evaluations == spent
+    assert set(made.locals[2:]) == {run.local}
+    later = run.by_clock(3.0, 2.0)
+    assert later.t.tolist() == (3 + 2 * T).tolist() and later.ending.at == 23
+    assert later.read(3 + 2 * at) == pytest.approx(read, abs=1e-9)
+
+
+def test_between_two_events_that_differ_only_what_is_read_there_is_compared() -> None:
+    """A jump of 1 at 4.95 in one run and at 5.05 in the other: what is read at 5 may be either."""
+
+    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        at = 4.95 if companion else 5.05
+        states = (times >= at)[:, None] * 1.0 + local * times[:, None]
+        return Stretch(states, states[-1], 1, (at,) if times[0] < at <= times[-1] else ())
+
+    evolution = replace(Made().evolution(), integrate=integrate)
+    run = estimate_run(evolution, T, 1e-3)
+    assert run.errors[5] > 1 and run.errors[6] < 1e-3 and run.ending.kind == "end"
