@@ -52,15 +52,15 @@ def cyrk(scene: Scene, t_eval: Array) -> Runner:
     address = nb_diffeq_addr(fill)
 
     def run(tol: float) -> tuple[Array, int]:
-        found = nbsolve2_ivp(
+        solution = nbsolve2_ivp(
             address, (0.0, float(t_eval[-1])), start, "DOP853", t_eval=t_eval, rtol=tol / 10, atol=tol / 10
         )
         try:
-            if not found.success:
-                raise IntegrationError(f"CyRK stopped with status {found.status}")
-            states, steps = found.y.T.copy(), int(found.steps_taken)
+            if not solution.success:
+                raise IntegrationError(f"CyRK stopped with status {solution.status}")
+            states, steps = solution.y.T.copy(), int(solution.steps_taken)
         finally:
-            found.free()
+            solution.free()
         return tips(scene, minimal.MODEL.observe(scene, states).axes), _A_STEP * steps
 
     return run

@@ -60,13 +60,13 @@ def tools(n: int) -> dict[str, tuple[Run, tuple[float, ...]]]:
         s.rotor[0], np.array(s.joints), tuple((i, j) for i, j, _ in s.bars), np.array(s.spins), at_start.axes[:, 0],
         at_start.rates[:, 0],
     )  # fmt: skip
-    found: dict[str, tuple[Run, tuple[float, ...]]] = {"lagrotor": (lambda tol: begun(s, tol).tips, _TOLERANCES)}
+    runs: dict[str, tuple[Run, tuple[float, ...]]] = {"lagrotor": (lambda tol: begun(s, tol).tips, _TOLERANCES)}
     if find_spec("heyoka"):
-        found["lagrotor, fast"] = (lambda tol: begun(s, tol, "fast").tips, _TOLERANCES)
+        runs["lagrotor, fast"] = (lambda tol: begun(s, tol, "fast").tips, _TOLERANCES)
     for name, (prepare, steps) in ENGINES.items():
         if find_spec(_MODULES[name.split(",")[0]]):
-            found[name] = (_prepared(prepare, rig), steps[-2:] or _TOLERANCES[7:])
-    return found
+            runs[name] = (_prepared(prepare, rig), steps[-2:] or _TOLERANCES[7:])
+    return runs
 
 
 def _prepared(prepare: Callable[[Rig, Array], Runner], rig: Rig) -> Run:
@@ -83,20 +83,20 @@ def _prepared(prepare: Callable[[Rig, Array], Runner], rig: Rig) -> Run:
 def compared(n: int, say: Callable[[str], None], out: set[str]) -> list[Timed]:
     """Every tool on a chain of n rotors but those left out."""
     truth = begun(staircase(n), 1e-12).tips
-    found, chosen = dict[str, Timed](), dict[str, tuple[Run, float, list[float]]]()
+    timed, chosen = dict[str, Timed](), dict[str, tuple[Run, float, list[float]]]()
     for name, (run, settings) in tools(n).items():
         if name in out:
             continue
-        found[name], seconds = _reached(n, name, run, settings, truth), list[float]()
-        if found[name].error <= CHAIN_ERROR and found[name].first < _ONCE:
-            chosen[name] = (run, found[name].setting, seconds)
-        say(f"{n} {name}: error {found[name].error:.1e} at {found[name].setting:g}")
+        timed[name], seconds = _reached(n, name, run, settings, truth), list[float]()
+        if timed[name].error <= CHAIN_ERROR and timed[name].first < _ONCE:
+            chosen[name] = (run, timed[name].setting, seconds)
+        say(f"{n} {name}: error {timed[name].error:.1e} at {timed[name].setting:g}")
     for _ in range(_ROUNDS):
         for run, setting, seconds in chosen.values():
             seconds.append(_timed(run, setting)[1])
-    taken = {name: each.first if each.error <= CHAIN_ERROR else None for name, each in found.items()}
+    taken = {name: each.first if each.error <= CHAIN_ERROR else None for name, each in timed.items()}
     taken |= {name: median(seconds) for name, (_, _, seconds) in chosen.items()}
-    return [replace(each, seconds=taken[name]) for name, each in found.items()]
+    return [replace(each, seconds=taken[name]) for name, each in timed.items()]
 
 
 def _reached(n: int, name: str, run: Run, settings: tuple[float, ...], truth: Array) -> Timed:
@@ -129,9 +129,9 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
     """All of it: machine, versions, and the rows."""
     rows: list[Timed] = []
     for n in CHAIN_SIZES:
-        found = compared(n, say, {row.tool for row in rows if row.reason})
-        rows += found
-        least = min(row.seconds for row in found if row.seconds)
+        timed = compared(n, say, {row.tool for row in rows if row.reason})
+        rows += timed
+        least = min(row.seconds for row in timed if row.seconds)
         rows = [
             replace(row, reason=f"over {_SLOW} times the fastest: not tried with more rotors")
             if row.n == n and not row.reason and (row.seconds is None or row.seconds > _SLOW * least)

@@ -54,5 +54,5 @@ def near(name: object, names: Iterable[str]) -> str:
     from difflib import get_close_matches
 
     known = {each.lower(): each for each in names}
-    found = get_close_matches(str(name).lower(), known, 2, 0.7)
-    return f": {' or '.join(known[each] for each in found)}?" if found else ""
+    matches = get_close_matches(str(name).lower(), known, 2, 0.7)
+    return f": {' or '.join(known[each] for each in matches)}?" if matches else ""

@@ -88,9 +88,9 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
             entries = {entry.filename.removesuffix(".npy"): entry for entry in held.infolist()}
             if "about" not in entries:
                 raise InputError(f"{path}: it has no description: give a file that lagrotor wrote")
-            found = {name: _read_array(held, path, name, entry) for name, entry in entries.items()}
-        about = json.loads(str(found.pop("about")))
-        if not isinstance(about, dict) or about.pop("digest", None) != _digest(about, found):
+            arrays = {name: _read_array(held, path, name, entry) for name, entry in entries.items()}
+        about = json.loads(str(arrays.pop("about")))
+        if not isinstance(about, dict) or about.pop("digest", None) != _digest(about, arrays):
             raise InputError(f"{path}: its contents do not have the digest that it was written with: make it anew")
     except InputError:
         raise
@@ -98,7 +98,7 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
         raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
     except Exception as error:  # which one a damaged archive raises depends on the byte that was changed
         raise InputError(f"{path}: it is damaged or no .npz file ({type(error).__name__}): make it anew") from None
-    return about, found
+    return about, arrays
 
 
 def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":

@@ -41,26 +41,26 @@ def compare(
     step: Callable[[str], None] = lambda text: None,
 ) -> list[Measured]:
     """Every tool on every mechanism, from small to large; a tool that took too long is not given a larger one."""
-    found: list[Measured] = []
+    results: list[Measured] = []
     for kind, numbers in sizes.items():
         for name, tool in tools.items():
             missing = [module for module in (tool.module, *tool.others) if find_spec(module) is None]
             if missing:
                 way = f"{', '.join(missing)} not installed: pip install {tool.install}"
-                found.append(Measured(kind, min(numbers), name, reason=way))
+                results.append(Measured(kind, min(numbers), name, reason=way))
                 continue
             for n in sorted(numbers):
                 step(f"{name}, {n} {kind}")
-                found.append(_apart(tool, Measured(kind, n, name)))
-                if found[-1].reason:
+                results.append(_apart(tool, Measured(kind, n, name)))
+                if results[-1].reason:
                     break
-    return found
+    return results
 
 
 def _apart(tool: Tool, case: Measured) -> Measured:
     """Measured in a new process, which is ended when it takes too long."""
-    found = in_own_process(_send, _LONGEST, tool, case)
-    return replace(case, reason=found) if isinstance(found, str) else found
+    result = in_own_process(_send, _LONGEST, tool, case)
+    return replace(case, reason=result) if isinstance(result, str) else result
 
 
 def _send(send: Callable[[Measured], None], spend: Callable[[], Any], tool: Tool, case: Measured) -> None:
@@ -166,8 +166,8 @@ def _scipy(rhs: Rhs, begin: Array, name: str, tol: float) -> Array:
     """Coordinates (n, N) by one of scipy's solvers."""
     from scipy.integrate import solve_ivp
 
-    found = solve_ivp(rhs, (0, TIMES[-1]), begin, name, TIMES, rtol=tol, atol=tol)
-    return np.asarray(found.y.T[:, : len(begin) // 2])
+    solution = solve_ivp(rhs, (0, TIMES[-1]), begin, name, TIMES, rtol=tol, atol=tol)
+    return np.asarray(solution.y.T[:, : len(begin) // 2])
 
 
 def operation_counts() -> dict[MechanismKind, list[int]]:

@@ -62,7 +62,7 @@ PAIRS: dict[str, Callable[[], tuple[System, System]]] = {
 
 def decide_pairs() -> list[Decided]:
     """Each pair by both."""
-    found = []
+    decisions = []
     for name, make in PAIRS.items():
         left, right = make()
         assert left.motion.shape == right.motion.shape  # made before the clock starts
@@ -70,13 +70,13 @@ def decide_pairs() -> list[Decided]:
         answer = left.same_as(right).answer
         ours = time.process_time() - before
         theirs, their_answer = _by_simplify(name)
-        found.append(Decided(name, ours, answer, theirs, their_answer))
-    return found
+        decisions.append(Decided(name, ours, answer, theirs, their_answer))
+    return decisions
 
 
 def _by_simplify(name: str) -> tuple[float, str]:
-    found = in_own_process(_simplify, LONGEST, name)
-    return (LONGEST, "did not end") if isinstance(found, str) else found
+    result = in_own_process(_simplify, LONGEST, name)
+    return (LONGEST, "did not end") if isinstance(result, str) else result
 
 
 def _simplify(send: Callable[[tuple[float, str]], None], spend: Callable[[], Any], name: str) -> None:

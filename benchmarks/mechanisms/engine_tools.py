@@ -31,11 +31,11 @@ def mujoco(kind: MechanismKind, n: int) -> Ready:
         count = round(float(times[1] - times[0]) / step)
         model.opt.timestep = (times[1] - times[0]) / count
         data.qpos[:], data.qvel[:] = start[: model.nq], start[model.nq :]
-        found = [start[: model.nq]]
+        coordinates = [start[: model.nq]]
         for _ in times[1:]:
             mj.mj_step(model, data, count)
-            found.append(data.qpos.copy())
-        return np.array(found)
+            coordinates.append(data.qpos.copy())
+        return np.array(coordinates)
 
     return Ready(rhs, run, tuple(0.01 / 2**k for k in range(10)))
 
@@ -108,11 +108,11 @@ def drake(kind: MechanismKind, n: int) -> Ready:
         inside = simulator.get_mutable_context()
         plant.SetPositionsAndVelocities(inside, start)
         simulator.Initialize()
-        found = [start[:size]]
+        coordinates = [start[:size]]
         for t in times[1:]:
             simulator.AdvanceTo(t)
-            found.append(plant.GetPositions(inside).copy())
-        return np.array(found)
+            coordinates.append(plant.GetPositions(inside).copy())
+        return np.array(coordinates)
 
     return Ready(rhs, run, tuple(10.0**-k for k in range(5, 14)))
 

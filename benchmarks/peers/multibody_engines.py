@@ -51,12 +51,12 @@ def mujoco(rig: Rig, t_eval: Array) -> Runner:
             mj.mju_mat2Quat(data.qpos[4 * i : 4 * i + 4], R.ravel())
             data.qvel[3 * i : 3 * i + 3] = R.T @ Omega
         mj.mj_kinematics(model, data)
-        found = [data.site_xpos.copy()]
+        sites = [data.site_xpos.copy()]
         for _ in t_eval[1:]:
             mj.mj_step(model, data, count)
             mj.mj_kinematics(model, data)
-            found.append(data.site_xpos.copy())
-        return np.array(found).swapaxes(0, 1), 4 * count * (len(t_eval) - 1)
+            sites.append(data.site_xpos.copy())
+        return np.array(sites).swapaxes(0, 1), 4 * count * (len(t_eval) - 1)
 
     return run
 
@@ -180,7 +180,7 @@ def drake_discrete(rig: Rig, t_eval: Array) -> Runner:
     def run(step: float) -> tuple[Array, int]:
         plant, bodies, joints = _drake_plant(rig, step)
         simulator = Simulator(plant)
-        context, found = simulator.get_mutable_context(), []
+        context, tips = simulator.get_mutable_context(), []
         for joint, (R, Omega) in zip(joints, rig.turns, strict=True):
             joint.set_angles(context, RollPitchYaw(RotationMatrix(R)).vector())
             joint.set_angular_velocity(context, Omega)
@@ -189,8 +189,8 @@ def drake_discrete(rig: Rig, t_eval: Array) -> Runner:
                 simulator.AdvanceTo(t)
             except RuntimeError as refusal:
                 raise IntegrationError(f"Drake stopped before t = {t:.3g} s: {str(refusal).split('.')[0]}") from None
-            found.append([plant.EvalBodyPoseInWorld(context, body).multiply(tip) for body in bodies])
-        return np.array(found).swapaxes(0, 1), round(t_eval[-1] / step)
+            tips.append([plant.EvalBodyPoseInWorld(context, body).multiply(tip) for body in bodies])
+        return np.array(tips).swapaxes(0, 1), round(t_eval[-1] / step)
 
     return run
 
@@ -215,8 +215,8 @@ def drake_multipliers(rig: Rig, t_eval: Array) -> Runner:
             rows[k] = gap @ (reach[j] - reach[i])
             apart = (reach[j] - reach[i]) @ y[half:]
             drift[k] = apart @ apart + gap @ (bent[j] - bent[i])
-        found = _sparse_accelerations(plant.CalcMassMatrix(context), plant.CalcBiasTerm(context), rows, drift)
-        return np.concatenate([y[half:], found])
+        accelerations = _sparse_accelerations(plant.CalcMassMatrix(context), plant.CalcBiasTerm(context), rows, drift)
+        return np.concatenate([y[half:], accelerations])
 
     return _solve(rig, t_eval, rhs)
 

@@ -20,24 +20,24 @@ _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
 
 
-def mechanism_rows(found: Sequence[Measured]) -> list[Row]:
+def mechanism_rows(measured: Sequence[Measured]) -> list[Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
-        for x in sorted(found, key=lambda x: (list(LINKS).index(x.kind), x.n))
+        for x in sorted(measured, key=lambda x: (list(LINKS).index(x.kind), x.n))
     ]
 
 
-def decision_rows(found: Sequence[Decided]) -> list[Row]:
+def decision_rows(decided: Sequence[Decided]) -> list[Row]:
     """One row a pair of formulations."""
     return [
         (x.pair, _number(x.ours, 1e3), x.answer, _number(x.theirs, 1e3), x.their_answer, f"{_at_least(x)}{x.times:.0f}")
-        for x in found
+        for x in decided
     ]
 
 
 def target_rows(
-    found: Sequence[Measured],
+    measured: Sequence[Measured],
     decided: Sequence[Decided],
     operations: dict[MechanismKind, list[int]],
     ready_in: dict[MechanismKind, list[float]],
@@ -46,7 +46,7 @@ def target_rows(
 
     On each of LINKS, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
     """
-    made = {(x.kind, x.n, x.tool): x for x in found}
+    made = {(x.kind, x.n, x.tool): x for x in measured}
     table, nothing = list[Row](), Measured("rods", 0, "")
     for kind, n in _AT.items():
         own, fast, pydy = (

@@ -79,7 +79,7 @@ class _Prepared:
 class _Record:
     """What has been measured: by method and setting its error and nfev, and its seconds, run by run; and what failed."""
 
-    found: dict[tuple[str, float], tuple[float, int]] = field(default_factory=dict)
+    results: dict[tuple[str, float], tuple[float, int]] = field(default_factory=dict)
     seconds: dict[tuple[str, float], list[float]] = field(default_factory=dict)
     failed: list[tuple[str, float | None, str]] = field(default_factory=list)
 
@@ -100,7 +100,7 @@ def benchmark(
     _run_all(ready, methods, truth.tips, longest, record)
     _repeat(ready, methods, case.repeats, longest / 10, record)
     points = []
-    for (method, setting), (error, nfev) in record.found.items():
+    for (method, setting), (error, nfev) in record.results.items():
         first, *later = record.seconds[method, setting]
         usual = median(later or [first])
         points.append(ChartPoint(method, methods[method].family, setting, max(error, truth.floor), nfev, usual, first))
@@ -143,15 +143,17 @@ def _run_all(
             record.failed.append((method, setting, too_slow[method]))
             continue
         try:
-            found, nfev, seconds = _timed(ready[method].runner, setting)
+            began = _CLOCK()
+            tips, nfev = ready[method].runner(setting)
+            seconds = _CLOCK() - began
         except _REFUSALS as refusal:
             record.failed.append((method, setting, str(refusal).split("\n")[0]))
             continue
         if seconds > longest and methods[method].family not in _COMPILING:
             too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
-        error = float(np.linalg.norm(found - truth, axis=-1).max())
+        error = float(np.linalg.norm(tips - truth, axis=-1).max())
         if np.isfinite(error):
-            record.found[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
+            record.results[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
         else:
             record.failed.append((method, setting, "a value is not finite"))
 
@@ -162,17 +164,11 @@ def _repeat(
     """Further samples of every run that took less than `longest` s, or whose first may have compiled."""
     again = [
         (method, setting)
-        for method, setting in record.found
+        for method, setting in record.results
         if methods[method].family in _COMPILING or record.seconds[method, setting][0] < longest
     ]
     for method, setting in again * repeats:
         record.seconds[method, setting].append(_sample(ready[method].runner, setting))
-
-
-def _timed(runner: Runner, setting: float) -> tuple[Array, int, float]:
-    began = _CLOCK()
-    found, nfev = runner(setting)
-    return found, nfev, _CLOCK() - began
 
 
 def _sample(runner: Runner, setting: float) -> float:

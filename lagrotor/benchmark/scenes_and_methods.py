@@ -64,8 +64,8 @@ CASES: dict[str, Callable[[bool], Case]] = {
 def _model(model: str, engine: str = "core") -> Prepare:
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         def run(tol: float) -> tuple[Array, int]:
-            found = simulate(scene, t_eval, model, tol, engine)
-            return found.tips, found.evaluations
+            trajectory = simulate(scene, t_eval, model, tol, engine)
+            return trajectory.tips, trajectory.evaluations
 
         return run
 
@@ -79,8 +79,8 @@ def _springs(stiffer: float) -> Prepare:
         system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
 
         def run(step: float) -> tuple[Array, int]:
-            found = run_steps(system, scene.shock, t_eval, step)
-            return found.tips, found.evaluations
+            spring_run = run_steps(system, scene.shock, t_eval, step)
+            return spring_run.tips, spring_run.evaluations
 
         return run
 
@@ -126,7 +126,7 @@ _LEFT_OUT = {
 def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
     """All four cases; on the shock the plain calls, too. step: called with each name."""
     longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
-    found = []
+    charts = []
     for name, case in CASES.items():
         step(name)
         methods = METHODS | (TRAPS if name == "shock" else {})
@@ -138,8 +138,8 @@ def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: N
             kept = {method: given for method, given in methods.items() if method not in left_out}
             one = benchmark(name, case(quick), kept, tolerances, longest)
         omitted = tuple(Failure(method, (), f"left out: {why}") for method, why in left_out.items())
-        found.append(replace(one, failures=one.failures + omitted))
-    return found
+        charts.append(replace(one, failures=one.failures + omitted))
+    return charts
 
 
 # Families of the package's own methods by what they need: the closed forms too, integrations with the four core packages,

@@ -50,11 +50,11 @@ def chart_command(given: argparse.Namespace) -> int:
 
     check_folder(given.out)
     with progress(4) as step:
-        found = benchmarks(given.quick, step)
-    data = chart_data(found)
+        charts = benchmarks(given.quick, step)
+    data = chart_data(charts)
     text = json.dumps(data, indent=1, ensure_ascii=False)
     written = [write_text(given.out / "chart.json", text)]
-    for one in found:
+    for one in charts:
         with paper_style():
             figure = speed_chart(one)
             for form in ("svg", "png"):
@@ -63,15 +63,15 @@ def chart_command(given: argparse.Namespace) -> int:
     if given.json:
         print(text)
     else:
-        print(chart_tables(found), *written, sep="\n")
+        print(chart_tables(charts), *written, sep="\n")
     return 0
 
 
-def chart_data(found: "list[Benchmark]") -> dict[str, Any]:
+def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
     """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    return {"charts": [asdict(one) for one in found], "ratios": ratios(found[0]), "other_tools": other_tools()}
+    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0]), "other_tools": other_tools()}
 
 
 def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
@@ -90,13 +90,13 @@ def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
     }
 
 
-def chart_tables(found: "list[Benchmark]") -> str:
+def chart_tables(charts: "list[Benchmark]") -> str:
     """The front of each scene, set-up times, failures, ratios, and other tools on record, as tables."""
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
     parts = []
-    for one in found:
+    for one in charts:
         rows = [
             (p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev}", f"{1e3 * p.seconds:.3g}")
             for p in front(one.points)
@@ -109,7 +109,7 @@ def chart_tables(found: "list[Benchmark]") -> str:
         parts += [""]
     compared = [
         (error, name, f"{1e3 * value:.3g} ms" if name in OURS else f"{value:.3g}")
-        for error, row in ratios(found[0]).items()
+        for error, row in ratios(charts[0]).items()
         for name, value in row.items()
         if value is not None
     ]
@@ -134,12 +134,12 @@ def stability_command(given: argparse.Namespace) -> int:
     from lagrotor.files import write_text
 
     with progress(len(LIMITS) + 1 + bool(given.out)) as step:
-        found = limits(given.quick, step)
+        thresholds = limits(given.quick, step)
         step("throughput")
         rates = _throughput(throughput, given.quick)
         content: dict[str, Any] = {
             "quick": given.quick,
-            "limits": [asdict(limit) | {"ratio": limit.ratio} for limit in found],
+            "limits": [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds],
             "throughput": [asdict(rate) for rate in rates],
         }
         if given.out:
@@ -154,7 +154,7 @@ def stability_command(given: argparse.Namespace) -> int:
     if given.json:
         print(text)
     else:
-        print(table(LIMIT_HEAD, limit_rows(found)), table(THROUGHPUT_HEAD, throughput_rows(rates)), sep="\n\n")
+        print(table(LIMIT_HEAD, limit_rows(thresholds)), table(THROUGHPUT_HEAD, throughput_rows(rates)), sep="\n\n")
     if given.out:
         written = [*draw_stability(useful, given.out), write_text(given.out / "stability.json", text + "\n")]
         if not given.json:
@@ -162,9 +162,9 @@ def stability_command(given: argparse.Namespace) -> int:
     return 0
 
 
-def limit_rows(found: "Sequence[Limit]") -> list[tuple[str, ...]]:
+def limit_rows(thresholds: "Sequence[Limit]") -> list[tuple[str, ...]]:
     """The limits as rows under LIMIT_HEAD."""
-    return [(x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in found]
+    return [(x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds]
 
 
 def throughput_rows(rates: "Sequence[Throughput]") -> list[tuple[str, ...]]:

@@ -49,9 +49,9 @@ class RecordedAnswer(pytest.Item):
         """Judge the equation, or test the claim."""
         row = self.paper.recorded.get(self.name)
         before = row.verdict if row else "nothing"
-        found, why = self._answer_now()
-        if found != before:
-            raise ChangedError(f"{self.name}: recorded {before}, found {found}\n{why}")
+        answer, why = self._answer_now()
+        if answer != before:
+            raise ChangedError(f"{self.name}: recorded {before}, found {answer}\n{why}")
 
     def _answer_now(self) -> tuple[str, str]:
         """The verdict as it is now, and why."""

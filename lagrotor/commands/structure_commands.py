@@ -50,8 +50,8 @@ def structure_command(given: argparse.Namespace) -> int:
         ready = GALLERY.get(given.structure)
         usual = ready.duration if ready else 5.0
         _write(s, given.out, usual if given.t_end is None else given.t_end)
-    found = _summary(s)
-    print(_json(found) if given.json else _table(found))
+    summary = _summary(s)
+    print(_json(summary) if given.json else _table(summary))
     if given.out and not given.json:
         print(given.out)
     return 0
@@ -77,12 +77,12 @@ def _write(s: Any, out: Path, duration: float) -> None:
 
 def _summary(s: Any) -> dict[str, Any]:
     rotors, bars = len(s.joints), len(s.bars)
-    found: dict[str, Any] = {"rotors": rotors, "bars": bars, "freedoms": 2 * rotors - bars}
+    summary: dict[str, Any] = {"rotors": rotors, "bars": bars, "freedoms": 2 * rotors - bars}
     if not s.natural:
         why = "upright, a bar is not as long as its tips are apart; a film shows how it moves (--out FILE.gif)"
-        return found | {"stands": None, "why": why}
+        return summary | {"stands": None, "why": why}
     standing, modes = s.stands(), s.modes()
-    return found | {
+    return summary | {
         "stands": standing.stands,
         "why": standing.why,
         "growth": standing.growth,
@@ -92,17 +92,17 @@ def _summary(s: Any) -> dict[str, Any]:
     }
 
 
-def _table(found: dict[str, Any]) -> str:
+def _table(summary: dict[str, Any]) -> str:
     from lagrotor.commands.terminal import table
 
-    verdict = {True: "yes", False: "no", None: "not judged"}[found["stands"]]
-    rows = [("stands", f"{verdict}: {found['why']}")]
-    freedoms = f"{found['freedoms']}; rotors: {found['rotors']}, bars: {found['bars']}"
-    if found["stands"] is None:
+    verdict = {True: "yes", False: "no", None: "not judged"}[summary["stands"]]
+    rows = [("stands", f"{verdict}: {summary['why']}")]
+    freedoms = f"{summary['freedoms']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
+    if summary["stands"] is None:
         return table(("structure", ""), [*rows, ("freedoms", freedoms)])
-    factor = found["critical_spin"]
+    factor = summary["critical_spin"]
     least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
-    modes = enumerate(found["modes"], 1)
-    rows += [("least spin", least), ("freedoms", f"{freedoms}; modes that grow: {found['topple']}")]
+    modes = enumerate(summary["modes"], 1)
+    rows += [("least spin", least), ("freedoms", f"{freedoms}; modes that grow: {summary['topple']}")]
     rows += [(f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s") for k, m in modes]
     return table(("structure", ""), rows)

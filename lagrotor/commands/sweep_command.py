@@ -23,22 +23,22 @@ _Change = Callable[[Scene, float], Scene]
 
 
 def _link(field: str) -> _Change:
-    def changed(scene: Scene, value: float) -> Scene:
+    def change(scene: Scene, value: float) -> Scene:
         if scene.link is None:
             raise InputError(f"--vary link-{field}: a pair without a bar has none; leave out --no-link")
         return replace(scene, link=replace(scene.link, **{field: value}))
 
-    return changed
+    return change
 
 
-def _paired(scene: Scene, value: float) -> Scene:
+def _on_precession(scene: Scene, value: float) -> Scene:
     from lagrotor.models.orbits.precession import paired_scene
 
     return paired_scene(scene, value)
 
 
 _VARIED: dict[str, tuple[str, _Change]] = {
-    "paired": ("amplitude of the paired precession", _paired),
+    "paired": ("amplitude of the paired precession", _on_precession),
     "spin1": ("spin of rotor 1, rad/s", lambda scene, value: replace(scene, spins=(value, scene.spins[1]))),
     "spin2": ("spin of rotor 2, rad/s", lambda scene, value: replace(scene, spins=(scene.spins[0], value))),
     "link-length": ("length of the bar, m", _link("length")),
@@ -94,8 +94,8 @@ def sweep_command(given: argparse.Namespace) -> int:
 
     with progress(1) as step:
         step(f"{len(family)} runs")
-        found = sweep(family, np.linspace(0.0, given.t_end, given.samples), tol=given.tol)
-    runs = [found.trajectory(i) for i in range(len(family))]
+        ensemble = sweep(family, np.linspace(0.0, given.t_end, given.samples), tol=given.tol)
+    runs = [ensemble.trajectory(i) for i in range(len(family))]
     rows = [
         {given.vary: value, "model": run.model, "evaluations": run.evaluations,
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
@@ -117,4 +117,4 @@ def sweep_command(given: argparse.Namespace) -> int:
             for r in rows
         ]
         print(table((given.vary, "model", "evaluations", f"tip 1 at {given.t_end:g} s [m]"), cells))
-    return 1 if len(found.failed) else 0
+    return 1 if len(ensemble.failed) else 0

@@ -41,8 +41,8 @@ class Picture:
 
 def stems(scripts: Scripts) -> dict[str, str]:
     """The scripts that draw figures: key → stem; the paper's by number, then those with a letter, "b1" …, "t1" …."""
-    found = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
-    return dict(sorted(((match[1], stem) for match, stem in found if match), key=lambda row: not row[0].isdigit()))
+    matches = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
+    return dict(sorted(((match[1], stem) for match, stem in matches if match), key=lambda row: not row[0].isdigit()))
 
 
 def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:

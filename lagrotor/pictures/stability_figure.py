@@ -13,18 +13,18 @@ from lagrotor.files import write_beside
 STEM = "stability"
 
 
-def stability_figure(found: Usefulness) -> Figure:
+def stability_figure(useful: Usefulness) -> Figure:
     """Error of each order over amplitude and departure from opposite spins, and the line beyond which it is no use."""
     figure = Figure(figsize=(7.4, 3.9))
-    panels = figure.subplots(1, len(found.orders), sharey=True, squeeze=False)[0]
+    panels = figure.subplots(1, len(useful.orders), sharey=True, squeeze=False)[0]
     levels = np.arange(-8, 1)
-    for panel, order, errors in zip(panels, found.orders, found.errors, strict=True):
+    for panel, order, errors in zip(panels, useful.orders, useful.errors, strict=True):
         shown = np.clip(np.log10(errors), levels[0], levels[-1])
-        filled = panel.contourf(found.amplitudes, found.departures, shown, levels, cmap="cividis")
+        filled = panel.contourf(useful.amplitudes, useful.departures, shown, levels, cmap="cividis")
         panel.contour(
-            found.amplitudes,
-            found.departures,
-            np.log10(errors / found.amplitudes / USEFUL),
+            useful.amplitudes,
+            useful.departures,
+            np.log10(errors / useful.amplitudes / USEFUL),
             [0.0],
             colors=OKABE_ITO["vermillion"],
             linewidths=2,
@@ -41,10 +41,10 @@ def stability_figure(found: Usefulness) -> Figure:
     return figure
 
 
-def draw_stability(found: Usefulness, folder: Path) -> tuple[Path, Path]:
+def draw_stability(useful: Usefulness, folder: Path) -> tuple[Path, Path]:
     """Write `stability.svg` and `stability.png` into the folder. Raises InputError when it cannot be written to."""
     with paper_style():
-        figure = stability_figure(found)
+        figure = stability_figure(useful)
         svg = write_beside(
             folder / f"{STEM}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
         )

@@ -103,10 +103,10 @@ class Report:
     @property
     def sections(self) -> dict[str, list[Verdict]]:
         """Verdicts by section of the paper."""
-        found: dict[str, list[Verdict]] = {}
+        verdicts_of: dict[str, list[Verdict]] = {}
         for verdict in self.verdicts:
-            found.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
-        return found
+            verdicts_of.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
+        return verdicts_of
 
     @property
     def counts(self) -> dict[str, int]:

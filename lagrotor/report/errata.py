@@ -68,31 +68,31 @@ def _line(quantity: str, relation: Relation) -> str:
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref: a summary, then an item each."""
     listed = list(verdicts)
-    found = list(errata(listed, paper))
+    errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{prose(paper.title)}}}}}"
-    summary = " ".join(prose(text) for text in _summary(listed, found, paper))
-    items = "\n".join(map(latex_item, found)) or rf"\item {prose('None.')}"
+    summary = " ".join(prose(text) for text in _summary(listed, errors, paper))
+    items = "\n".join(map(latex_item, errors)) or rf"\item {prose('None.')}"
     # Two pages: small print, and no more space between the items than a line of it.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
     return "\n".join([head(f"Errata to {paper.title}") + title, *sheet, r"\end{enumerate}}", END])
 
 
-def _summary(verdicts: list[Verdict], found: list[Erratum], paper: Paper) -> Iterator[str]:
+def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> Iterator[str]:
     """What the sheet says before its items."""
     yield (
-        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {len(found)} differ from what follows "
+        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {len(errors)} differ from what follows "
         "from their premises. Each is listed by its own number or its section, as printed and as it should read; every "
         "correction was decided by the same exact procedure as the print."
     )
-    shown = {letter for e in found for letter in e.letters}
+    shown = {letter for e in errors for letter in e.letters}
     meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
     letters = "; ".join(
         f"{name} is {meanings[name]}" for name in paper.about.letters if name in shown and name in meanings
     )
     if letters:
         yield f"Letters of the corrections: {letters}."
-    if reaching := sum(not e.survives for e in found):
-        yield f"{reaching} of them change a result; no result depends on the other {len(found) - reaching}."
+    if reaching := sum(not e.survives for e in errors):
+        yield f"{reaching} of them change a result; no result depends on the other {len(errors) - reaching}."
 
 
 def latex_item(e: Erratum) -> str:

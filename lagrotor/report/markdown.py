@@ -124,7 +124,7 @@ def _fact(fact: Fact) -> str:
     return "\n\n".join(
         [
             line.rstrip(),
-            *(_formula(formula) for formula in fact.formulas if not formula.is_Symbol),
+            *(_display(latex(formula)) for formula in fact.formulas if not formula.is_Symbol),
             *map(_display, fact.sources),
         ]
     )
@@ -187,10 +187,6 @@ def _picture(picture: Picture, report: Report) -> str:
 def _rows(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     lines = [head, tuple("---" for _ in head), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def _formula(expression: sp.Basic) -> str:
-    return _display(latex(expression))
 
 
 def _display(source: str) -> str:

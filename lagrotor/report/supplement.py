@@ -47,7 +47,7 @@ def supplement(report: Report) -> str:
 
 def _section(report: Report, name: str) -> list[str]:
     if name.startswith("section-"):
-        return _paper(report, name)
+        return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
     return _PARTS[name](report) if name in _PARTS else _shown(report.part(name), report)
 
 
@@ -63,7 +63,7 @@ def _summary(report: Report) -> list[str]:
 def _headline(headline: Headline) -> str:
     formula = displayed_formula(headline.formula) if headline.formula else ""
     shown = f"Shown in {_links(headline.ids)}." if headline.ids else ""
-    return f"{_titled(headline.title, headline.text)} {formula} {shown}"
+    return f"{_paragraph(headline.title, headline.text)} {formula} {shown}"
 
 
 def _verdicts(report: Report) -> list[str]:
@@ -74,17 +74,13 @@ def _verdicts(report: Report) -> list[str]:
     return [latex_table(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)]
 
 
-def _paper(report: Report, name: str) -> list[str]:
-    return [_equation(verdict, report) for verdict in report.sections[name.removeprefix("section-")]]
-
-
 def _equation(verdict: Verdict, report: Report) -> str:
     entry, statement = report.paper.equation(verdict.id), verdict.statement
-    found = map(displayed_formula, derived_lines(statement.relations))
+    lines = map(displayed_formula, derived_lines(statement.relations))
     parts = [
         _heading(verdict.id, f"{entry.title}: {word(verdict.verdict)}", verdict.id),
         rf"\textbf{{As printed.}} {displayed_formula(entry.latex)}",
-        rf"\textbf{{{derived_heading(statement.relations)}.}} {' '.join(found) or 'nothing to derive'}",
+        rf"\textbf{{{derived_heading(statement.relations)}.}} {' '.join(lines) or 'nothing to derive'}",
         *(_fact(fact) for fact in facts(verdict, report)),
     ]
     return "\n\n".join(filter(None, parts))
@@ -112,13 +108,13 @@ def _claim(result: Result, report: Report) -> str:
 
 def _shown(part: ShownPart, report: Report) -> list[str]:
     drawn = [_picture(picture, report) for picture in part.pictures]
-    found = [_titled(*remark) for remark in part.remarks]
-    return [*(_side_by_side(each, report) for each in part.tables), *found, *drawn]
+    remarks = [_paragraph(*remark) for remark in part.remarks]
+    return [*(_side_by_side(each, report) for each in part.tables), *remarks, *drawn]
 
 
 def _side_by_side(shown: Table, report: Report) -> str:
     rows = [tuple(_cell(cell, report) for cell in row) for row in shown.rows]
-    return f"{_titled(shown.title, '')}\n\n{latex_table(tuple(map(prose, shown.head)), rows)}\n\n{prose(shown.note)}"
+    return f"{_paragraph(shown.title, '')}\n\n{latex_table(tuple(map(prose, shown.head)), rows)}\n\n{prose(shown.note)}"
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -163,7 +159,7 @@ def _waiting(report: Report) -> list[str]:
     return [latex_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])]
 
 
-def _titled(title: str, text: str) -> str:
+def _paragraph(title: str, text: str) -> str:
     return rf"\textbf{{{prose(title)}.}} {prose(text)}"
 
 

@@ -99,12 +99,12 @@ def page_programs() -> dict[str, Program]:
     paper         (r_0, Phi) → r_1, r_2 as printed: 5.20, 5.22
     bar_length    (r_1, r_2, ell) → m
     """
-    found = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
-    found |= {"series": _series(), "orbit": horner.program(PAGE_ORDER)}
+    result = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
+    result |= {"series": _series(), "orbit": horner.program(PAGE_ORDER)}
     for ratio in _BARS:
-        found |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
-        found[f"slopes_{ratio}"] = _slopes(ratio)
-    return found
+        result |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
+        result[f"slopes_{ratio}"] = _slopes(ratio)
+    return result
 
 
 def _constants() -> Program:

@@ -72,12 +72,12 @@ def results(
 
 def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
     """The values of the names that are wanted, as far as they can be handed to another process."""
-    found = {}
+    result = {}
     for name in names.keys() & set(wanted):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
             pickle.dumps(names[name])
-            found[name] = names[name]
-    return found
+            result[name] = names[name]
+    return result
 
 
 def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:

@@ -93,24 +93,21 @@ def values_taken(stem: str, paper: Paper) -> frozenset[str]:
     return frozenset(text for path in others if stem in scripts_named(path, paper) for text in _texts(path))
 
 
-def _named_scripts(path: Path, paper: Paper) -> frozenset[Path]:
-    return frozenset(paper.scripts.path("derivations", stem) for stem in scripts_named(path, paper))
-
-
 @cache
 def files_reached(path: Path, paper: Paper) -> tuple[Path, ...]:
     """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each of them and
     in the paper's folder."""
-    found, left = {path}, [path]
+    reached, left = {path}, [path]
     while left:
         current = left.pop()
-        new = (imports(current, paper.folder) | _named_scripts(current, paper)) - found
-        found |= new
+        scripts = {paper.scripts.path("derivations", stem) for stem in scripts_named(current, paper)}
+        new = (imports(current, paper.folder) | scripts) - reached
+        reached |= new
         left += new
-    folders = {file.parent for file in found if file.parent != _PACKAGE} | {paper.folder}
+    folders = {file.parent for file in reached if file.parent != _PACKAGE} | {paper.folder}
     beside = {file for folder in folders for file in _data_in(folder)}
     letters = {file for file in [paper.folder / "symbols.py"] if file.is_file()}
-    return tuple(sorted(found | letters | {file for file in beside if file.name not in _NO_DATA}))
+    return tuple(sorted(reached | letters | {file for file in beside if file.name not in _NO_DATA}))
 
 
 @cache
@@ -157,7 +154,7 @@ def inputs(paper: Paper) -> dict[str, str]:
         {f for f in files if f.suffix not in _NO_SOURCE - {".py"} and f.name not in _NO_DATA}
         for files in (package - own, own)
     )
-    found = {"catalogue of equations, claims, figures": digest_of(own, paper), "package": digest_of(package, paper)}
+    digests = {"catalogue of equations, claims, figures": digest_of(own, paper), "package": digest_of(package, paper)}
     scripts = {kind: (paper.scripts.base / kind).glob("*.*") for kind in ("derivations", "figures")}
     kept = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
-    return found | {kind: digest_of(files, paper) for kind, files in kept.items()}
+    return digests | {kind: digest_of(files, paper) for kind, files in kept.items()}

@@ -101,17 +101,15 @@ def _make(
 
     timed = partial(_run_timed, folder=kept.new / "figures")
     with progress(len(left) + 1) as begins:
-        for step, (product, took) in results(left, timed, min(jobs, max(len(left), 1)), _named(begins), given):
+        for step, (product, took) in results(
+            left, timed, min(jobs, max(len(left), 1)), lambda step: begins(step.name), given
+        ):
             products[step.name], seconds[step.name] = product, round(took, 3)
             stem = getattr(product, "stem", "")
             files = [f for f in (kept.new / "figures").glob(f"{stem}.*") if stem and step.name.startswith("figure")]
             kept.keep(step.name, step.made_from, product, files)
         begins("report")
     return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}
-
-
-def _named(begins: Callable[[str], None]) -> Callable[[JobStep], None]:
-    return lambda step: begins(step.name)
 
 
 def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
@@ -190,5 +188,5 @@ def _timeless(record: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in record.items() if name != "seconds"}
 
 
-def _write_json(file: Path, found: Any) -> None:
-    write_text(file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
+def _write_json(file: Path, data: Any) -> None:
+    write_text(file, json.dumps(data, indent=1, ensure_ascii=False) + "\n")

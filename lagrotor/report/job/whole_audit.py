@@ -23,14 +23,16 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
         return paper.audit(progress=progress)
     paper.check_scripts()
     needs = {stem: set(scripts_named(paper.scripts.path("derivations", stem), paper)) & set(stems) for stem in stems}
-    found: dict[str, tuple[list[Verdict], dict[str, Any]]] = {}
+    judgements: dict[str, tuple[list[Verdict], dict[str, Any]]] = {}
 
     def given(stem: str) -> tuple[dict[str, dict[str, Any]]] | None:
-        return ({needed: found[needed][1] for needed in needs[stem]},) if needs[stem] <= found.keys() else None
+        return (
+            ({needed: judgements[needed][1] for needed in needs[stem]},) if needs[stem] <= judgements.keys() else None
+        )
 
     for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given, JUDGING):
-        found[stem] = product
-    return paper.audit_of(verdict for stem in stems for verdict in found[stem][0])
+        judgements[stem] = product
+    return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
 
 
 def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:

@@ -25,7 +25,7 @@ def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     """One derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
     prose = (re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "" for cell in script.cells)
     shown = ("".join(_value_html(value, answers) for value in cell.shown) for cell in script.cells)
-    return "".join(markdown_html(text) + found for text, found in zip(prose, shown, strict=True))
+    return "".join(markdown_html(text) + result for text, result in zip(prose, shown, strict=True))
 
 
 def title(script: Script, stem: str) -> str:

@@ -18,5 +18,5 @@ def data_address(picture: Picture) -> str:
 
 def size(picture: Picture) -> tuple[int, int]:
     """Width and height of a picture in points, rounded, from its SVG."""
-    found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', picture.svg.read_text(encoding="utf-8"))
-    return (round(float(found[1])), round(float(found[2]))) if found else (1, 1)
+    box = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', picture.svg.read_text(encoding="utf-8"))
+    return (round(float(box[1])), round(float(box[2]))) if box else (1, 1)

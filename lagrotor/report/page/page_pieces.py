@@ -30,9 +30,9 @@ def prose(text: str) -> str:
 
 
 def _plain(text: str) -> str:
-    found = escape(readable(text))
-    found = _CODE.sub(r"<code>\1</code>", found)
-    return _POWER.sub(r"<sup>\1</sup>", _INDEX.sub(r"\1<sub>\2</sub>", found))
+    html = escape(readable(text))
+    html = _CODE.sub(r"<code>\1</code>", html)
+    return _POWER.sub(r"<sup>\1</sup>", _INDEX.sub(r"\1<sub>\2</sub>", html))
 
 
 def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
@@ -73,9 +73,9 @@ def _cell(cell: Cell, report: Report) -> str:
     return inline(cell) if isinstance(cell, sp.Basic) else prose(cell)
 
 
-def fact_list(found: Iterable[Fact]) -> str:
+def fact_list(facts: Iterable[Fact]) -> str:
     """Facts as a list of labels and what is said of them; nothing for none."""
-    said = "".join(map(_fact, found))
+    said = "".join(map(_fact, facts))
     return f"<dl>{said}</dl>" if said else ""
 
 

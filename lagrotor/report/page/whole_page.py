@@ -86,7 +86,8 @@ def _section(anchor: str, heading: str, report: Report) -> str:
     if anchor == "model":
         return report.model
     if anchor.startswith("section-"):
-        inside = _paper(report, anchor.removeprefix("section-"))
+        verdicts = report.sections[anchor.removeprefix("section-")]
+        inside = "\n".join(equation_entry(verdict, report) for verdict in verdicts)
     else:
         inside = _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
     return f'<section aria-labelledby="{anchor}"><h2 id="{anchor}">{escape(heading)}</h2>\n{inside}</section>'
@@ -129,10 +130,6 @@ def _derivations(report: Report) -> str:
 
 def _errata(report: Report) -> str:
     return "\n".join(map(erratum_entry, errata(report.verdicts, report.paper)))
-
-
-def _paper(report: Report, name: str) -> str:
-    return "\n".join(equation_entry(verdict, report) for verdict in report.sections[name])
 
 
 def _shown(part: ShownPart, report: Report) -> str:

@@ -30,11 +30,7 @@ def first_harmonic(order: int = 5) -> ClosedForm:
         sp.Integer(0),
     )
     form = _form("first_harmonic", "a_1", total, (r0, sigma, k), order)
-    return with_error(form, lambda series, given: np.array([[_first(series, r) for r in given[r0].tolist()]]))
-
-
-def _first(series: PairedSeries, amplitude: float) -> float:
-    return float(series.harmonics(amplitude)[1, 0])
+    return with_error(form, lambda series, given: np.array([[series.harmonics(r)[1, 0] for r in given[r0].tolist()]]))
 
 
 @cache
@@ -47,8 +43,8 @@ def amplitude_of_first_harmonic(order: int = 3) -> ClosedForm:
         guess = _through(a_1 - (forward - r0).subs(r0, guess), a_1, order)
 
     def reversed_series(series: PairedSeries, given: dict[sp.Symbol, Array]) -> Array:
-        found = np.polynomial.Polynomial(series.coefficients[:, 1, 0])
-        return np.array([[_root(found, size) for size in given[a_1].tolist()]])
+        harmonic = np.polynomial.Polynomial(series.coefficients[:, 1, 0])
+        return np.array([[_root(harmonic, size) for size in given[a_1].tolist()]])
 
     form = _form("amplitude_of_first_harmonic", "r_0", guess, (a_1, sigma, k), order)
     return with_error(form, reversed_series, lambda series, amplitude: 2 * series.remainder(amplitude).axes)

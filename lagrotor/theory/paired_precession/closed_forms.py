@@ -117,10 +117,12 @@ def paired_momentum(order: int = 4) -> ClosedForm:
     x, Y, z = orbit.x, orbit.Y, orbit.z
     Y2, z2 = Y.half_period_later(), z.half_period_later()
 
-    def carried(first: FourierSeries, second: FourierSeries) -> FourierSeries:
+    def weighted_slope(first: FourierSeries, second: FourierSeries) -> FourierSeries:
         return first.derivative().scaled(heavy) + second.derivative().scaled(light)
 
-    turning = Y * carried(z, z2) - z * carried(Y, Y2) + Y2 * carried(z2, z) - z2 * carried(Y2, Y)
+    turning = (
+        Y * weighted_slope(z, z2) - z * weighted_slope(Y, Y2) + Y2 * weighted_slope(z2, z) - z2 * weighted_slope(Y2, Y)
+    )
     total = (orbit.frequency * turning).scaled(s) + x + x.half_period_later()  # x_2 = −x_1 half a period later
     if any(h for _, h in total.terms):
         raise SingularError("paired_momentum: the momentum varies along the orbit: the series is wrong")
@@ -146,8 +148,8 @@ def _scaled_inertias(series: PairedSeries) -> tuple[float, float]:
 
 def _momentum(series: PairedSeries, given: Values) -> Array:
     inertias = _scaled_inertias(series)
-    found = [(series.harmonics(r), series.relative_frequency(r)) for r in given[r0].tolist()]
-    return np.array([[harmonic_momentum(harmonics, rate, inertias, 1.0) for harmonics, rate in found]])
+    motions = [(series.harmonics(r), series.relative_frequency(r)) for r in given[r0].tolist()]
+    return np.array([[harmonic_momentum(harmonics, rate, inertias, 1.0) for harmonics, rate in motions]])
 
 
 def _momentum_rest(series: PairedSeries, amplitude: float) -> float:

@@ -38,7 +38,7 @@ def with_error(form: ClosedForm, reference: SeriesReference, rest: Rest = of_axe
         given = dict(zip(form.arguments, values, strict=True))
         ones = np.ones_like(values[0])
         places = np.stack([values[0], given.get(sigma, ones), given.get(k, ones)])
-        found = np.empty((len(form.outputs), values[0].size))
+        bounds = np.empty((len(form.outputs), values[0].size))
         for place in np.unique(places, axis=1).T:
             here = (places == place[:, None]).all(0)
             shape, ratio = map(sp.Rational, place[1:])
@@ -47,8 +47,8 @@ def with_error(form: ClosedForm, reference: SeriesReference, rest: Rest = of_axe
             exact, left = reference(series, part), _rest(form.name, series, rest, float(place[0]))
             mine = np.reshape(form(*(part[s] for s in form.arguments)), exact.shape)
             apart = np.abs(mine - exact)
-            found[:, here] = apart + _ROUNDED * apart.max(0) + left
-        return found
+            bounds[:, here] = apart + _ROUNDED * apart.max(0) + left
+        return bounds
 
     return replace(form, bound=bound)
 

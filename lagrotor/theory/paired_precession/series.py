@@ -86,19 +86,19 @@ class PairedSeries:
     @property
     def coefficients(self) -> Array:
         """Of r_1, for a numeric bar, (order + 1, order + 1, 3): [n, h] belongs to r0**n and harmonic h."""
-        found = np.zeros((self.order + 1, self.order + 1, 3))
+        table = np.zeros((self.order + 1, self.order + 1, 3))
         for i, (part, width) in enumerate(((self.x, 1.0), (self.Y, sqrt(self.shape)), (self.z, 1.0))):
             for (n, h), value in part.terms.items():
-                found[n, abs(h), i] = width * float(value)
-        return found
+                table[n, abs(h), i] = width * float(value)
+        return table
 
     @property
     def frequency_coefficients(self) -> Array:
         """Of Omega/Omega_0 in powers of r0, for a numeric bar: (order + 1,)."""
-        found = np.zeros(self.order + 1)
+        row = np.zeros(self.order + 1)
         for (n, _), value in self.frequency.terms.items():
-            found[n] = float(value)
-        return found
+            row[n] = float(value)
+        return row
 
     def harmonics(self, r0: float) -> Array:
         """Harmonics (order + 1, 3) of r_1 at amplitude r0."""
@@ -237,5 +237,5 @@ def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> Pa
     field = field_of(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
-    found = lindstedt_poincare(exactly, unknowns_at_rest(field), mode, order, field, numeric=numeric)
-    return PairedSeries(found, order, shape, ratio, field)
+    solution = lindstedt_poincare(exactly, unknowns_at_rest(field), mode, order, field, numeric=numeric)
+    return PairedSeries(solution, order, shape, ratio, field)

@@ -75,9 +75,9 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
 
 def _numbers(series: PairedSeries, order: int) -> Array:
     """A and B of a bar with numbers, in powers of r_0: (2, order + 1)."""
-    found = exponent_series(order, series.shape, series.ratio, exact=False)
+    exponents = exponent_series(order, series.shape, series.ratio, exact=False)
     values = np.zeros((2, order + 1))
-    for row, part in zip(values, (found.A, found.B), strict=True):
+    for row, part in zip(values, (exponents.A, exponents.B), strict=True):
         for (n, _), value in part.terms.items():
             row[n] = float(value)
     return values
