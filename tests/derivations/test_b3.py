@@ -38,7 +38,7 @@ def test_the_figure_draws_these_points(made, drawn):
     assert len(picture.axes) == 4
     lines = {line.get_label(): line for line in picture.axes[2].get_lines()}
     for i, name in enumerate(drawn["LOOKS"]):
-        np.testing.assert_array_equal(lines[name].get_ydata(), data["rhs of rods"][i])
+        np.testing.assert_allclose(lines[name].get_ydata(), 1e6 * data["rhs of rods"][i])  # in µs
     measured = [x for x in made["found"].measured if x.kind == "rods"]
     assert np.isfinite(data["rhs of rods"]).sum() == len([x for x in measured if x.rhs])
 
