@@ -84,6 +84,7 @@ _MATRICES = ("matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "s
              "bsmallmatrix", "pmatrix*", "bmatrix*")  # fmt: skip
 ROWS = ("aligned", "split", "gathered", "alignedat", "multlined", "align", "align*", "gather", "gather*", "eqnarray*", "eqnarray",
         "IEEEeqnarraybox", "rcases@", "equation", "equation*")  # fmt: skip
+_PAIRS = ("aligned", "alignedat", "align", "align*", "split")
 _CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
 _MOST = 200  # brackets within brackets
 
@@ -241,16 +242,23 @@ class _Reader:
         return found
 
     def extend(self, found: list[Box], style: str) -> None:
+        first = self.peek()
+        braced = first is not None and first.kind == "open"
         made = self.single(style)
         following = self.peek()
         scripted = following is not None and following.kind == "script"
         before = found[-1] if found else None
+        if style == "upright" and before is not None and _joins(before, made) and before.end == made[0].at:
+            before.name += made[0].name
+            before.end = made[0].end
+            return
         numbers = before is not None and before.kind == "number" and len(made) == 1 and made[0].kind == "number"
         if numbers and before is not None and before.end == made[0].at and before.sup is None and before.sub is None:
             before.name += made[0].name
             before.end = made[0].end
             return
-        if scripted and len(made) > 1:
+        own = any(box.sub is not None or box.sup is not None or box.primes for box in made)
+        if scripted and made and (len(made) > 1 or (braced and own)):
             made = [Box("group", "", made[0].at, self.end, [made])]
         found += made
 
@@ -426,6 +434,8 @@ class _Reader:
                 box.style = style
             elif box.kind == "letter":
                 box.upright = True
+            elif box.kind == "number" and box.name == "1" and style:  # the unit matrix
+                box.kind, box.name, box.style = "letter", "one", style
         return content
 
     def plain_ahead(self) -> str | None:
@@ -506,6 +516,8 @@ class _Reader:
                 raise StopError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
             self.take()
             if after.text == "&":
+                if name in _PAIRS and len(rows[-1]) % 2 == 0:  # every second & begins another equation
+                    rows[-1][-1].append(Box("wide", "", after.at, after.at + 1))
                 rows[-1].append([])
             elif after.text in (r"\\", r"\cr"):
                 self.bracketed()
@@ -548,6 +560,14 @@ class _Reader:
 
     def _pmod(self, item: Token, style: str) -> list[Box]:
         raise StopError(item.at, r"\pmod is not read", "keep it aside")
+
+
+def _joins(before: Box, made: list[Box]) -> bool:
+    """Whether an upright letter goes on with the word before it."""
+    alone = (
+        before.kind == "letter" and before.upright and before.sub is None and before.sup is None and not before.marks
+    )
+    return alone and len(made) == 1 and made[0].kind == "letter" and made[0].upright and len(made[0].name) == 1
 
 
 def _is_unit(word: str) -> bool:

@@ -23,6 +23,7 @@ _ROWS = (
     "subnumcases",
 )
 _ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath", "dmath", "math@")
+_PAIRS = ("align", "alignat", "flalign", "xalignat", "xxalignat")  # in which every second & begins another equation
 _WITH_ARGUMENT = ("alignat", "xalignat", "xxalignat", "IEEEeqnarray", "numcases", "subnumcases")
 _NEVER = ("displaymath", "xxalignat")
 _LEVELS = ("part", "chapter", "section", "subsection", "subsubsection")
@@ -157,10 +158,7 @@ class _Walker:
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
             self.body = True
-            self.expander.packages = {
-                **packages.commands(self.expander.loaded),
-                **{k: v for k, v in self.expander.packages.items() if k not in packages.commands((), everything=True)},
-            }
+            self.expander.packages = packages.commands(self.expander.loaded)
         elif name in ("subequations", "dgroup"):
             kept = self._begin_subequations()
             self._until(name)
@@ -315,7 +313,8 @@ class _Walker:
             self._withdraw(row)
             if name == r"\tag":
                 self.expander.star()
-                row.tag = _plain_number(latex_of(self.expander.expand(self.expander.argument())))
+                shown = latex_of(self.expander.expand(self.expander.argument()))
+                row.tag = _plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, shown))
             else:
                 rest = self.expander.argument()
                 row.tag = _plain_number(latex_of(rest))
@@ -340,6 +339,9 @@ class _Walker:
                 self.expander.argument()
             return True
         return False
+
+    def _number_of(self, label: re.Match[str]) -> str:
+        return self.found.labels.get(label[1], "")
 
     def _finish(self, row: Row, by_rows: bool) -> None:
         """The number of a row that has ended."""
@@ -411,7 +413,7 @@ class _Walker:
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
         else:
-            latex = _without_columns(group[0].tokens)
+            latex = _without_columns(group[0].tokens, kind)
         if kind == "multline" and r"\\" in latex:
             latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
         if lead:
@@ -481,15 +483,19 @@ def _left_side(source: str) -> str:
     return source[: match.start()].replace("&", " ").strip() if match else ""
 
 
-def _without_columns(tokens: list[Token]) -> str:
-    """The tokens of a row as LaTeX without the & of the row itself."""
-    depth = braces = 0
+def _without_columns(tokens: list[Token], kind: str) -> str:
+    """The tokens of a row as LaTeX without the & of the row itself; every second one parts two equations of align."""
+    depth = braces = columns = 0
     kept: list[Token] = []
     for token in tokens:
         depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0) if is_word(token) else 0
         braces += {"open": 1, "close": -1}.get(token.kind, 0)
         if token.kind == "align" and depth == 0:
-            kept.append(Token("text", " ", token.at))
+            columns += 1
+            parts = "cases" in kind or (columns % 2 == 0 and kind in _PAIRS)
+            kept += [Token("command", r"\quad", token.at)] if parts else [Token("text", " ", token.at)]
+        elif token.kind == "math" and "cases" in kind:
+            continue
         else:
             kept.append(token)
     return " ".join(latex_of(kept).split())

@@ -44,6 +44,7 @@ class Expander:
 
     def __init__(self, text: str, file: Path | None = None, packages: dict[str, Package] | None = None) -> None:
         self.file, self.packages = file, packages or {}
+        self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
         self.macros: dict[str, Macro | None] = {}
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
         self.flags: dict[str, bool] = {}
@@ -207,8 +208,9 @@ class Expander:
             self._count(name)
             self.push(self._body(macro, token))
             return True
-        if name in self.packages and name not in self.macros:
-            given = self.packages[name](self)
+        command = self.own.get(name) or self.packages.get(name)
+        if command is not None and name not in self.macros:
+            given = command(self)
             if given is None:
                 return False
             self._count(name)
@@ -459,7 +461,7 @@ class Expander:
             if known is not None:
                 self.macros[target.text] = known
             elif source.kind == "command" and source.text in self.packages:
-                self.packages = {**self.packages, target.text: self.packages[source.text]}
+                self.own[target.text] = self.packages[source.text]
             elif source.text != target.text:
                 kind = "primitive" if source.kind == "command" else source.kind
                 self.macros[target.text] = Macro((Token(kind, source.text, source.at),))
@@ -485,7 +487,7 @@ class Expander:
                 return [opened, *left, *inside, closed, *right]
 
             self.macros.pop(named[0].text, None)
-            self.packages = {**self.packages, named[0].text: paired}
+            self.own[named[0].text] = paired
         return True
 
     def _document_command(self, token: Token) -> bool:
@@ -667,7 +669,7 @@ class Expander:
 
             return take
 
-        self.packages = {**self.packages, rf"\{short}true": setter(True), rf"\{short}false": setter(False)}
+        self.own |= {rf"\{short}true": setter(True), rf"\{short}false": setter(False)}
 
     def _ignored(self, token: Token) -> bool:
         return True

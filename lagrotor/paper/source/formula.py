@@ -23,6 +23,7 @@ from lagrotor.paper.source.usage import (
 _ANGLES = ("theta", "phi", "varphi", "psi", "alpha", "beta", "vartheta", "gamma", "chi")
 _TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
+_GREEK = frozenset(name.removeprefix("\\") for name in GREEK)
 _UNIT = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s,·]|\\[,.%]|-?\d+|[{}]")
 
 
@@ -240,6 +241,11 @@ class _Formula:
                 continue
             latex = self.source[side[0].at : side[-1].end].strip()
             read.append(Side(self._side(side), latex, side[0].at))
+        degrees = {_degree(side.node, side.at) for side in read if not _zero(side.node)}
+        if len(degrees) > 1 and not any(relation in ("->", "in") for relation in relations):
+            raise StopError(
+                row[0].at, "a differential stands on one side only", "write the derivative, or both differentials"
+            )
         order = None
         final = read[-1].node
         if isinstance(final, Call) and final.name == "sum":
@@ -421,6 +427,7 @@ class _Formula:
         row = _trimmed(row)
         if not row:
             raise StopError(0, "a factor is missing", "write it")
+        _no_word(row)
         factors: list[Node] = []
         place = 0
         while place < len(row):
@@ -586,6 +593,18 @@ class _Formula:
                 )
             if called:
                 return self._call(box, row[place + 1]), place + 2
+        if place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "[":
+            inside = row[place + 1].parts[0]
+            if (
+                box.sup is None
+                and not any(b.kind == "operator" for b in inside[1:])
+                and not any(b.kind == "comma" for b in inside)
+            ):
+                raise StopError(
+                    box.at,
+                    f"whether {box.name}[…] is a functional or a product is open",
+                    "write \\cdot, or round brackets",
+                )
         if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
             after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
             if after is not None and after.kind not in _ENDING:
@@ -697,7 +716,7 @@ class _Formula:
         row = [b for b in box.sup or () if b.kind != "thin"]
         if len(row) == 1 and row[0].kind == "letter":
             name = row[0].name
-            if (name in _TENSOR or name in ("i", "j", "k", "a", "b")) and name in self.notation.lowered:
+            if (name in _GREEK or name in ("i", "j", "k", "a", "b")) and name in self.notation.lowered:
                 raise (
                     StopError(
                         row[0].at,
@@ -776,7 +795,10 @@ class _Formula:
     def _exponential(self, box: Box) -> Node:
         if box.sup is None:
             return Call("exp", (number(1),))
-        return Call("exp", (self.expression(box.sup),))
+        self.exponents += 1
+        power = self.expression(box.sup)
+        self.exponents -= 1
+        return Call("exp", (power,))
 
     def _imaginary(self, box: Box) -> Node:
         """i where it is no index."""
@@ -785,7 +807,7 @@ class _Formula:
             return Letter(name_of(box))
         if box.name in known.numbers or (box.upright and box.name == "i"):
             return Letter("imaginary_unit")
-        if known.imaginary and box.name == "i":
+        if known.imaginary and box.name == "i" and (self.exponents or "i" not in known.lowered):
             self.guesses.append("i is the imaginary unit")
             return Letter("imaginary_unit")
         raise StopError(
@@ -797,6 +819,8 @@ class _Formula:
     def _differential(self, row: list[Box], place: int) -> tuple[Node, int] | None:
         """dx, d^3 x."""
         box = row[place]
+        if box.upright and box.primes:
+            raise StopError(box.at, "a differential has a prime", "write what it means")
         behind = place + 1
         while behind < len(row) and row[behind].kind == "thin":
             behind += 1
@@ -833,6 +857,7 @@ class _Formula:
         return Call("differential", args), behind + 1
 
     integrating: int = 0
+    exponents: int = 0  # of e, within which the reading is
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int] | None:
         r"""\Delta x, \delta x as one letter."""
@@ -869,6 +894,8 @@ class _Formula:
         if pair in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lbrace", r"\rbrace"), (r"\lbrack", r"\rbrack")):
             return self._raised(self._inside(box, content), box), place + 1
         if pair in (("|", "|"), (r"\vert", r"\vert"), (r"\lvert", r"\rvert")):
+            if len(content) == 2 and all(b.kind == "letter" and b.name.isupper() and not b.style for b in content):
+                raise StopError(box.at, "whether the bars are a distance of points is open", "give it a letter")
             inner = self.expression(content)
             if isinstance(inner, Letter) and _is_matrix(inner):
                 self.guesses.append(f"|{inner.name}| is a length, no determinant")
@@ -903,7 +930,11 @@ class _Formula:
             return self.expression(content)
         if not all(parts):
             raise StopError(box.at, "a component is missing", "write it")
-        if len(parts) == 2 and all(len(p) == 1 and p[0].kind == "number" for p in parts) and box.name == "[":
+        if (
+            len(parts) == 2
+            and all(b.kind in ("number", "operator", "infinity") for p in parts for b in p)
+            and box.name == "["
+        ):
             raise StopError(box.at, "an interval is not read", "keep it aside")
         name = {"(": "column", "[": "commutator", r"\{": "poisson"}.get(box.name, "column")
         return Call(name, tuple(map(self.expression, parts)))
@@ -1323,7 +1354,8 @@ class _Formula:
             bounds = [self.expression(box.sub), self.expression(box.sup)]
         elif box.sub is not None or box.sup is not None:
             bounds = [Letter("over_" + "_".join(re.findall(r"\w+", self.source[(box.sub or box.sup)[0].at : box.end])))]  # type: ignore[index]
-        return Call("Integral", (inner, *differential.args, *bounds)), behind
+        variable_of = differential.args[0] if len(differential.args) == 1 else differential
+        return Call("Integral", (inner, variable_of, *bounds)), behind
 
     def _differential_at(self, rest: list[Box], box: Box) -> tuple[int, bool]:
         """Where the integral's differential ends, and whether it comes first."""
@@ -1388,6 +1420,49 @@ def _kind(relations: list[str]) -> str:
     if kinds <= {"=", ":=", "<", ">", "<=", ">=", "<<", ">>", "!="}:
         return "inequality"
     return "other"
+
+
+def _degree(node: Node, at: int) -> int:
+    """How many differentials its terms have as factors. Raises StopError where the terms of a sum have not as many."""
+    if not isinstance(node, Call):
+        return 0
+    if node.name == "differential":
+        return 1
+    degrees = [_degree(each, at) for each in node.args]
+    if node.name in ("product", "dot", "cross", "matmul"):
+        return sum(degrees)
+    if node.name == "quotient":
+        return degrees[0] - degrees[1]
+    if node.name == "power" and isinstance(node.args[1], Number):
+        return int(degrees[0] * node.args[1].value)
+    if node.name in ("sum", "plus_minus", "minus_plus", "column"):
+        terms = {d for d, each in zip(degrees, node.args, strict=True) if not _zero(each)}
+        if len(terms) > 1:
+            raise StopError(at, "a differential stands in one term only", "write what is added in each")
+        return terms.pop() if terms else 0
+    return degrees[0] if node.name in ("negative", "Sum", "Abs", "norm", "sqrt", "transpose") and degrees else 0
+
+
+_NAMES = (
+    "sin cos tan exp log ln det max min lim cot sinh cosh tanh arctan mat Mat vect Vect car dim ker Ker Hom End Aut rang rg grad "
+    "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot"
+)
+_WORDS = frozenset(_NAMES.split())
+
+
+def _no_word(row: list[Box]) -> None:
+    """Raise StopError where letters in a row are a word, const or sin, and no product."""
+    run = ""
+    for box in [*row, Box("thin", "", 0, 0)]:
+        plain = box.kind == "letter" and len(box.name) == 1 and not box.style and not box.marks
+        if plain:
+            run += box.name
+        if not plain or box.sub is not None or box.sup is not None or box.primes:
+            if len(run) > 4 or run in _WORDS or re.fullmatch("[A-Z][aeiou][a-z]+", run):
+                raise StopError(
+                    box.at or row[0].at, f"{run} is a word", "write \\text{…} for words, and \\sin for functions"
+                )
+            run = ""
 
 
 def _zero(node: Node) -> bool:
@@ -1522,12 +1597,20 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
         if node.name == "sum" and _holds(node.args[-1]):
             inner, found = _taken_out(node.args[-1], box)
             return Call("sum", (*node.args[:-1], inner)), found
+        if node.name in ("dot", "cross") and _holds(node.args[-1]) and not _vector_differential(node.args[-1]):
+            inner, found = _taken_out(node.args[-1], box)
+            return Call(node.name, (*node.args[:-1], inner)), found
         if node.name in ("dot", "cross") and _holds(node.args[-1]):
             differential = next(
                 each for each in walk(node.args[-1]) if isinstance(each, Call) and each.name == "differential"
             )
             return node, differential
     raise StopError(box.at, "the differential is no factor of what is integrated", "write it at the end")
+
+
+def _vector_differential(node: Node) -> bool:
+    """Whether the differential is of a vector, as in F·dr."""
+    return any(_has_differential(each) and vector_valued(each) for each in walk(node))
 
 
 def _holds(node: Node) -> bool:

@@ -175,6 +175,8 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
             if any(b.kind == "letter" and b.name in ("i", "j") for b in box.sup):
                 found.imaginary = True
         return
+    if box.upright:
+        return
     key = name_of(box, index_of(box) or ())
     if following is not None and following.kind == "bracket" and following.name == "(" and box.sup is None:
         content = following.parts[0]

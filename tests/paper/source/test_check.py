@@ -1,0 +1,113 @@
+"""A source by itself: slips are found with their line, what may be physics is left alone."""
+
+from pathlib import Path
+
+import pytest
+
+from lagrotor.commands.command_line import main
+from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, Finding, check
+
+
+def findings(folder: Path, body: str) -> list[Finding]:
+    file = folder / "paper.tex"
+    file.write_text(
+        f"\\documentclass{{article}}\\usepackage{{amsmath}}\n\\begin{{document}}\n{body}\n\\end{{document}}\n"
+    )
+    return check(file)
+
+
+def verdicts(folder: Path, body: str) -> list[str]:
+    return [each.verdict for each in findings(folder, body)]
+
+
+SQUARE = (
+    r"\begin{equation} T = \frac12 m(\dot x + l\dot\phi)^2"
+    r" = \frac12 m(\dot x^2 SIGN 2 l\dot x\dot\phi + l^2\dot\phi^2)\end{equation}"
+)
+
+
+def test_a_wrong_sign_within_a_chain_is_found_with_its_line_and_term(tmp_path: Path) -> None:
+    assert verdicts(tmp_path, SQUARE.replace("SIGN", "+")) == [HOLDS]
+    (found,) = findings(tmp_path, "\n" + SQUARE.replace("SIGN", "-"))
+    assert (found.verdict, found.step, found.line) == (REFUTED, 2, 4)
+    assert "with the sign of" in found.why
+
+
+def test_a_slip_between_two_rows_has_the_line_of_its_row(tmp_path: Path) -> None:
+    body = "\\begin{align}\n E &= m v^2 + 2 m g h \\\\\n &= m(v^2 + 2 g h) \\\\\n &= m(v^2 - 2 g h)\n\\end{align}"
+    found = findings(tmp_path, body)
+    assert [(each.equation, each.verdict, each.line) for each in found] == [("2", HOLDS, 5), ("3", REFUTED, 6)]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        r"\begin{equation} F = -k x = m\ddot x \end{equation}",
+        r"\begin{equation} 0 = m_1 a + m_2 b = m_1(a + g) + m_2(a - b) \end{equation}",
+        r"\begin{equation} f = x^2 - l^2 = 0 \end{equation}",
+        r"\begin{equation} A = \int_0^1 x\,dx = B \end{equation}",
+    ],
+)
+def test_what_may_be_physics_is_not_refuted(body: str, tmp_path: Path) -> None:
+    assert set(verdicts(tmp_path, body)) <= {"undecided", HOLDS}
+
+
+def test_definitions_before_are_put_in(tmp_path: Path) -> None:
+    body = r"\begin{equation} v = l\omega \end{equation}\begin{equation} T = \frac12 m v^2 = \frac12 m l^2\omega^2 \end{equation}"
+    (found,) = findings(tmp_path, body)
+    assert (found.verdict, found.why) == (HOLDS, "with (1)")
+
+
+CITED = r"""\begin{equation} v = \omega r \label{v}\end{equation} \begin{equation} F = \frac{m v^2}{r} + b\label{F}\end{equation}
+With \eqref{v} in \eqref{F}, \begin{equation} F = m\omega^2 r SIGN b \end{equation}"""
+
+
+def test_an_equation_is_held_against_those_that_it_cites(tmp_path: Path) -> None:
+    assert verdicts(tmp_path, CITED.replace("SIGN", "+")) == [HOLDS]
+    (found,) = findings(tmp_path, CITED.replace("SIGN", "-"))
+    assert found.verdict == REFUTED and "(1) in (2)" in found.why
+
+
+@pytest.mark.parametrize(("power", "verdict"), [("6", HOLDS), ("3", REFUTED)])
+def test_an_order_that_is_claimed_is_checked(power: str, verdict: str, tmp_path: Path) -> None:
+    body = rf"\begin{{equation}} y = \sin\epsilon = \epsilon - \frac{{\epsilon^3}}{{{power}}} + O(\epsilon^5)\end{{equation}}"
+    assert verdicts(tmp_path, body) == [verdict]
+
+
+def test_dimensions_that_contradict_those_of_other_equations_are_found(tmp_path: Path) -> None:
+    good = [
+        r"F = m a",
+        r"a = \ddot x",
+        r"v = \dot x",
+        r"F = k x",
+        r"E = \frac12 m v^2",
+        r"E = F x",
+        r"p = m v",
+        r"P = F v",
+    ]
+    body = "".join(rf"\begin{{equation}} {each} \end{{equation}}" for each in good)
+    assert UNITS not in verdicts(tmp_path, body)
+    found = findings(tmp_path, body + r"\begin{equation} E = F x + F\dot x \end{equation}")
+    assert [(each.equation, each.verdict) for each in found] == [("9", UNITS)]
+
+
+def test_two_definitions_and_a_use_before_the_definition_are_found(tmp_path: Path) -> None:
+    body = "".join(
+        rf"\begin{{equation}} {each} \end{{equation}}" for each in ("y = H x", r"H \equiv a + b", "H := a - b")
+    )
+    assert set(verdicts(tmp_path, body)) == {BEFORE, MEANINGS}
+
+
+def test_the_command_gives_rows_for_an_editor_and_an_exit_status(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import json
+
+    findings(tmp_path, SQUARE.replace("SIGN", "-"))
+    assert main(["check", str(tmp_path / "paper.tex"), "--json"]) == 1
+    (row,) = json.loads(capsys.readouterr().out)
+    assert sorted(row) == ["equation", "line", "step", "verdict", "why"]
+    findings(tmp_path, SQUARE.replace("SIGN", "+"))
+    assert main(["check", str(tmp_path / "paper.tex")]) == 0
+    findings(tmp_path, "no formula")
+    assert main(["check", str(tmp_path / "paper.tex")]) == 0

@@ -1,0 +1,110 @@
+"""A folder made from a source, and made again: what is confirmed or derived stays, what has changed is marked."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.paper import Paper
+from lagrotor.paper.source.start import begin, confirm
+
+TEX = r"""\documentclass{article}
+\newcommand{\half}{\frac{1}{2}}
+\begin{document}
+\section{Energy}
+\begin{equation}\label{eq:T} T = \half m v^2 \end{equation}
+\begin{equation}\label{eq:p} p = m v \end{equation}
+\begin{equation} \vec L = \vec r\times\vec p \end{equation}
+\end{document}
+"""
+
+
+def rows(folder: Path) -> dict[str, dict[str, Any]]:
+    given = tomllib.loads((folder / "equations.toml").read_text(encoding="utf-8"))
+    return {row["id"]: row for row in given["equation"]}
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    file = tmp_path / "paper.tex"
+    file.write_text(TEX, encoding="utf-8")
+    begin(tmp_path / "mine", file)
+    return file
+
+
+def test_macros_are_expanded_in_what_is_stored_and_nothing_is_confirmed(source: Path) -> None:
+    folder = source.parent / "mine"
+    found = rows(folder)
+    assert found["1"]["latex"] == r"T = \frac{1}{2} m v^2" and found["1"]["label"] == "eq:T"
+    assert {row["read"] for row in found.values()} == {"unconfirmed"}
+    paper = Paper(folder)
+    assert not paper.equation("1").is_confirmed
+    assert [str(member) for line in paper.lines("1") for member in line.members] == ["m*v**2/2"]
+    assert paper.lines("3")[0].members[0].shape == (3, 1), "vectors are declared"
+
+
+def test_what_is_confirmed_stays_and_what_has_changed_is_marked(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1", "2"])
+    assert Paper(folder).equation("1").is_confirmed
+    more = r"\begin{equation} q = 1 \end{equation}" + "\n" + r"\begin{equation}\label{eq:T}"
+    source.write_text(
+        TEX.replace(r"\begin{equation}\label{eq:T}", more).replace("p = m v", "p = 2 m v"), encoding="utf-8"
+    )
+    made = begin(folder, source)
+    found = rows(folder)
+    assert (found["1"]["label"], found["1"]["number"], found["1"]["read"]) == ("eq:T", "2", "confirmed"), "its id stays"
+    assert (found["2"]["read"], found["2"]["changed"]) == ("unconfirmed", "p = m v") and made.changed == ("2",)
+    assert [row["latex"] for i, row in found.items() if i not in "123"] == ["q = 1"]
+
+
+def test_an_equation_that_is_gone_stays_where_a_derivation_states_it(source: Path) -> None:
+    folder = source.parent / "mine"
+    (folder / "derivations" / "s1.py").write_text('verdict("2", 1)\n', encoding="utf-8")
+    kept = [line for line in TEX.splitlines() if "eq:p" not in line and "vec" not in line]
+    source.write_text("\n".join(kept), encoding="utf-8")
+    made = begin(folder, source)
+    assert rows(folder)["2"]["read"] == "gone" and "3" not in rows(folder) and set(made.gone) == {"2", "3"}
+
+
+def test_a_confirmation_is_of_this_print_and_these_members(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1"])
+    file = folder / "equations.toml"
+    file.write_text(file.read_text(encoding="utf-8").replace("1/2*m*v**2", "2*m*v**2"), encoding="utf-8")
+    assert not Paper(folder).equation("1").is_confirmed
+    with pytest.raises(InputError, match="no equation '9'"):
+        confirm(folder, ["9"])
+
+
+def test_numbers_beside_the_source_are_taken_and_a_difference_is_said(source: Path) -> None:
+    source.with_suffix(".aux").write_text(r"\newlabel{eq:T}{{7}{1}}" + "\n", encoding="utf-8")
+    made = begin(source.parent / "other", source)
+    assert rows(source.parent / "other")["7"]["label"] == "eq:T"
+    assert "eq:T is (7) in paper.aux and (1) by the source" in made.notes[0]
+
+
+def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = str(source.parent / "mine")
+    assert main(["readings", folder]) == 0
+    out = capsys.readouterr().out
+    assert "1  eq:T: unconfirmed" in out and r"print    T = \frac{1}{2} m v^2" in out
+    assert main(["readings", folder, "--confirm", "1"]) == 0
+    assert main(["readings", folder, "--json"]) == 0
+    assert '"status": "confirmed"' in capsys.readouterr().out
+
+
+def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source: Path, tmp_path: Path) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "note.txt").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="is no paper"):
+        begin(tmp_path / "full", source)
+    with pytest.raises(InputError, match="is a paper already"):
+        begin(tmp_path / "mine")
+    (tmp_path / "empty.tex").write_text("no formula", encoding="utf-8")
+    with pytest.raises(InputError, match="no displayed equation"):
+        begin(tmp_path / "new", tmp_path / "empty.tex")
+    assert not (tmp_path / "new").exists()
