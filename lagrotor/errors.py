@@ -15,6 +15,10 @@ class NotExactError(LagrotorError, ValueError):
     """An expression outside the class that is decided exactly."""
 
 
+class TooLargeError(NotExactError):
+    """An exact decision would take more work than it may."""
+
+
 class DomainError(LagrotorError, ValueError):
     """A closed form evaluated outside its domain."""
 

@@ -1,32 +1,55 @@
 """Values at a rational point enclosed in intervals: what they exclude is proved, at that point.
 
-Outward rounding at every operation (mpmath.iv). Moore, Kearfott & Cloud, Introduction to Interval Analysis, chs. 2, 7.
+Outward rounding at every operation (mpmath.iv); a complex value is enclosed in a rectangle.  A point may also hold values of
+unknown functions and their derivatives, which are free at different arguments.  Moore, Kearfott & Cloud, Introduction to
+Interval Analysis, chs. 2, 7.
 """
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import contextmanager
 from functools import reduce
 from operator import add, mul
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
-from mpmath import iv
+from mpmath import iv, libmp
+from mpmath.ctx_iv import ivmpc
+from sympy.core.function import AppliedUndef
 
-from lagrotor.algebra.evidence import Point
+from lagrotor.algebra.special_enclosures import SPECIAL
 from lagrotor.errors import NotExactError
 
+Point: TypeAlias = dict[sp.Expr, sp.Expr]
+
 _DIGITS = 50
-_FUNCTIONS: dict[Any, Any] = {
-    sp.sin: lambda x: iv.sin(x),
-    sp.cos: lambda x: iv.cos(x),
-    sp.tan: lambda x: iv.sin(x) / iv.cos(x),
-    sp.cot: lambda x: iv.cos(x) / iv.sin(x),
-    sp.sec: lambda x: 1 / iv.cos(x),
-    sp.csc: lambda x: 1 / iv.sin(x),
-    sp.exp: lambda x: iv.exp(x),
-    sp.sinh: lambda x: (iv.exp(x) - iv.exp(-x)) / 2,
-    sp.cosh: lambda x: (iv.exp(x) + iv.exp(-x)) / 2,
-    sp.tanh: lambda x: 1 - 2 / (iv.exp(2 * x) + 1),
-}
+_MOST_TERMS = 3000  # of a sum
+_LARGEST = 1e6  # arguments of functions: beyond, their values have too many digits
+_CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
+
+
+@contextmanager
+def digits(number: int) -> Any:
+    before, iv.dps = iv.dps, number
+    try:
+        yield
+    finally:
+        iv.dps = before
+
+
+def enclosed_at(expression: sp.Expr, point: Point, precision: int = _DIGITS) -> Any:
+    """An interval, or a rectangle of the complex plane, that holds the value at the point.
+
+    Raises NotExactError where none is known.
+    """
+    with digits(precision):
+        return Enclosure(point).value(expression)
+
+
+def excludes_zero(value: Any) -> bool:
+    """Whether 0 lies outside an enclosure."""
+    return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
 
 
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
@@ -34,15 +57,13 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
 
     Raises NotExactError where something has no enclosure, or A is not shown to be regular.
     """
-    before, iv.dps = iv.dps, _DIGITS
-    try:
-        known: dict[sp.Expr, Any] = {}
-        rows = [[_enclosed(e, point, known) for e in row] for row in A.row_join(b).tolist()]
-        return _eliminated(rows)
-    except (ArithmeticError, ValueError) as error:
-        raise NotExactError(f"Not enclosed at {point}: {error}.") from None
-    finally:
-        iv.dps = before
+    with digits(_DIGITS):
+        try:
+            enclosure = Enclosure(point)
+            rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
+            return _eliminated(rows)
+        except (ArithmeticError, ValueError, libmp.ComplexResult) as error:
+            raise NotExactError(f"Not enclosed at {point}: {error}.") from None
 
 
 def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
@@ -50,29 +71,277 @@ def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
     return next((i for i, (x, y) in enumerate(zip(left, right, strict=True)) if x.b < y.a or y.b < x.a), None)
 
 
-def _enclosed(e: sp.Expr, point: Point, known: dict[sp.Expr, Any]) -> Any:
-    if e not in known:
-        known[e] = _of_parts(e, [_enclosed(part, point, known) for part in e.args]) if e.args else _leaf(e, point)
-    return known[e]
+class Enclosure:
+    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there."""
+
+    def __init__(self, point: Mapping[sp.Expr, sp.Expr]) -> None:
+        self.point = point
+        self.known: dict[sp.Expr, Any] = {}
+        self.jets: dict[sp.Expr, sp.Expr] = {}
+        self.free: list[tuple[Any, tuple[Any, ...], Any]] = []  # (jet, arguments, value)
+
+    @property
+    def real(self) -> bool:
+        """Whether everything that was enclosed is real, but for i itself."""
+        return not any(_is_complex(value) for e, value in self.known.items() if e is not sp.I)
+
+    def value(self, e: sp.Expr) -> Any:
+        """The enclosure; raise NotExactError where none is known."""
+        try:
+            return self.of(e)
+        except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError) as error:
+            raise NotExactError(f"Not enclosed at {self.point}: {error}.") from None
+
+    def of(self, e: sp.Expr) -> Any:
+        if e not in self.known:
+            value = self._sought(e)
+            if not all(part.a > -iv.inf and part.b < iv.inf for part in (value.real, value.imag)):
+                raise NotExactError(f"{e} is not enclosed: it is not bounded.")
+            self.known[e] = value
+        return self.known[e]
+
+    def _sought(self, e: sp.Expr) -> Any:
+        if e in self.point:
+            return self.of(self.point[e])
+        if not e.args:
+            return _leaf(e)
+        if isinstance(e, sp.Sum | sp.Product):
+            return self._repeated(e)
+        if isinstance(e, sp.Integral):
+            return self._integral(e)
+        if (jet := jet_of(e)) is not None:
+            value = self.jets[e] = self._jet(*jet)
+            return _leaf(value)
+        if e.is_Add or e.is_Mul:
+            return reduce(add if e.is_Add else mul, map(self.of, e.args))
+        if e.is_Pow:
+            exponent = self._order(e.exp)
+            return _power(e, self.of(e.base), exponent if exponent.is_Rational else self.of(e.exp))
+        if e.func in SPECIAL:
+            orders = [self._order(part) for part in e.args]
+            return SPECIAL[e.func](orders, [self.of(part) for part in e.args])
+        if e.func not in _FUNCTIONS or len(e.args) != 1:
+            raise NotExactError(f"{e.func} is not enclosed.")
+        return _FUNCTIONS[e.func](self.of(e.args[0]))
+
+    def _order(self, e: sp.Expr) -> sp.Expr:
+        """An exponent or an order, put in where it is a sum of products of letters."""
+        plain = all(n.is_Add or n.is_Mul or n.is_Atom for n in sp.preorder_traversal(e))
+        return e.xreplace(dict(self.point)) if plain else e
+
+    def _integral(self, e: sp.Expr) -> Any:
+        """Of an unknown f(u) du alone: its antiderivative is as free as f is."""
+        body, (u, *ends), *others = e.args
+        if others or not isinstance(body, AppliedUndef) or body.args != (u,):
+            raise NotExactError(f"{e} is not enclosed.")
+        values = [self._jet((body.func, (-1,)), (end,)) for end in (ends or [u])]
+        if len(values) == 2:
+            self.jets[e] = values[1] - values[0]
+        return _leaf(values[-1]) - (_leaf(values[0]) if len(values) == 2 else 0)
+
+    def _repeated(self, e: sp.Expr) -> Any:
+        """A sum or a product between whole numbers."""
+        body, (index, low, high), *others = e.args
+        start, end = (sp.sympify(side).xreplace(dict(self.point)) for side in (low, high))
+        if others or not (start.is_Integer and end.is_Integer) or end - start > _MOST_TERMS:
+            raise NotExactError(f"{e} is not enclosed.")
+        total = iv.mpf(0 if isinstance(e, sp.Sum) else 1)
+        for k in range(int(start), int(end) + 1):
+            inner = Enclosure({**self.point, index: sp.Integer(k)})
+            inner.free, inner.jets = self.free, self.jets
+            term = inner.of(body.xreplace({index: sp.Integer(k)}))
+            total = total + term if isinstance(e, sp.Sum) else total * term
+        return total
+
+    def _jet(self, kind: Any, arguments: tuple[sp.Expr, ...]) -> sp.Rational:
+        """A free value: the same at arguments that may be equal, chosen anew at others."""
+        at = tuple(map(self.of, arguments))
+        for other, places, value in self.free:
+            if other == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
+                return value
+        k = len(self.free)
+        value = sp.Rational(2 * k + 3, 3 * k + 4) + k % 3
+        self.free.append((kind, at, value))
+        return value
 
 
-def _leaf(e: sp.Expr, point: Point) -> Any:
-    value = point.get(e, e)
+def jet_of(e: sp.Expr) -> tuple[Any, tuple[sp.Expr, ...]] | None:
+    """A derivative of an unknown function as (function, how often by each argument), and the arguments; None elsewhere."""
+    if isinstance(e, sp.Subs):
+        inner = jet_of(e.expr)
+        if inner is None or not set(e.variables) <= set(inner[1]):
+            return None
+        put = dict(zip(e.variables, e.point, strict=True))
+        return inner[0], tuple(a.xreplace(put) for a in inner[1])
+    if isinstance(e, sp.Derivative):
+        inner = e.expr
+        if not isinstance(inner, AppliedUndef) or len(set(inner.args)) < len(inner.args):
+            return None
+        counts = dict(e.variable_count)
+        if not set(counts) <= set(inner.args) or not all(c.is_Integer for c in counts.values()):
+            return None
+        if any(a != c and a.has(c) for a in inner.args for c in counts):
+            return None
+        return (inner.func, tuple(int(counts.get(a, 0)) for a in inner.args)), inner.args
+    if isinstance(e, AppliedUndef):
+        return (e.func, (0,) * len(e.args)), e.args
+    return None
+
+
+def _leaf(value: sp.Expr) -> Any:
     if value.is_Rational:
         return iv.mpf(value.p) / value.q
-    if value is sp.pi:
-        return iv.pi
+    if value in _CONSTANTS:
+        return _CONSTANTS[value]()
     raise NotExactError(f"{value} is not enclosed.")
 
 
-def _of_parts(e: sp.Expr, parts: list[Any]) -> Any:
-    if e.is_Add or e.is_Mul:
-        return reduce(add if e.is_Add else mul, parts)
-    if e.is_Pow and e.exp.is_Rational and e.exp.q <= 2:
-        return (parts[0] if e.exp.q == 1 else iv.sqrt(parts[0])) ** int(e.exp.p)
-    if e.func not in _FUNCTIONS:
-        raise NotExactError(f"{e.func} is not enclosed.")
-    return _FUNCTIONS[e.func](parts[0])
+def _real(x: Any) -> Any:
+    if isinstance(x, ivmpc):
+        raise NotExactError("A complex value is not enclosed.")
+    return x
+
+
+def _is_complex(x: Any) -> bool:
+    return isinstance(x, ivmpc)
+
+
+def _power(e: sp.Expr, base: Any, exponent: Any) -> Any:
+    if isinstance(exponent, sp.Rational):
+        if exponent.is_Integer:
+            if abs(exponent) > _LARGEST:
+                raise NotExactError(f"{e} is not enclosed: its exponent is too large.")
+            return base ** int(exponent) if exponent > 0 else 1 / base ** int(-exponent)
+        if exponent.q == 2:
+            return _power(e, _sqrt(base), sp.Integer(exponent.p))
+        exponent = iv.mpf(exponent.p) / exponent.q
+    if not _is_complex(base) and not _is_complex(exponent) and base.a == base.b == 0 and exponent.a > 0:
+        return iv.mpf(0)
+    return _exp(exponent * _log(base))
+
+
+def _exp(x: Any) -> Any:
+    if abs(x).b > _LARGEST:
+        raise NotExactError("An argument of exp is too large.")
+    return iv.exp(x)
+
+
+def _log(x: Any) -> Any:
+    """Principal; on the cut, the negative real axis, its imaginary part is π."""
+    if not _is_complex(x):
+        if x.a > 0:
+            return iv.log(x)
+        if x.b < 0:
+            return iv.mpc(iv.log(-x), iv.pi)
+        raise NotExactError("A logarithm of an interval that holds 0 is not enclosed.")
+    if 0 in x.real and 0 in x.imag:
+        raise NotExactError("A logarithm of a rectangle that holds 0 is not enclosed.")
+    return iv.log(x)
+
+
+def _sqrt(x: Any) -> Any:
+    if not _is_complex(x):
+        if x.a >= 0:
+            return iv.sqrt(x)
+        if x.b < 0:
+            return iv.mpc(0, iv.sqrt(-x))
+        raise NotExactError("A root of an interval that holds 0 is not enclosed.")
+    return iv.exp(_log(x) / 2)
+
+
+def _atan(x: Any) -> Any:
+    if not _is_complex(x):
+        return iv.make_mpf(libmp.mpi_atan(x._mpi_, iv.prec))
+    i = iv.mpc(0, 1)
+    return i * (_log(1 - i * x) - _log(1 + i * x)) / 2
+
+
+def _asin(x: Any) -> Any:
+    """In the real domain, and off the real axis: on its cuts conventions differ."""
+    if not _is_complex(x):
+        if not (x.a >= -1 and x.b <= 1):
+            raise NotExactError("asin is not enclosed outside [-1, 1].")
+        side = 1 - x * x
+        root = iv.sqrt(iv.mpf([max(side.a, iv.mpf(0).a), side.b]))
+        return iv.make_mpf(libmp.mpi_atan2(x._mpi_, root._mpi_, iv.prec))
+    if 0 in x.imag:
+        raise NotExactError("asin is not enclosed near its cut.")
+    i = iv.mpc(0, 1)
+    return -i * _log(i * x + _sqrt(1 - x * x))
+
+
+def _asinh(x: Any) -> Any:
+    return _log(x + iv.sqrt(x * x + 1)) if not _is_complex(x) else _unknown("asinh")
+
+
+def _acosh(x: Any) -> Any:
+    if _is_complex(x) or x.a < -1:
+        return _unknown("acosh")
+    if x.b < 1:
+        return iv.mpc(0, 1) * (iv.pi / 2 - _asin(x))
+    return _log(x + iv.sqrt(x * x - 1)) if x.a >= 1 else _unknown("acosh")
+
+
+def _atanh(x: Any) -> Any:
+    return (_log(1 + x) - _log(1 - x)) / 2 if not _is_complex(x) and x.a > -1 and x.b < 1 else _unknown("atanh")
+
+
+def _unknown(name: str) -> Any:
+    raise NotExactError(f"{name} is not enclosed here.")
+
+
+def _abs(x: Any) -> Any:
+    if not _is_complex(x):
+        return abs(x)
+    return iv.sqrt(x.real * x.real + x.imag * x.imag)
+
+
+def _sign(x: Any) -> Any:
+    return iv.mpf(1) if _real(x).a > 0 else iv.mpf(-1) if x.b < 0 else _unknown("sign")
+
+
+def _sin(x: Any) -> Any:
+    return iv.sin(x) if abs(x).b < _LARGEST else _unknown("sin")
+
+
+def _cos(x: Any) -> Any:
+    return iv.cos(x) if abs(x).b < _LARGEST else _unknown("cos")
+
+
+def _tanh(x: Any) -> Any:
+    return 1 - 2 / (_exp(2 * x) + 1)
+
+
+_FUNCTIONS: dict[Any, Any] = {
+    sp.sin: _sin,
+    sp.cos: _cos,
+    sp.tan: lambda x: _sin(x) / _cos(x),
+    sp.cot: lambda x: _cos(x) / _sin(x),
+    sp.sec: lambda x: 1 / _cos(x),
+    sp.csc: lambda x: 1 / _sin(x),
+    sp.exp: _exp,
+    sp.log: _log,
+    sp.sinh: lambda x: (_exp(x) - _exp(-x)) / 2,
+    sp.cosh: lambda x: (_exp(x) + _exp(-x)) / 2,
+    sp.tanh: _tanh,
+    sp.coth: lambda x: 1 / _tanh(x),
+    sp.sech: lambda x: 2 / (_exp(x) + _exp(-x)),
+    sp.csch: lambda x: 2 / (_exp(x) - _exp(-x)),
+    sp.asin: _asin,
+    sp.acos: lambda x: iv.pi / 2 - _asin(x),
+    sp.atan: _atan,
+    sp.acot: lambda x: _atan(1 / x),
+    sp.asec: lambda x: iv.pi / 2 - _asin(1 / x),
+    sp.acsc: lambda x: _asin(1 / x),
+    sp.asinh: _asinh,
+    sp.acosh: _acosh,
+    sp.atanh: _atanh,
+    sp.Abs: _abs,
+    sp.sign: _sign,
+    sp.re: lambda x: x.real,
+    sp.im: lambda x: x.imag,
+    sp.conjugate: lambda x: iv.mpc(x.real, -x.imag) if _is_complex(x) else x,
+}
 
 
 def _eliminated(rows: list[list[Any]]) -> list[Any]:

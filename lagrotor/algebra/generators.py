@@ -15,7 +15,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.errors import NotExactError
+from lagrotor.errors import NotExactError, TooLargeError
 
 # Cosine and sine of the circular (False) and the hyperbolic (True) family.
 FAMILY: dict[bool, tuple[Any, Any]] = {False: (sp.cos, sp.sin), True: (sp.cosh, sp.sinh)}
@@ -62,9 +62,9 @@ class Survey:
         return multiples.exponential or multiples.largest * multiples.step > self.largest
 
 
-def survey(expression: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
-    """Collect what the expression is made of; raise NotExactError outside the class."""
-    found, seen, left = Survey(largest), set[sp.Expr](), [expression]
+def survey(*expressions: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
+    """Collect what the expressions are made of; raise NotExactError outside the class."""
+    found, seen, left = Survey(largest), set[sp.Expr](), list(expressions)
     try:
         while left:
             node = left.pop()
@@ -72,7 +72,7 @@ def survey(expression: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
                 seen.add(node)
                 left += _enter(node, found)
     except NotExactError:
-        if floats := expression.atoms(sp.Float):
+        if floats := set().union(*(expression.atoms(sp.Float) for expression in expressions)):
             raise NotExactError(f"The floating-point number {min(floats)} is not exact.") from None
         raise
     if any(not hyperbolic and found.compact((hyperbolic, m)) for hyperbolic, m in found.angles):
@@ -178,7 +178,7 @@ def _product(
     function: sp.Expr, a: dict[Monomial, sp.Rational], b: dict[Monomial, sp.Rational]
 ) -> dict[Monomial, sp.Rational]:
     if len(a) * len(b) > _MOST_TERMS:
-        raise NotExactError(f"The argument of {function} has more than {_MOST_TERMS} terms.")
+        raise TooLargeError(f"The argument of {function} has more than {_MOST_TERMS} terms.")
     return _collected((_merged(p, q), u * v) for p, u in a.items() for q, v in b.items())
 
 

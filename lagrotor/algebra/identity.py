@@ -1,4 +1,8 @@
-"""Exact decision whether an expression of sines, exponentials and square roots vanishes identically.
+"""Decision whether an expression vanishes identically: exactly in a class, by a point or by a proof beyond it.
+
+Beyond the class below, a point at which an enclosure excludes zero refutes (`lagrotor.algebra.refutation`), and zero is proved
+by translation into the class, by induction or by derivatives (`lagrotor.algebra.proving`); where neither ends, or only on a
+branch (`lagrotor.algebra.branches`), the decision says so.
 
 The class: sums, products and integer powers of symbols, rationals, pi, i, square roots of rational functions of the
 symbols with rational coefficients, |x| of real x, and of
@@ -24,7 +28,7 @@ that would exceed the bound is undecided.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -34,12 +38,17 @@ from typing import Any, Literal
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from lagrotor.algebra.evidence import Point, largest_value, points
+from lagrotor.algebra.branches import branch_of_zero, simplest
+from lagrotor.algebra.enclosures import Point
+from lagrotor.algebra.evidence import largest_value, points
 from lagrotor.algebra.generators import survey
+from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
-from lagrotor.algebra.scalar import scalar, sympified
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.algebra.refutation import sample
+from lagrotor.algebra.scalar import check_letters, parts, scalar, sympified
+from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
+from lagrotor.errors import InputError, NotExactError, TooLargeError
 
 # A divisor larger than this is kept whole in the domain: its factors may take hours to find.
 _MOST_TERMS, _MOST_DEGREE = 40, 12
@@ -47,15 +56,18 @@ _MOST_TERMS, _MOST_DEGREE = 40, 12
 _MOST_NORMAL = 3000
 # Roots whose sign is not known, each of which doubles the work, and points at which their signs are looked at.
 _MOST_SIGNS, _SIGN_POINTS = 3, 64
+_MOST_PARTS = 4000  # of an expression that is translated
+_EXCLUDED = "An enclosure at the witness excludes zero."
 
 
 @dataclass(frozen=True)
 class Decision:
     """Whether an expression vanishes identically, where that holds, and what shows it.
 
-    `domain` holds the factors that must not vanish; `partly`: a nonzero expression that vanishes for some signs of its
-    roots, as sqrt(x**2) - x does where x > 0. `seen`: an expression that is not zero throughout, to be evaluated at the
-    points `at`, or at random ones, when a witness or evidence is read.
+    `domain` holds the factors that must not vanish; `branch` inequalities: where it is not empty, the expression is proved
+    to vanish wherever they hold. `partly`: a nonzero expression that vanishes for some signs of its roots, as sqrt(x**2) - x
+    does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at the points `at`, or at
+    random ones, when a witness or evidence is read.
     """
 
     answer: Literal["zero", "nonzero", "undecided"]
@@ -64,10 +76,11 @@ class Decision:
     partly: bool = False
     seen: sp.Expr | None = None
     at: tuple[Point, ...] | None = None
+    branch: tuple[sp.Basic, ...] = ()
 
     @property
-    def witness(self) -> Mapping[sp.Symbol, sp.Rational] | None:
-        """A point where a nonzero expression does not vanish."""
+    def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
+        """A point where a nonzero expression does not vanish, with the values that unknown functions take there."""
         return self._largest[0] if self.answer == "nonzero" else None
 
     @property
@@ -80,23 +93,75 @@ class Decision:
         return (None, None) if self.seen is None else largest_value(self.seen, self.at)
 
 
-def decide_zero(expression: sp.Expr) -> Decision:
-    """Decide expression = 0 exactly; outside the class, with floats in it or beyond the bound on the work "undecided".
+def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
+    """Decide expression = 0; with floats in it, beyond the bound on the work and where nothing proves it "undecided".
 
-    Raises InputError for what is not a scalar expression.
+    within: inequalities that hold of the letters, x > 0, besides what these are declared to be. Raises InputError for what is
+    not a scalar expression, for two letters of one name, and for what is no inequality.
     """
     try:
         expression = scalar(expression, "decide_zero")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    return _decided_or_not(expression)
+    return _decide(expression, region(within))
 
 
-def _decided_or_not(expression: sp.Expr) -> Decision:
+@lru_cache(maxsize=1024)
+def _decide(expression: sp.Expr, where: Region) -> Decision:
     try:
-        return _decided(expression)
+        exact = _decided(expression)
+        if exact.answer == "zero" or not exact.partly:
+            return exact
+    except TooLargeError as refusal:
+        return _by_a_point(expression, where, Decision("undecided", (), str(refusal), seen=expression))
     except NotExactError as refusal:
-        return Decision("undecided", (), str(refusal), seen=expression)
+        exact = Decision("undecided", (), str(refusal), seen=expression)
+    if _is_foreign(expression):
+        return exact
+    if parts(expression) > _MOST_PARTS:
+        return _by_a_point(expression, where, exact)
+    return _by_analysis(expression, where, exact)
+
+
+def _is_foreign(expression: sp.Expr) -> bool:
+    """Whether something in it is not exact, not finite or does not commute."""
+    limits = {end for node in expression.atoms(sp.Integral, sp.Sum) for limit in node.limits for end in limit[1:]}
+    return any(
+        atom.is_Float or not atom.is_commutative or (atom.is_finite is False and atom not in limits) or atom is sp.nan
+        for atom in expression.atoms()
+    )
+
+
+def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
+    witness, _ = sample(expression, where)
+    if witness is None or not witness.real:
+        return exact
+    return Decision("nonzero", (), _EXCLUDED, seen=expression, at=(witness.point,))
+
+
+def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
+    """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
+    plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
+    witness, enclosed = sample(plain, where)
+    if witness is None or plain.has(*BRANCHED) or conditions(plain):
+        try:
+            proof = proof_of_zero(plain, where)
+        except NotExactError as refusal:
+            reason = str(refusal)
+    if witness is None and proof.how is not None:
+        if enclosed or not plain.free_symbols:
+            return Decision("zero", proof.divisors, proof.how)
+        return replace(exact, reason="No point was seen at which it is defined.")
+    branch, within = branch_of_zero(plain, where, proof.wanted)
+    if exact.answer == "nonzero":
+        return replace(exact, branch=branch)
+    if witness is None:
+        if branch and set(branch) <= set(simplest(conditions(plain), where)):
+            return Decision("zero", within.divisors, within.how or "", branch=branch)
+        return replace(exact, reason=reason, branch=branch)
+    if not (branch or witness.real or expression.has(sp.I) or not all(s.is_real for s in plain.free_symbols)):
+        return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
+    return Decision("nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), branch)
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.
@@ -105,7 +170,7 @@ def _decided(expression: sp.Expr) -> Decision:
     found = survey(expression)
     roots = find_roots(found)
     if len(roots.unsigned) > _MOST_SIGNS:
-        raise NotExactError(f"More than {_MOST_SIGNS} roots have a sign that may differ from region to region.")
+        raise TooLargeError(f"More than {_MOST_SIGNS} roots have a sign that may differ from region to region.")
     domain: tuple[sp.Expr, ...] = ()
     zero, nonzero = set[tuple[int, ...]](), dict[tuple[int, ...], str]()
     for signs in product((1, -1), repeat=len(roots.unsigned)):
@@ -133,18 +198,19 @@ def _listed(roots: Roots) -> str:
     return ", ".join(str(sp.sqrt(root.base)) for root in roots.unsigned)
 
 
-def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase) -> Decision:
-    """Decide left = right exactly; matrices are equal if every entry is, and unequal if any is.
+def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, within: Iterable[Any] = ()) -> Decision:
+    """Decide left = right; matrices are equal if every entry is, and unequal if any is. within: as of `decide_zero`.
 
-    Raises InputError when the two differ in shape, or are no expressions.
+    Raises InputError when the two differ in shape, or are no expressions, and for two letters of one name.
     """
     left, right = sympified(left, "decide_equal"), sympified(right, "decide_equal")
     shapes = getattr(left, "shape", ()), getattr(right, "shape", ())
     if shapes[0] != shapes[1]:
         raise InputError(f"decide_equal: shapes {shapes[0]} and {shapes[1]} cannot be compared")
+    where = region(within)
     if not isinstance(left, sp.MatrixBase):
-        return _decide_difference(left, right)
-    entries = [_decide_difference(a, b) for a, b in zip(left, right, strict=True)]
+        return _decide_difference(left, right, where)
+    entries = [_decide_difference(a, b, where) for a, b in zip(left, right, strict=True)]
     domain = tuple(dict.fromkeys(factor for entry in entries for factor in entry.domain))
     for answer in ("nonzero", "undecided"):
         for place, entry in enumerate(entries):
@@ -155,12 +221,13 @@ def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase) 
     return Decision("zero", domain, "The reduced numerator of every entry is the zero polynomial.")
 
 
-def _decide_difference(left: sp.Expr, right: sp.Expr) -> Decision:
+def _decide_difference(left: sp.Expr, right: sp.Expr, where: Region) -> Decision:
     try:
         left, right = scalar(left, "decide_equal"), scalar(right, "decide_equal")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    return _decided_or_not(left - right)
+    check_letters("decide_equal", left, right)
+    return _decide(left - right, where)
 
 
 def normal_form(expression: sp.Expr) -> sp.Expr:

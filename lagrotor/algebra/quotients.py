@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import sympy as sp
 from sympy.polys.rings import PolyElement, PolyRing
 
-from lagrotor.errors import NotExactError
+from lagrotor.errors import NotExactError, TooLargeError
 
 # Units of work for one expression: a few seconds.
 MOST_WORK = 300_000
@@ -57,7 +57,7 @@ class Ring:
         """Raise NotExactError if the work to come exceeds what is left."""
         self.work += work
         if self.work > MOST_WORK:
-            raise NotExactError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
+            raise TooLargeError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
 
     def product(self, a: PolyElement, b: PolyElement) -> PolyElement:
         if a is self.one or b is self.one:

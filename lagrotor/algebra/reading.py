@@ -9,7 +9,8 @@ from typing import NamedTuple
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from lagrotor.algebra.evidence import Point, sign_at
+from lagrotor.algebra.enclosures import Point
+from lagrotor.algebra.evidence import sign_at
 from lagrotor.algebra.generators import CIRCULAR, FAMILY, HYPERBOLIC, Angle, Survey, angle_of, radicand
 from lagrotor.algebra.quotients import Quotient, Ring
 from lagrotor.algebra.roots import Dependent, Root, split_roots

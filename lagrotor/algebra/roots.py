@@ -20,7 +20,7 @@ import sympy as sp
 from sympy.polys.rings import PolyElement
 
 from lagrotor.algebra.quotients import Ring
-from lagrotor.errors import NotExactError
+from lagrotor.errors import TooLargeError
 
 # Greatest common divisors of larger polynomials may take hours.
 _MOST_TERMS, _MOST_DEGREE = 60, 16
@@ -50,7 +50,7 @@ def split_roots(
     roots = [Root(base, under, ring.product(over, under)) for base, over, under in bases]
     for root in roots:
         if len(root.square) > _MOST_TERMS or max(map(sum, root.square.monoms()), default=0) > _MOST_DEGREE:
-            raise NotExactError(f"The root of {root.base} is too large: terms {len(root.square)}.")
+            raise TooLargeError(f"The root of {root.base} is too large: terms {len(root.square)}.")
     numbers, polynomials = _coprime_parts([root.square for root in roots])
     independent: list[Root] = []
     dependent: list[Dependent] = []

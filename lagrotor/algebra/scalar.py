@@ -1,6 +1,5 @@
 """Checks of what is handed to this room: scalar expressions, with the symbols that are zero by assumption replaced."""
 
-from collections.abc import Iterable
 from typing import Any
 
 import sympy as sp
@@ -24,13 +23,29 @@ def scalar(given: Any, name: str) -> sp.Expr:
     expression = sympified(given, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {given!r} is not a scalar expression: give a sympy expression or a number")
-    zeros = {part: sp.S.Zero for part in _parts(expression) if part.is_Symbol and part.is_zero}
+    zeros = {part: sp.S.Zero for part in _sizes(expression) if part.is_Symbol and part.is_zero}
+    check_letters(name, expression)
     return expression.xreplace(zeros) if zeros else expression
 
 
-def _parts(expression: sp.Basic) -> Iterable[sp.Basic]:
-    """Every different part of an expression that is neither too large nor too deep."""
-    sizes: dict[sp.Basic, tuple[int, int]] = {}  # nodes of the tree and its depth
+def check_letters(name: str, *expressions: Any) -> None:
+    """Raise InputError, on behalf of the function `name`, where two different symbols have one name."""
+    known: dict[str, sp.Symbol] = {}
+    for symbol in sorted(set().union(*(e.free_symbols for e in expressions)), key=sp.default_sort_key):
+        if not isinstance(symbol, sp.Dummy) and known.setdefault(symbol.name, symbol) != symbol:
+            raise InputError(
+                f"{name}: two different letters are called {symbol.name}, declared as {_declared(known[symbol.name])} and as "
+                f"{_declared(symbol)}: use one symbol"
+            )
+
+
+def _declared(symbol: sp.Symbol) -> str:
+    return ", ".join(kind for kind, holds in sorted(symbol._assumptions_orig.items()) if holds) or "nothing"
+
+
+def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
+    """Every different part of an expression that is neither too large nor too deep, with its nodes and its depth."""
+    sizes: dict[sp.Basic, tuple[int, int]] = {}
     left = [(expression, False)]
     while left:
         node, ready = left.pop()
@@ -50,3 +65,8 @@ def _parts(expression: sp.Basic) -> Iterable[sp.Basic]:
     if nodes > _MOST_NODES:
         raise NotExactError(f"The expression has more than {_MOST_NODES:,} parts.")
     return sizes
+
+
+def parts(expression: sp.Expr) -> int:
+    """How many nodes the tree of an expression has, equal ones counted as often as they occur."""
+    return _sizes(expression)[expression][0]

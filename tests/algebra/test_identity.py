@@ -87,16 +87,7 @@ def test_domain(expression: sp.Expr, domain: set[sp.Expr]) -> None:
 @pytest.mark.parametrize(
     ("expression", "reason"),
     [
-        (sp.cbrt(x) - x, "outside"),
-        (sqrt(sqrt(x) + 1), "only roots of rational functions"),
-        (sqrt(sin(x)), "only roots of rational functions"),
-        (sqrt(sp.Add(2, sqrt(3), evaluate=False)), "only roots of rational functions"),
         (sqrt(1 + sp.zoo * x), "outside"),
-        (sp.Function("f")(x), "outside"),
-        (sp.Function("f")(x).diff(x), "outside"),
-        (sp.log(x), "outside"),
-        (sp.Abs(x) - x, "outside"),
-        (x**y, "outside"),
         (sp.zoo, "outside"),
         (sp.Symbol("A", commutative=False), "outside"),
         (0.5 * x, "floating-point number 0.5"),
@@ -106,11 +97,6 @@ def test_domain(expression: sp.Expr, domain: set[sp.Expr]) -> None:
         (sin(2 * sp.Symbol("A", commutative=False)), "must commute and be finite"),
         (x + sp.Symbol("z", zero=True) ** -1, "outside"),
         (sp.Pow(sp.Pow(0, sp.S.Half, evaluate=False), -3, evaluate=False), "vanishes identically"),
-        (sin(1), "not a rational combination"),
-        (sin(sqrt(2) * x), "not a rational combination"),
-        (sinh(x + pi), "not a rational combination"),
-        (cos(pi * sp.Symbol("n", integer=True) / 2), "not a rational combination"),
-        (cos(x + pi / 7), "square roots"),
         (1 / (sin(x) ** 2 + cos(x) ** 2 - 1), "denominator vanishes identically"),
     ],
 )
@@ -122,17 +108,27 @@ def test_undecided(expression: sp.Expr, reason: str) -> None:
         normal_form(expression)
 
 
+@pytest.mark.parametrize(
+    "expression",
+    [
+        *(sp.cbrt(x) - x, sqrt(sqrt(x) + 1), sqrt(sin(x)), sqrt(sp.Add(2, sqrt(3), evaluate=False)), sp.log(x), x**y),
+        *(sp.Function("f")(x), sp.Function("f")(x).diff(x), sin(1), sin(sqrt(2) * x), sinh(x + pi), cos(x + pi / 7)),
+        cos(pi * sp.Symbol("n", integer=True) / 2),
+    ],
+)
+def test_what_has_no_normal_form_is_refuted_at_a_point(expression: sp.Expr) -> None:
+    decision = decide_zero(expression)
+    assert decision.answer == "nonzero" and decision.witness is not None
+    assert decision.evidence is not None and decision.evidence > 1e-3
+    with pytest.raises(NotExactError):
+        normal_form(expression)
+
+
 def test_undecided_carries_numeric_evidence() -> None:
-    holds = decide_zero(sp.log(1 + m) + sp.log(m) - sp.log(m**2 + m))
-    assert holds.answer == "undecided"
-    assert holds.evidence is not None
-    assert holds.evidence < 1e-30
-    fails = decide_zero(sp.cbrt(x) - x)
-    assert fails.evidence is not None
-    assert fails.evidence > 1e-3
+    holds = decide_zero(sqrt((x**2 + 1) ** 2) - x**2 - 1)
+    assert holds.answer == "undecided" and holds.evidence is not None and holds.evidence < 1e-30
     assert decide_zero(1 / (sin(x) ** 2 + cos(x) ** 2 - 1)).evidence is None
-    assert decide_zero(sp.cbrt(x) - x) == fails
-    for without in (sp.gamma(x), exp(exp(exp(10**6 * m))), sp.Integral(sp.Function("f")(x), (x, 0, y))):
+    for without in (exp(exp(exp(10**6 * m))), sp.Integral(sp.Function("f")(x) * x, (x, 0, y))):
         assert decide_zero(without).evidence is None
 
 
@@ -148,8 +144,15 @@ ONE_NAME = [
 ]
 
 
-@pytest.mark.parametrize("other", [*ONE_NAME, sp.Dummy("x"), sp.Symbol("x", extended_real=True)])
-def test_symbols_of_one_name_are_two_symbols(other: sp.Symbol) -> None:
+@pytest.mark.parametrize("other", [*ONE_NAME, sp.Symbol("x", extended_real=True)])
+def test_two_symbols_of_one_name_are_refused(other: sp.Symbol) -> None:
+    for function in (lambda: decide_zero(x - other), lambda: decide_equal(x, other), lambda: normal_form(x * other)):
+        with pytest.raises(InputError, match="two different letters are called x, declared as"):
+            function()
+
+
+def test_dummies_of_one_name_are_two_symbols() -> None:
+    other = sp.Dummy("x")
     assert decide_zero(x - other).answer == "nonzero"
     assert decide_zero((x + other) ** 2 - x**2 - 2 * x * other - other**2).answer == "zero"
     assert decide_zero(sqrt(x + other) ** 2 - x - other).answer == "zero"
@@ -214,10 +217,11 @@ def test_large_multiples_of_an_angle_are_decided() -> None:
         sp.prod(sin(sp.Symbol(f"x_{k}") + sp.Symbol(f"y_{k}")) for k in range(30)),
     ],
 )
-def test_what_takes_too_much_work_is_undecided(expression: sp.Expr) -> None:
+def test_what_takes_too_much_work_is_refuted_at_a_point_or_undecided(expression: sp.Expr) -> None:
     decision = decide_zero(expression)
-    assert decision.answer == "undecided"
-    assert "takes more than" in decision.reason
+    assert decision.answer == "nonzero" or "takes more than" in decision.reason
+    with pytest.raises(NotExactError, match="takes more than"):
+        normal_form(expression)
 
 
 def test_angles_of_different_monomials_are_independent() -> None:
@@ -228,7 +232,9 @@ def test_angles_of_different_monomials_are_independent() -> None:
 
 
 def test_arguments_and_depth_are_bounded() -> None:
-    assert "more than 200 terms" in decide_zero(sin((x + y + m + 1) ** 50)).reason
+    with pytest.raises(NotExactError, match="more than 200 terms"):
+        normal_form(sin((x + y + m + 1) ** 50))
+    assert decide_zero(sin((x + y + m + 1) ** 50)).answer == "nonzero"
     deep = x
     for _ in range(1000):
         deep = sp.Pow(sp.Add(deep, 1, evaluate=False), 2, evaluate=False)
@@ -259,7 +265,7 @@ def test_matrices() -> None:
     off = decide_equal(turn * turn.T, sp.Matrix([[1, 0], [0, 1 + x]]))
     assert off.answer == "nonzero"
     assert off.reason.startswith("Entry (2, 2)")
-    assert decide_equal(sp.Matrix([sp.log(x), 0]), sp.Matrix([1, 0])).answer == "undecided"
+    assert decide_equal(sp.Matrix([sp.airyai(x), 0]), sp.Matrix([1, 0])).answer == "undecided"
     assert decide_equal(sp.Matrix([sp.log(x), 1]), sp.Matrix([1, 0])).answer == "nonzero"
     assert decide_equal(sp.Matrix([1 / x, tan(y)]), sp.Matrix([1 / x, sin(y) / cos(y)])).domain == (cos(y),)
     for other in (sp.eye(3), sp.Integer(1)):

@@ -86,7 +86,7 @@ def test_what_no_point_settles_stays_undecided() -> None:
     assert "some signs of sqrt((x**2 + 1)**2)" in decision.reason
     assert decide_zero(sqrt((x**2 + 1) ** 2) - x**2).answer == "nonzero"
     many = sum(sqrt(sp.Symbol(f"x{k}") ** 2) for k in range(4))
-    assert "More than 3 roots" in decide_zero(many).reason
+    assert decide_zero(many).answer == "nonzero"
 
 
 def test_the_sign_of_a_product_of_roots_is_that_of_the_assumptions() -> None:
@@ -134,8 +134,9 @@ def test_the_laplace_runge_lenz_vector_is_conserved() -> None:
 
 
 def test_large_radicands_are_refused_by_their_size() -> None:
-    assert "too large" in decide_zero(sqrt(sp.expand((x + y + z + p + 1) ** 4)) - x).reason
-    assert decide_zero(sqrt((x + y + z) ** 40 + 1) - x).answer == "undecided"
+    with pytest.raises(NotExactError, match="too large"):
+        normal_form(sqrt(sp.expand((x + y + z + p + 1) ** 4)) - x)
+    assert decide_zero(sqrt((x + y + z) ** 40 + 1) - x).answer == "nonzero"
     large = sp.nextprime(10**60) * sp.nextprime(10**61)  # its factors are not sought
     assert decide_equal(raw(large) * raw(large + 1), raw(large * (large + 1))).answer == "zero"
     assert decide_equal(raw(large) * raw(large + 1), raw(large * (large + 1) + 1)).answer == "nonzero"

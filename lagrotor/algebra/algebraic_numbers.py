@@ -1,0 +1,134 @@
+"""Numbers made of radicals and roots of unity: whether one is zero, and whether a sum of logarithms of such numbers is.
+
+A number α = U/L of algebraic integers of a field of degree D, all of whose conjugates are below u and l, is zero or at least
+1/(u**(D−1) l), since the norm of U is a whole number.  u, l and D follow from how α is written (Burnikel, Funke, Mehlhorn,
+Schirra & Schmitt, Algorithmica 55, 14, 2009), and an enclosure of α that is small enough decides.
+"""
+
+from __future__ import annotations
+
+from math import lcm, prod
+
+import sympy as sp
+from mpmath import iv
+
+from lagrotor.algebra.enclosures import enclosed_at, excludes_zero
+from lagrotor.errors import NotExactError
+
+_MOST_BITS = 30_000
+_LARGEST = 10**40  # integers beyond are left alone
+
+
+def is_zero(number: sp.Expr) -> bool | None:
+    """Whether a number made of radicals and of sines and cosines of rational multiples of π is zero; None of another."""
+    try:
+        bound = _Bound()
+        over, _ = bound.of(number)
+        bits = int(bound.degree * over) + 8
+        if bits > _MOST_BITS:
+            return None
+        for precision in (60, int(0.302 * bits) + 60):
+            value = enclosed_at(number, {}, precision)
+            if excludes_zero(value):
+                return False
+            if (
+                max(iv.log(abs(part).b, 2).b if abs(part).b > 0 else -iv.inf for part in (value.real, value.imag))
+                < -bits
+            ):
+                return True
+    except (NotExactError, ArithmeticError, ValueError, TypeError):
+        return None
+    return None
+
+
+class _Bound:
+    """Logarithms to base 2 of u and l of every part, and the degree of the field."""
+
+    def __init__(self) -> None:
+        self.roots: dict[sp.Expr, int] = {}
+        self.turns = 1
+
+    @property
+    def degree(self) -> int:
+        found = prod(self.roots.values()) * int(sp.totient(self.turns))
+        if found > _MOST_BITS:
+            raise NotExactError("The degree is too large.")
+        return found
+
+    def of(self, e: sp.Expr) -> tuple[float, float]:
+        if e.is_Rational:
+            return float(sp.log(max(abs(e.p), 1), 2)), float(sp.log(e.q, 2))
+        if e is sp.I:
+            self._turn(4)
+            return 0.0, 0.0
+        if e.is_Add:
+            parts = [self.of(part) for part in e.args]
+            under = sum(low for _, low in parts)
+            return max(up + under - low for up, low in parts) + float(sp.log(len(parts), 2)), under
+        if e.is_Mul:
+            parts = [self.of(part) for part in e.args]
+            return sum(up for up, _ in parts), sum(low for _, low in parts)
+        if isinstance(e, sp.sin | sp.cos | sp.exp):
+            turn = e.args[0] / (sp.I * sp.pi if isinstance(e, sp.exp) else sp.pi)
+            if turn.is_Rational:
+                self._turn(lcm(4, 2 * int(turn.q)))
+                return (0.0, 0.0) if isinstance(e, sp.exp) else (1.0, 1.0)
+        if isinstance(e, sp.tan | sp.cot) and (e.args[0] / sp.pi).is_Rational:
+            return self._tangent(e)
+        if e.is_Pow and e.exp.is_Rational:
+            return self._power(e)
+        raise NotExactError(f"{e} is no algebraic number in the class.")
+
+    def _tangent(self, e: sp.Expr) -> tuple[float, float]:
+        self._turn(lcm(4, 2 * int((e.args[0] / sp.pi).q)))
+        return 2.0, 2.0
+
+    def _turn(self, n: int) -> None:
+        self.turns = lcm(self.turns, n)
+
+    def _power(self, e: sp.Expr) -> tuple[float, float]:
+        up, low = self.of(e.base)
+        n, q = abs(int(e.exp.p)), int(e.exp.q)
+        if q > 1:
+            key = sp.Pow(e.base, sp.Rational(1, q), evaluate=False)
+            self.roots[key] = q
+            up, low = (up + (q - 1) * low) / q, low
+        up, low = n * up, n * low
+        return (low, up) if e.exp < 0 else (up, low)
+
+
+def sum_of_logarithms_is_zero(number: sp.Expr) -> bool | None:
+    """Whether Σ rᵢ log aᵢ of positive numbers, or Σ rᵢ arg zᵢ (arcs of sines and tangents, π), is zero; None of others.
+
+    With N the common denominator: N times the sum is 0, or 2πk for arcs, where Π zᵢ**(N rᵢ) = 1, and an enclosure says
+    that k = 0.
+    """
+    arcs, logarithms = list[tuple[sp.Rational, sp.Expr]](), list[tuple[sp.Rational, sp.Expr]]()
+    number = sp.expand_mul(number)
+    if number.is_zero:
+        return True
+    for term in sp.Add.make_args(number):
+        rate, rest = term.as_coeff_Mul()
+        if rest is sp.pi:
+            arcs.append((rate, sp.S.NegativeOne))
+        elif isinstance(rest, sp.atan):
+            arcs.append((rate, (1 + sp.I * rest.args[0]) / sp.sqrt(1 + rest.args[0] ** 2)))
+        elif isinstance(rest, sp.asin):
+            arcs.append((rate, sp.sqrt(1 - rest.args[0] ** 2) + sp.I * rest.args[0]))
+        elif isinstance(rest, sp.log) and rest.args[0].is_positive:
+            logarithms.append((rate, rest.args[0]))
+        else:
+            return None
+    if arcs and logarithms:
+        return None
+    terms = arcs or logarithms
+    whole = lcm(*(int(rate.q) for rate, _ in terms)) if terms else 1
+    value = enclosed_at(number, {}, 60)
+    if excludes_zero(value):
+        return False
+    if not abs(value.real).b < 3 / iv.mpf(whole):
+        return None
+    exponents = [int(rate * whole) for rate, _ in terms]
+    up = sp.Mul(*(a**n for (_, a), n in zip(terms, exponents, strict=True) if n > 0))
+    down = sp.Mul(*(a**-n for (_, a), n in zip(terms, exponents, strict=True) if n < 0))
+    return is_zero(up - down)

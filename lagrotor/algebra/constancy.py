@@ -1,0 +1,119 @@
+"""What is continuous on a connected region, with derivatives that vanish, is constant there: zero if it is at one point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+
+from lagrotor.algebra.algebraic_numbers import is_zero, sum_of_logarithms_is_zero
+from lagrotor.algebra.differentiation import derivative
+from lagrotor.algebra.enclosures import enclosed_at
+from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_positive, is_real, signs
+from lagrotor.errors import NotExactError
+
+_ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf, sp.erfc)
+_REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous where their argument is real
+_PLACES = (sp.S.Zero, sp.S.Half, sp.S.One, sp.Integer(2), -sp.S.Half, sp.Integer(-2))
+_MOST_LETTERS = 3
+
+
+def is_continuous(e: sp.Expr, where: Region, letters: frozenset[sp.Symbol]) -> bool:
+    """Whether e is certainly continuous in these letters throughout the region."""
+    if not e.free_symbols & letters or e.is_Symbol:
+        return True
+    if not all(is_continuous(part, where, letters) for part in e.args):
+        return False
+    if e.is_Add or e.is_Mul or isinstance(e, _ENTIRE):
+        return True
+    u = e.args[0]
+    found = signs(u, where)
+    if e.is_Pow:
+        if e.exp.is_Integer:
+            return bool(e.exp > 0) or (found is not None and 0 not in found)
+        if (e.exp.is_Rational and e.exp > 0) or is_positive(e.exp, where):
+            return found is not None and found <= NONNEGATIVE
+        return is_positive(u, where)
+    return _is_function_continuous(e, u, where)
+
+
+def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
+    """Of a function with singular points or a branch cut, at a continuous argument u."""
+    if isinstance(e, sp.log):
+        return is_positive(u, where) or is_positive(sp.re(u), where)
+    if isinstance(e, _REAL):
+        return is_real(u, where)
+    if isinstance(e, sp.tan | sp.sec):
+        return 0 not in (signs(sp.cos(u), where) or ANY)
+    if isinstance(e, sp.cot | sp.csc):
+        return 0 not in (signs(sp.sin(u), where) or ANY)
+    if isinstance(e, sp.coth | sp.csch | sp.acot):
+        return 0 not in (signs(u, where) or ANY)
+    if isinstance(e, sp.asin | sp.acos):
+        return is_nonnegative(sp.factor(1 - u**2), where)
+    if isinstance(e, sp.atanh):
+        return is_positive(sp.factor(1 - u**2), where)
+    return isinstance(e, sp.acosh) and is_nonnegative(u - 1, where)
+
+
+def is_connected(where: Region) -> bool:
+    """Whether the region is certainly connected: convex, or star-shaped about the origin."""
+    s = sp.Dummy(positive=True)
+    for e, _ in where.above:
+        letters = sorted(e.free_symbols, key=sp.default_sort_key)
+        try:
+            polynomial = sp.Poly(e, *letters)
+        except sp.PolynomialError:
+            return False
+        if polynomial.total_degree() <= 1:
+            continue
+        scaled = sp.Poly(e.xreplace({letter: s * letter for letter in letters}), s)
+        degrees = [n for (n,) in scaled.monoms() if n]
+        # with one degree only, e runs monotonically from its value at the origin
+        if (
+            len(degrees) != 1
+            or not scaled.eval(0).is_positive
+            or not all(_holds_origin(each) for each, _ in where.above)
+        ):
+            return False
+    return True
+
+
+def _holds_origin(e: sp.Expr) -> bool:
+    return bool(e.xreplace(dict.fromkeys(e.free_symbols, sp.S.Zero)).is_nonnegative)
+
+
+def is_constant_zero(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
+    """Whether it is zero by continuity, by its derivatives and by its value at one point of the region."""
+    letters = sorted(expression.free_symbols, key=sp.default_sort_key)
+    if len(letters) > _MOST_LETTERS or any(letter.is_integer or not is_real(letter, where) for letter in letters):
+        return False
+    if not is_connected(where) or not is_continuous(expression, where, frozenset(letters)):
+        return False
+    if not all(vanishes(derivative(expression, letter), where) for letter in letters):
+        return False
+    return any(_is_zero_at(expression, point) for point in _places(letters, where))
+
+
+def _places(letters: list[sp.Symbol], where: Region) -> list[dict[sp.Symbol, sp.Expr]]:
+    found = []
+    for place in _PLACES:
+        point = dict.fromkeys(letters, place)
+        if any((letter.is_positive and place <= 0) or (letter.is_negative and place >= 0) for letter in letters):
+            continue
+        try:
+            if all(enclosed_at(e, point).real.a > 0 for e, _ in where.above):
+                found.append(point)
+        except NotExactError:
+            continue
+    return found[:3]
+
+
+def _is_zero_at(expression: sp.Expr, point: dict[sp.Symbol, sp.Expr]) -> bool:
+    value = expression.subs(point)
+    if value.has(sp.nan, sp.zoo, sp.oo):
+        return False
+    try:
+        return bool(is_zero(value) or sum_of_logarithms_is_zero(value))
+    except NotExactError:
+        return False

@@ -1,0 +1,149 @@
+"""That an expression of analysis is zero in a region: evaluated, translated into the class, by induction, by derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from math import lcm, prod
+
+import sympy as sp
+
+from lagrotor.algebra.constancy import is_constant_zero
+from lagrotor.algebra.enclosures import jet_of
+from lagrotor.algebra.integrals import value_of_integral
+from lagrotor.algebra.signs import Region, is_positive
+from lagrotor.algebra.sums import holds_by_induction, value_of_series, value_of_sum, written_out
+from lagrotor.algebra.translation import proved_zero
+from lagrotor.errors import NotExactError
+
+_MOST_CASES = 16
+_MOST_ROUNDS = 6
+
+
+@dataclass(frozen=True)
+class Proof:
+    """How it was proved, what must not vanish, or `None` for how; the inequalities that might have helped."""
+
+    how: str | None
+    divisors: tuple[sp.Expr, ...] = ()
+    wanted: tuple[sp.Basic, ...] = ()
+
+
+def evaluated(e: sp.Expr, where: Region = Region()) -> sp.Expr:  # noqa: B008
+    """Derivatives taken, sums written out, integrals put in closed form where one is certain."""
+    for _ in range(_MOST_ROUNDS):
+        before = e
+        e = e.replace(lambda n: isinstance(n, sp.Derivative) and jet_of(n) is None, _differentiated)
+        e = e.replace(lambda n: isinstance(n, sp.Subs) and jet_of(n) is None, lambda n: n.doit(deep=False))
+        e = e.replace(lambda n: isinstance(n, sp.Sum), lambda n: _summed(n, where))
+        e = e.replace(lambda n: isinstance(n, sp.Integral), lambda n: _integral(n, where))
+        if e == before:
+            break
+    return e
+
+
+def _differentiated(e: sp.Derivative) -> sp.Expr:
+    result = e.expr
+    for symbol, times in e.variable_count:
+        if not times.is_Integer:
+            return e
+        for _ in range(int(times)):
+            result = sp.diff(result, symbol)
+    return result
+
+
+def _summed(e: sp.Sum, where: Region) -> sp.Expr:
+    value = written_out(e)
+    value = value_of_series(e, where, _vanishes) if value is None else value
+    value = value_of_sum(e, where, _vanishes) if value is None else value
+    return e if value is None else value
+
+
+def _integral(e: sp.Integral, where: Region) -> sp.Expr:
+    expanded = sp.expand(e.function)
+    limits = e.limits
+    if len(limits) == 1 and expanded.has(sp.core.function.AppliedUndef):
+        if expanded.is_Add:
+            return sp.Add(*(sp.Integral(part, *limits) for part in expanded.args))
+        constant, rest = expanded.as_independent(limits[0][0], as_Add=False)
+        if constant != 1:
+            return constant * sp.Integral(rest, *limits)
+    value = value_of_integral(e, where, _vanishes)
+    return e if value is None else value
+
+
+def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
+    """The proof, by translation, by induction on the upper limit of a sum, or by derivatives."""
+    divisors: tuple[sp.Expr, ...] = ()
+    wanted: tuple[sp.Basic, ...] = ()
+    try:
+        for case, inside in _cases(expression, where):
+            found, more = proved_zero(case, inside)
+            wanted += more
+            if found is None:
+                break
+            divisors += found
+        else:
+            return Proof("The reduced numerator is the zero polynomial.", tuple(dict.fromkeys(divisors)), wanted)
+        reason = None
+    except NotExactError as refusal:
+        reason = refusal
+    if holds_by_induction(expression, where, _vanishes):
+        return Proof("It holds for the first n, and for n + 1 if for n.")
+    if _is_difference_of_squares(expression, where):
+        return Proof("Both sides are positive, and their squares are equal.")
+    if is_constant_zero(expression, where, _vanishes):
+        return Proof("Its derivatives vanish, and it is zero at a point of a connected region.")
+    if reason is not None and not wanted:
+        raise reason
+    return Proof(None, (), wanted)
+
+
+def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
+    """Whether it is a − b, both positive, with a² = b²."""
+    terms = sp.Add.make_args(expression)
+    sides = [sp.Add(*(sign * term for term in terms if is_positive(sign * term, where))) for sign in (1, -1)]
+    if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:
+        return False
+    return _vanishes(sides[0] ** 2 - sides[1] ** 2, where)
+
+
+def _vanishes(expression: sp.Expr, where: Region) -> bool:
+    try:
+        return all(proved_zero(case, inside)[0] is not None for case, inside in _cases(evaluated(expression), where))
+    except NotExactError:
+        return False
+
+
+def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region]]:
+    """The expression for each residue of the whole numbers that stand in signs and in angles beside π."""
+    periods: dict[sp.Symbol, int] = {}
+    for node in sp.preorder_traversal(expression):
+        for letter, period in _periods(node):
+            periods[letter] = lcm(periods.get(letter, 1), period)
+    if prod(periods.values()) > _MOST_CASES:
+        raise NotExactError(f"There are more than {_MOST_CASES} cases of whole numbers.")
+    for residues in product(*(range(period) for period in periods.values())):
+        put = {}
+        for (letter, period), residue in zip(periods.items(), residues, strict=True):
+            part = sp.Dummy(letter.name, integer=True, **({"nonnegative": True} if letter.is_nonnegative else {}))
+            start = period if letter.is_positive and residue == 0 else residue
+            put[letter] = period * part + start
+        yield (expression.subs(put) if put else expression), where.put(put)
+
+
+def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
+    """Whole-number letters of a power of a root of unity, or of an angle n π r, with the period in them."""
+    if (node.is_Pow and node.base in (sp.S.NegativeOne, sp.I)) or (node.is_Pow and node.base.is_negative):
+        turn = sp.expand(node.exp * (sp.Rational(1, 2) if node.base is sp.I else 1)) / 2
+    elif isinstance(node, sp.sin | sp.cos | sp.tan | sp.cot | sp.sec | sp.csc):
+        turn = sp.expand(node.args[0] / (2 * sp.pi))
+    elif isinstance(node, sp.exp):
+        turn = sp.expand(node.args[0] / (2 * sp.pi * sp.I))
+    else:
+        return
+    for term in sp.Add.make_args(turn):
+        rate, letter = term.as_coeff_Mul()
+        if letter.is_Symbol and letter.is_integer and rate.is_Rational:
+            yield letter, int(rate.q)

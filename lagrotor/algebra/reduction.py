@@ -1,0 +1,82 @@
+"""Whether an expression in the class vanishes by virtue of relations between its letters.
+
+Some letters ρ stand for roots, ρ**q = B; others for algebraic numbers that are known to any precision.  A numerator is
+reduced to degree below q in each ρ; it vanishes if each of its coefficients, which are algebraic numbers, does.  Zero is proved
+by this whatever other relations the letters obey; that it is not found says nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+import sympy as sp
+from sympy.polys.rings import PolyElement
+
+from lagrotor.algebra.algebraic_numbers import is_zero
+from lagrotor.algebra.generators import survey
+from lagrotor.algebra.quotients import Ring
+from lagrotor.algebra.reading import Reader, find_roots, reader
+from lagrotor.errors import NotExactError
+
+# letter -> (q, B): letter**q = B, where B holds only letters with earlier relations.
+Relations: TypeAlias = Mapping[sp.Symbol, tuple[int, sp.Expr]]
+
+
+def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]) -> tuple[Ring, bool]:
+    """Whether the relations make it zero, and the ring that holds what was divided by.
+
+    Raises NotExactError outside the class, beyond the bound on the work, and where a divisor vanishes.
+    """
+    found = survey(expression, *relations, *(value for _, value in relations.values()))
+    roots = find_roots(found)
+    if roots.unsigned:
+        raise NotExactError("The sign of a root may differ from region to region.")
+    reading = reader(found, roots)
+    numerator = reading.quotient(expression).numerator
+    divisors = list(reading.ring.divisors)
+    if any(_is_null(divisor, reading, relations, numbers) for divisor in divisors):
+        raise NotExactError("A denominator vanishes identically.")
+    return reading.ring, _is_null(numerator, reading, relations, numbers)
+
+
+def _is_null(
+    polynomial: PolyElement, reading: Reader, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]
+) -> bool:
+    ring = reading.ring
+    for letter, (q, value) in reversed(list(relations.items())):
+        polynomial = _reduced(polynomial, ring.names.index(letter), q, reading, value)
+    if not polynomial or not numbers:
+        return not polynomial
+    constant = [not (name.free_symbols - set(numbers)) and name is not sp.pi for name in ring.names]
+    coefficients: dict[tuple[int, ...], sp.Expr] = {}
+    for monomial, c in polynomial.iterterms():
+        key = tuple(0 if fixed else n for n, fixed in zip(monomial, constant, strict=True))
+        term = sp.Mul(
+            sp.Rational(int(c.numerator), int(c.denominator)),
+            *(
+                name.xreplace(dict(numbers)) ** n
+                for name, n, fixed in zip(ring.names, monomial, constant, strict=True)
+                if fixed
+            ),
+        )
+        coefficients[key] = coefficients.get(key, sp.S.Zero) + term
+    return all(is_zero(each) for each in coefficients.values())
+
+
+def _reduced(polynomial: PolyElement, place: int, q: int, reading: Reader, value: sp.Expr) -> PolyElement:
+    """A multiple of the polynomial, of degree below q in the letter at `place`."""
+    degree = max((monomial[place] for monomial in polynomial.itermonoms()), default=0)
+    if degree < q:
+        return polynomial
+    ring, (over, factors) = reading.ring, reading.quotient(value)
+    under = ring.expanded(factors)
+    parts: dict[int, dict[tuple[int, ...], object]] = {}
+    for monomial, c in polynomial.iterterms():
+        times, rest = divmod(monomial[place], q)
+        parts.setdefault(times, {})[(*monomial[:place], rest, *monomial[place + 1 :])] = c
+    total = ring.polynomials.zero
+    for times, part in parts.items():
+        scale = ring.product(ring.power(over, times), ring.power(under, degree // q - times))
+        total += ring.product(scale, ring.polynomials.from_dict(part))
+    return total

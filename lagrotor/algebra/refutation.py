@@ -1,0 +1,74 @@
+"""A point at which an expression is certainly not zero: its enclosure there excludes zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import sympy as sp
+
+from lagrotor.algebra.enclosures import Enclosure, Point, digits, enclosed_at, excludes_zero
+from lagrotor.algebra.evidence import points
+from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.signs import Region
+from lagrotor.errors import NotExactError
+
+# How many points of each size of the letters are looked at.
+_LARGE = 2000  # parts of an expression that is looked at four times only
+_SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))
+
+
+class Witness(NamedTuple):
+    """A point where an enclosure of the expression excludes zero; `real`: where all it is made of is real."""
+
+    point: Point
+    real: bool
+
+
+class Sample(NamedTuple):
+    """The first witness, and at how many points the expression was enclosed."""
+
+    witness: Witness | None
+    enclosed: int
+
+
+def sample(expression: sp.Expr, where: Region) -> Sample:
+    """Look for a witness, one where everything is real first."""
+    found: Witness | None = None
+    enclosed, size = 0, parts(expression)
+    letters = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))
+    for point in _points(letters, where):
+        if enclosed > 3 and size > _LARGE:
+            break
+        witness, defined = _at(expression, point)
+        enclosed += defined
+        if witness is not None and witness.real:
+            return Sample(witness, enclosed)
+        found = found or witness
+    return Sample(found, enclosed)
+
+
+def _points(letters: set[sp.Symbol], where: Region) -> Iterator[Point]:
+    for seed, (scale, number) in enumerate(_SIZES, 1):
+        for point in points(letters, number if not where.above else 4 * number, scale, seed):
+            if all(_certainly_above(e, point) for e, _ in where.above):
+                yield point
+
+
+def _certainly_above(e: sp.Expr, point: Point) -> bool:
+    try:
+        return bool(enclosed_at(e, point, 20).real.a > 0)
+    except NotExactError:
+        return False
+
+
+def _at(expression: sp.Expr, point: Point) -> tuple[Witness | None, bool]:
+    with digits(60):
+        enclosure = Enclosure(point)
+        try:
+            value = enclosure.value(expression)
+        except (NotExactError, RecursionError):
+            return None, False
+        if not excludes_zero(value):
+            return None, True
+        return Witness({**point, **enclosure.jets}, enclosure.real), True

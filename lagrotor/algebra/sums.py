@@ -1,0 +1,100 @@
+"""Sums with symbolic limits: by induction on the upper one; a geometric series by its ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+from sympy.concrete.gosper import gosper_sum
+
+from lagrotor.algebra.signs import Region, is_positive
+
+_MOST_TERMS = 40  # that are written out
+
+
+def written_out(e: sp.Sum) -> sp.Expr | None:
+    """Between whole numbers, and in the least form: Σ to n + 2 as Σ to n and two terms, constant factors outside."""
+    body, (i, low, high), *others = e.args
+    if others:
+        return None
+    if low.is_Integer and high.is_Integer:
+        if high - low >= _MOST_TERMS:
+            return None
+        return sp.Add(*(body.subs(i, k) for k in range(int(low), int(high) + 1)))
+    expanded = sp.expand_mul(body)
+    if expanded.is_Add and body.has(sp.core.function.AppliedUndef):
+        return sp.Add(*(sp.Sum(part, (i, low, high)) for part in expanded.args))
+    constant, rest = expanded.as_independent(i, as_Add=False)
+    if constant != 1:
+        return constant * sp.Sum(rest, (i, low, high))
+    if high is sp.oo:
+        return None
+    shift, base = high.as_coeff_Add()
+    if shift.is_Integer and shift and abs(shift) < _MOST_TERMS:
+        added = range(1, int(shift) + 1) if shift > 0 else range(int(shift) + 1, 1)
+        sign = 1 if shift > 0 else -1
+        return sp.Sum(body, (i, low, base)) + sign * sp.Add(*(body.subs(i, base + k) for k in added))
+    if body.has(sp.core.function.AppliedUndef):
+        return _from_one(body, i, low, high)
+    return None
+
+
+def _from_one(body: sp.Expr, i: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
+    """Σ of an unknown f(i + c) as one of f(i) from 1."""
+    shifts = {sp.expand(f.args[0] - i) for f in body.atoms(sp.core.function.AppliedUndef) if f.has(i)}
+    if len(shifts) == 1 and (c := shifts.pop()).is_Integer and c:
+        return sp.Sum(sp.expand(body.subs(i, i - c)), (i, low + c, high + c))
+    if low.is_Integer and low != 1 and abs(low) < _MOST_TERMS:
+        missing = sp.Add(*(body.subs(i, k) for k in (range(1, int(low)) if low > 1 else range(int(low), 1))))
+        return sp.Sum(body, (i, 1, high)) + (-missing if low > 1 else missing)
+    return None
+
+
+def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
+    """Gosper's closed form, proved by induction on the upper limit."""
+    body, (i, low, high), *others = e.args
+    if others or not (high.is_Symbol and high.is_integer and low.is_Integer) or body.has(high):
+        return None
+    try:
+        value = gosper_sum(body, (i, low, high))
+    except (ValueError, TypeError, AttributeError, NotImplementedError):
+        return None
+    if value is None or value.has(sp.nan, sp.zoo, sp.oo, sp.Sum):
+        return None
+    return value if holds_by_induction(e - value, where, vanishes) else None
+
+
+def value_of_series(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
+    """A geometric series: its first term over 1 − r, where the ratio r of neighbours is constant and −1 < r < 1."""
+    body, (i, low, high), *others = e.args
+    if others or high is not sp.oo or not low.is_Integer:
+        return None
+    first, second = body.subs(i, low), body.subs(i, low + 1)
+    r = sp.cancel(second / first)
+    if not (is_positive(sp.cancel(1 - r), where) and is_positive(sp.cancel(1 + r), where)):
+        return None
+    return first / (1 - r) if vanishes(body.subs(i, i + 1) - r * body, where) else None
+
+
+def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
+    """Whether an expression, linear in one sum to a natural n, is zero for all n: at the first, and with n at n + 1."""
+    found = expression.atoms(sp.Sum)
+    if len(found) != 1:
+        return False
+    [total] = found
+    body, (i, low, n), *others = total.args
+    if others or not (n.is_Symbol and n.is_integer and low.is_Integer) or body.has(n):
+        return False
+    if not ((n.is_positive and low <= 1) or (n.is_nonnegative and low <= 0)):
+        return False
+    S = sp.Dummy("S")
+    linear = sp.expand(expression.xreplace({total: S}))
+    c = linear.coeff(S)
+    rest = linear - c * S
+    if rest.has(S) or c.has(S) or c == 0:
+        return False
+    start = 1 if n.is_positive else 0
+    first = sp.Add(*(body.subs(i, k) for k in range(int(low), start + 1)))
+    at_start = (c * first + rest).subs(n, start)
+    after = c.subs(n, n + 1) * (body.subs(i, n + 1) - rest / c) + rest.subs(n, n + 1)
+    return vanishes(at_start, where) and vanishes(after, where)

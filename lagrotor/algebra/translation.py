@@ -1,0 +1,600 @@
+"""An expression of analysis in letters: what no rule is known for becomes a letter, what is known of letters a relation.
+
+Each step is an identity that holds in the region where it is applied, for principal values:
+
+    log(Π pᵢ**kᵢ) = Σ kᵢ log|pᵢ| of positive products,      a**b = exp(b log a),      exp(r log p) = p**r,
+    cos θ = (1 − τ²)/(1 + τ²), sin θ = 2τ/(1 + τ²) with τ = tan(θ/2),      exp(u + iv) = exp(u) (cos v + i sin v),
+
+and the relations of inverse functions, of Γ, of Bessel functions and of elliptic integrals with their neighbours.  Equal
+letters have equal arguments.  Where a rule needs a sign that is not known, that sign is noted in `wanted`, and the rule is not
+applied.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from math import lcm
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrotor.algebra.enclosures import jet_of
+from lagrotor.algebra.reduction import vanishes
+from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative, is_positive, is_real, signs
+from lagrotor.algebra.special_functions import RULES
+from lagrotor.errors import NotExactError, TooLargeError
+
+# Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
+_MOST_TERMS, _MOST_DEGREE, _MOST_PARTS = 40, 12, 300
+_MOST_MULTIPLE = 24
+_MOST_SAME = 12  # letters of one head that a new one is compared with
+_INDEX, _VARIABLE = sp.Dummy("i", integer=True), sp.Dummy("x", real=True)
+_HYPERBOLIC: dict[Any, Callable[[Any], Any]] = {
+    sp.sinh: lambda w: (w - 1 / w) / 2,
+    sp.cosh: lambda w: (w + 1 / w) / 2,
+    sp.tanh: lambda w: (w**2 - 1) / (w**2 + 1),
+    sp.coth: lambda w: (w**2 + 1) / (w**2 - 1),
+    sp.sech: lambda w: 2 * w / (w**2 + 1),
+    sp.csch: lambda w: 2 * w / (w**2 - 1),
+}
+_CIRCULAR: dict[Any, Callable[[Any, Any], Any]] = {
+    sp.sin: lambda c, s: s,
+    sp.cos: lambda c, s: c,
+    sp.tan: lambda c, s: s / c,
+    sp.cot: lambda c, s: c / s,
+    sp.sec: lambda c, s: 1 / c,
+    sp.csc: lambda c, s: 1 / s,
+}
+_BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
+    sp.acot: lambda u: sp.atan(1 / u),
+    sp.asec: lambda u: sp.pi / 2 - sp.asin(1 / u),
+    sp.acsc: lambda u: sp.asin(1 / u),
+    sp.acosh: lambda u: sp.log(u + sp.sqrt(u - 1) * sp.sqrt(u + 1)),
+    sp.atanh: lambda u: sp.log(1 + u) / 2 - sp.log(1 - u) / 2,
+}
+
+
+def proved_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
+    """The divisors that must not vanish where the expression is proved zero, else None; and the signs that were wanted.
+
+    Raises NotExactError outside the class and beyond the bound on the work.
+    """
+    first = Translation(where)
+    first.of(expression)
+    second = Translation(where, first.steps, first.degrees)
+    translated = second.of(expression)
+    ring, zero = vanishes(translated, second.relations, second.numbers)
+    divisors = tuple(
+        dict.fromkeys(second.back(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
+    )
+    wanted = tuple(dict.fromkeys((*first.wanted, *second.wanted)))
+    return (divisors if zero else None), wanted
+
+
+class Translation:
+    """Translates expressions of one region; the second pass knows the fractions of angles and the roots of the first."""
+
+    def __init__(
+        self, where: Region, steps: Mapping[Any, int] | None = None, degrees: Mapping[sp.Expr, int] | None = None
+    ) -> None:
+        self.where = where
+        self.steps: dict[Any, int] = dict(steps or {})
+        self.degrees: dict[sp.Expr, int] = dict(degrees or {})
+        self.letters: dict[Any, list[tuple[tuple[sp.Expr, ...], sp.Symbol]]] = {}
+        self.meaning: dict[sp.Symbol, sp.Expr] = {}
+        self.relations: dict[sp.Symbol, tuple[int, sp.Expr]] = {}
+        self.numbers: dict[sp.Symbol, sp.Expr] = {}
+        self.arcs: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = {}  # letters for arcs: their cosine and sine
+        self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # of log|p|: p, True; of log b: b, False
+        self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # letters exp(u): u
+        self.wanted: list[sp.Basic] = []
+        self.known: dict[sp.Expr, sp.Expr] = {}
+
+    def of(self, e: sp.Expr) -> sp.Expr:
+        if e not in self.known:
+            self.known[e] = self._sought(e)
+        return self.known[e]
+
+    def back(self, translated: sp.Expr) -> sp.Expr:
+        """What a translation stands for."""
+        while held := translated.free_symbols & self.meaning.keys():
+            translated = translated.xreplace({letter: self.meaning[letter] for letter in held})
+        return translated
+
+    def letter(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
+        """The letter for a function of translated arguments: one letter for equal arguments."""
+        group = self.letters.setdefault(head, [])
+        for others, letter in group[-_MOST_SAME:]:
+            if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
+                return letter
+        sign = signs(meaning, self.where)
+        letter = sp.Dummy(
+            str(head), **({"positive": True} if sign == POSITIVE else {} if sign is None else {"real": True})
+        )
+        group.append((arguments, letter))
+        self.meaning[letter] = meaning
+        return letter
+
+    def _same(self, a: sp.Expr, b: sp.Expr) -> bool:
+        if a == b:
+            return True
+        if a.is_number and b.is_number and not (self.numbers.keys() & (a.free_symbols | b.free_symbols)):
+            return False
+        try:
+            return vanishes(a - b, self.relations, self.numbers)[1]
+        except NotExactError:
+            return False
+
+    def want(self, strict: bool, *sides: sp.Expr) -> None:
+        """Note that these would have to be positive, or not negative."""
+        for side in sides:
+            if not side.has(sp.I) and side.is_real is not False:
+                relation = sp.Gt(side, 0) if strict else sp.Ge(side, 0)
+                self.wanted += [relation] if isinstance(relation, sp.core.relational.Relational) else []
+
+    # What a node is ------------------------------------------------------------------------------------------------
+
+    def _sought(self, e: sp.Expr) -> sp.Expr:
+        if e.is_Rational or e in (sp.pi, sp.I):
+            return e
+        if e.is_Float or (e.has(sp.nan, sp.zoo, sp.oo, -sp.oo) and not isinstance(e, sp.Integral | sp.Sum)):
+            raise NotExactError(f"{e} is not exact or not finite.")
+        if e.is_Symbol:
+            if e.is_commutative and e.is_finite is not False:
+                return self.letter("whole", (e,), e) if e.is_integer else e
+            raise NotExactError(f"{e} must commute and be finite.")
+        if e is sp.E:
+            return self.exponential(sp.S.One)
+        if e.is_Add or e.is_Mul:
+            return e.func(*map(self.of, e.args))
+        if isinstance(e, sp.exp):
+            return self.exponential(self.of(e.args[0]))
+        if e.is_Pow:
+            return self._power(e)
+        if isinstance(e, sp.log) and len(e.args) == 1:
+            return self._log(e)
+        if e.func in _CIRCULAR:
+            return _CIRCULAR[e.func](*self.circle(self.of(e.args[0])))
+        if e.func in _HYPERBOLIC:
+            return _HYPERBOLIC[e.func](self.exponential(self.of(e.args[0])))
+        return self._function(e)
+
+    def _function(self, e: sp.Expr) -> sp.Expr:
+        if isinstance(e, sp.asin | sp.acos | sp.atan):
+            return self._arc(e)
+        if isinstance(e, sp.asinh) and is_real(e.args[0], self.where):
+            u = self.of(e.args[0])
+            return self.log_size(u + self.root(u**2 + 1, sp.S.Half))
+        if e.func in _BY_OTHERS:
+            return self.of(_BY_OTHERS[e.func](e.args[0]))
+        if isinstance(e, sp.Abs | sp.sign | sp.re | sp.im | sp.conjugate):
+            return self._part(e)
+        if e.func in RULES and (rule := RULES[e.func](*e.args)) is not None and rule != e:
+            return self.of(rule)
+        if isinstance(e, sp.Integral | sp.Sum):
+            return self._accumulated(e)
+        if isinstance(e, sp.elliptic_e) and len(e.args) == 1 and (legendre := self._legendre(e)) is not None:
+            return legendre
+        if (jet := jet_of(e)) is not None:
+            return self.letter(jet[0], tuple(map(self.of, jet[1])), e)
+        if isinstance(e, sp.Function | sp.NumberSymbol) and not isinstance(e, AppliedUndef):
+            return self.letter(e.func, tuple(map(self.of, e.args)), e)
+        raise NotExactError(f"{e} is outside the class.")
+
+    def _accumulated(self, e: sp.Expr) -> sp.Expr:
+        """Of unknown functions: an integral as a difference of antiderivatives, a sum by its body and its limits."""
+        body, (x, *ends), *others = e.args
+        if others or not body.has(AppliedUndef):
+            raise NotExactError(f"{e} is outside the class.")
+        index = _INDEX if isinstance(e, sp.Sum) else _VARIABLE
+        inside = self.of(body.xreplace({x: index}))
+        if isinstance(e, sp.Sum):
+            low, high = map(self.of, ends)
+            return self.letter("sum", (inside, low, high), e)
+        values = [
+            self.letter("antiderivative", (inside, self.of(end)), sp.Integral(body, (x, end))) for end in (ends or [x])
+        ]
+        return values[1] - values[0] if len(values) == 2 else values[0]
+
+    def _legendre(self, e: sp.Expr) -> sp.Expr | None:
+        """E(1 − m) from E K' + E' K − K K' = π/2 where E(m) has a letter, 0 < m < 1."""
+        m = self.of(1 - e.args[0])
+        for (other,), second in self.letters.get(sp.elliptic_e, []):
+            if self._same(m, other) and is_positive(e.args[0], self.where) and is_positive(1 - e.args[0], self.where):
+                first, K = (self.of(sp.elliptic_k(side)) for side in (sp.together(1 - e.args[0]), e.args[0]))
+                return (sp.pi / 2 + first * K - second * K) / first
+        return None
+
+    # Powers and exponentials -----------------------------------------------------------------------------------------
+
+    def _power(self, e: sp.Expr) -> sp.Expr:
+        base, exponent = e.base, e.exp
+        if exponent.is_Integer:
+            return self.of(base) ** exponent
+        if exponent.is_Rational:
+            if e.is_number and (e.is_algebraic or base.is_algebraic):
+                return self._number(sp.Pow(base, sp.Rational(1, exponent.q), evaluate=False)) ** exponent.p
+            return self.root(self.of(base), exponent, base)
+        found = signs(base, self.where)
+        if found is not None and found <= NONNEGATIVE:  # 0**b is left out of the domain
+            return self.exponential(sp.expand(self.of(exponent) * self.log_size(self.of(base))))
+        if exponent.is_integer:
+            if base in (sp.S.NegativeOne, sp.I):
+                return self._turned(e)
+            if (angle := _angle_of_unit(base)) is not None:
+                return self.exponential(sp.expand(sp.I * self.of(exponent * angle)))
+            return self._whole_power(self.of(base), self.of(exponent))
+        self.want(True, base)
+        return self.exponential(sp.expand(self.of(exponent) * self._complex_log(base)))
+
+    def _turned(self, e: sp.Expr) -> sp.Expr:
+        """(−1)**n and i**n: whole turns in n are left out."""
+        period = 2 if e.base is sp.S.NegativeOne else 4
+        kept = [term for term in sp.Add.make_args(sp.expand(e.exp)) if not (term / period).is_integer]
+        power = e.base ** sp.Add(*kept)
+        if not power.free_symbols:
+            return self.of(power)
+        sign = self.letter(("unit", e.base), (self.of(sp.Add(*kept)),), power)
+        self.relations.setdefault(sign, (period, sp.S.One))
+        return sign
+
+    def _whole_power(self, base: sp.Expr, n: sp.Expr) -> sp.Expr:
+        """Π pᵢ**(kᵢ n), of factors of any sign."""
+        content, factors = self.factors(base)
+        result = self.exponential(sp.expand(n * self.log_size(abs(content))))
+        if content < 0:
+            sign = self.letter("sign", (n,), (-1) ** self.back(n))
+            self.relations.setdefault(sign, (2, sp.S.One))
+            result *= sign
+        for p, k in factors:
+            log = self.log_size(p) if is_positive(self.back(p), self.where) else self._log_letter(p)
+            result *= self.exponential(sp.expand(k * n * log))
+        return result
+
+    def root(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr | None = None) -> sp.Expr:
+        """base**r of a translated base: of each factor where all are real and the product is not negative."""
+        original = self.back(base) if meaning is None else meaning
+        found = signs(original, self.where)
+        if found is None or not found <= NONNEGATIVE:
+            if found is not None:
+                self.want(False, original)
+            return self._principal(base, r, original)
+        content, factors = self.factors(base)
+        result = self._number_power(abs(content), r)
+        for p, k in factors:
+            result *= self._size_power(p, k * r)
+        return result
+
+    def _size_power(self, p: sp.Expr, r: sp.Rational) -> sp.Expr:
+        """|p|**r of a real p."""
+        if p in self.exponentials:
+            return self.exponential(self.exponentials[p] * r)
+        original = self.back(p)
+        found = signs(original, self.where)
+        if found is None and r.is_Integer and r % 2 == 0:
+            return p**r
+        if found is not None and found <= NONNEGATIVE:
+            return self._principal(p, r, original)
+        if found is not None and found <= {-1, 0}:
+            return self._principal(-p, r, -original)
+        if r.is_Integer and r % 2 == 0:
+            return p**r
+        self.want(False, original)
+        size = self.letter("size", (p,), sp.Abs(original))
+        self.relations.setdefault(size, (2, p**2))
+        return self._principal(size, r, sp.Abs(original))
+
+    def _principal(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
+        """base**r = (base**(1/q))**p, the root a letter."""
+        if r.is_Integer:
+            return base**r
+        if base.is_Rational:
+            return self._number_power(base, r)
+        key = base
+        self.degrees[key] = lcm(self.degrees.get(key, 1), int(r.q))
+        q = self.degrees[key]
+        letter = self.letter(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
+        self.relations.setdefault(letter, (q, base))
+        return letter ** int(r * q)
+
+    def _number_power(self, value: sp.Rational, r: sp.Rational) -> sp.Expr:
+        e = sp.Pow(value, r)
+        return (
+            e if e.is_Rational else sp.Mul(*(self._number(f) if not f.is_Rational else f for f in sp.Mul.make_args(e)))
+        )
+
+    def _number(self, e: sp.Expr) -> sp.Expr:
+        """A letter for an algebraic number."""
+        if e.is_Rational or e is sp.I:
+            return e
+        letter = self.letter("number", (e,), e)
+        self.numbers[letter] = e
+        return letter
+
+    def exponential(self, u: sp.Expr) -> sp.Expr:
+        """exp(u) of a translated u, term by term."""
+        result = sp.S.One
+        for rate, rest in self.terms(u):
+            if rest.has(sp.I):
+                c, s = self._pair(rate, sp.expand(rest / sp.I))
+                result *= c + sp.I * s
+            elif rest in self.logarithms:
+                p, size = self.logarithms[rest]
+                result *= self._size_power(p, rate) if size else self._principal(p, rate, self.back(p))
+            else:
+                key = "exp", rest
+                self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
+                step = self.steps[key]
+                w = self.letter(key, (), sp.exp(self.back(rest) / step))
+                self.exponentials[w] = rest / step
+                result *= w ** int(rate * step)
+        return result
+
+    def terms(self, u: sp.Expr) -> list[tuple[sp.Rational, sp.Expr]]:
+        """u as Σ rate · product of letters; what is divided by is a letter, too."""
+        over, under = sp.fraction(sp.together(u))
+        over = sp.expand(over)
+        under = sp.expand(under)
+        if under.is_Add:
+            content, under = under.primitive()
+            if under.could_extract_minus_sign():
+                content, under = -content, -under
+            over, under = over / content, self.letter("divisor", (under,), self.back(under))
+        found = []
+        for term in sp.Add.make_args(sp.expand(over / under)):
+            rate, rest = term.as_coeff_Mul()
+            if not rate.is_Rational:
+                raise NotExactError(f"{u} is no argument of a function in the class.")
+            if rate:
+                found.append((rate, rest))
+        return found
+
+    # Angles ------------------------------------------------------------------------------------------------------------
+
+    def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """Cosine and sine of a translated u, term by term."""
+        total = sp.S.One, sp.S.Zero
+        for rate, rest in self.terms(u):
+            if rest.has(sp.I):
+                w = self.exponential(sp.expand(rate * rest / sp.I))
+                pair = (w + 1 / w) / 2, sp.I * (w - 1 / w) / 2
+            else:
+                pair = self._pair(rate, rest)
+            total = _sum(total, pair)
+        return total
+
+    def _pair(self, rate: sp.Rational, rest: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        if rest is sp.pi:
+            return self._number_of_turn(sp.cos(rate * sp.pi)), self._number_of_turn(sp.sin(rate * sp.pi))
+        if not rest.has(sp.I) and (rate * rest / (2 * sp.pi)).is_integer is None and self._turns(rate * rest):
+            return sp.S.One, sp.S.Zero
+        if rest in self.arcs and rate.is_Integer:
+            return _multiple(self.arcs[rest], int(rate))
+        key = "angle", rest
+        self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
+        step = self.steps[key]
+        tau = self.letter(key, (), sp.tan(self.back(rest) / (2 * step)))
+        square = 1 + tau**2
+        return _multiple(((1 - tau**2) / square, 2 * tau / square), int(rate * step))
+
+    def _turns(self, angle: sp.Expr) -> bool:
+        """Whether an angle is a whole number of turns for all whole numbers it holds."""
+        return bool((self.back(angle) / (2 * sp.pi)).is_integer)
+
+    def _number_of_turn(self, value: sp.Expr) -> sp.Expr:
+        if value.is_Rational:
+            return value
+        return sp.expand(value).replace(lambda n: n.is_Pow or isinstance(n, sp.sin | sp.cos), self._number)
+
+    # Logarithms --------------------------------------------------------------------------------------------------------
+
+    def _log(self, e: sp.Expr) -> sp.Expr:
+        u = e.args[0]
+        found = signs(u, self.where)
+        if found is None:
+            return self._complex_log(u)
+        if found <= NONNEGATIVE:
+            return self.log_size(self.of(u))
+        if found <= {-1, 0}:
+            return self.log_size(self.of(u)) + sp.I * sp.pi
+        self.want(True, u, *(self.back(p) for p, _ in self.factors(self.of(u))[1]))
+        return self._complex_log(u)
+
+    def _complex_log(self, u: sp.Expr) -> sp.Expr:
+        if isinstance(u, sp.exp):
+            angle = sp.expand(u.args[0] / sp.I)
+            if is_real(angle, self.where):
+                if is_positive(angle + sp.pi, self.where) and is_nonnegative(sp.pi - angle, self.where):
+                    return self.of(u.args[0])
+                self.want(True, angle + sp.pi)
+                self.want(False, sp.pi - angle)
+        ratio = sp.expand(u / sp.I)
+        if (found := signs(ratio, self.where)) in (POSITIVE, frozenset({-1})):
+            side = 1 if found == POSITIVE else -1
+            return self.log_size(self.of(side * ratio)) + side * sp.I * sp.pi / 2
+        return self._log_letter(self.of(u))
+
+    def _log_letter(self, b: sp.Expr) -> sp.Expr:
+        letter = self.letter("log", (b,), sp.log(self.back(b)))
+        self.logarithms.setdefault(letter, (b, False))
+        return letter
+
+    def log_size(self, u: sp.Expr) -> sp.Expr:
+        """log|u| of a real translated u, as a sum over its factors."""
+        content, factors = self.factors(u)
+        total = sp.S.Zero
+        content = sp.Abs(content)
+        for side, sign in ((content.p, 1), (content.q, -1)):
+            for prime, k in sp.factorint(side, limit=10**5).items():
+                total += sign * k * self._size_letter(sp.Integer(prime))
+        for p, k in factors:
+            total += k * self._log_of_factor(p)
+        return total
+
+    def _log_of_factor(self, p: sp.Expr) -> sp.Expr:
+        if p in self.exponentials:
+            return self.exponentials[p]
+        if p in self.relations:
+            q, value = self.relations[p]
+            return (self._size_letter(value) if value.is_Symbol else self.log_size(value)) / q
+        if (
+            p in self.numbers
+            and (number := self.numbers[p]).is_Pow
+            and number.exp.is_Rational
+            and number.base.is_positive
+        ):
+            return self.log_size(self.of(number.base)) * number.exp
+        return self._size_letter(p)
+
+    def _size_letter(self, p: sp.Expr) -> sp.Expr:
+        letter = self.letter("logsize", (p,), sp.log(sp.Abs(self.back(p))))
+        self.logarithms.setdefault(letter, (p, True))
+        return letter
+
+    def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:
+        """u = content · Π p**k, coprime p with positive leading coefficients."""
+        if parts(u) > _MOST_PARTS:
+            raise TooLargeError(f"An argument of a root or a logarithm has more than {_MOST_PARTS} parts.")
+        over, under = sp.fraction(sp.together(u))
+        content, found = sp.S.One, dict[sp.Expr, int]()
+        for side, sign in ((over, 1), (under, -1)):
+            part = self._polynomial(side)
+            c, factors = part if part is not None else (sp.S.One, [(side, 1)])
+            content *= c**sign
+            for p, k in factors:
+                found[p] = found.get(p, 0) + sign * k
+        return content, [(p, k) for p, k in found.items() if k]
+
+    def _polynomial(self, side: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]] | None:
+        put = {value: letter**q for letter, (q, value) in self.relations.items() if value.is_Symbol}
+        side = side.xreplace(put)
+        if side.has(sp.I) or not _is_small(side):
+            return None
+        side = self._without_powers(sp.expand(side))
+        if side.is_Rational:
+            return side, []
+        if len(sp.Add.make_args(side)) > _MOST_TERMS:
+            return None
+        try:
+            content, factors = sp.factor_list(side)
+        except (sp.PolynomialError, NotImplementedError):
+            return None
+        if not content.is_Rational:
+            factors, content = [*factors, (content, 1)], sp.S.One
+        return content, [(sp.expand(p), int(k)) for p, k in factors]
+
+    def _without_powers(self, side: sp.Expr) -> sp.Expr:
+        """Letters with a relation reduced in a polynomial, where the value is a polynomial."""
+        for letter, (q, value) in reversed(self.relations.items()):
+            if side.has(letter) and value.is_polynomial() and not value.is_Symbol:
+                side = sp.rem(side, letter**q - value, letter)
+        return side
+
+    # Arcs and parts ----------------------------------------------------------------------------------------------------
+
+    def _arc(self, e: sp.Expr) -> sp.Expr:
+        u = e.args[0]
+        inner, low, high = {
+            sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
+            sp.acos: (sp.cos, sp.S.Zero, sp.pi),
+            sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2),
+        }[e.func]
+        if isinstance(u, inner):
+            v = u.args[0]
+            if is_nonnegative(v - low, self.where) and is_nonnegative(high - v, self.where):
+                return self.of(v)
+            self.want(False, v - low, high - v)
+        if isinstance(e, sp.acos):
+            return sp.pi / 2 - self.of(sp.asin(u))
+        t = self.of(u)
+        if t.could_extract_minus_sign():
+            return -self.of(e.func(-u)) if e.func(-u).func is e.func else self._arc_letter(e, t)
+        return self._arc_letter(e, t)
+
+    def _arc_letter(self, e: sp.Expr, t: sp.Expr) -> sp.Symbol:
+        u = e.args[0]
+        letter = self.letter(e.func, (t,), e)
+        if letter not in self.arcs:
+            if isinstance(e, sp.atan):
+                cosine = 1 / self.root(1 + t**2, sp.S.Half, 1 + u**2)
+                self.arcs[letter] = cosine, t * cosine
+            else:
+                self.arcs[letter] = self.root(1 - t**2, sp.S.Half, 1 - u**2), t
+        return letter
+
+    def _part(self, e: sp.Expr) -> sp.Expr:
+        """|u|, sign u, and the parts of a complex u whose letters are real."""
+        u = e.args[0]
+        t = self.of(u)
+        if is_real(u, self.where):
+            if isinstance(e, sp.re | sp.conjugate):
+                return t
+            if isinstance(e, sp.im):
+                return sp.S.Zero
+            size = self.root(t**2, sp.S.Half, u**2)
+            return size if isinstance(e, sp.Abs) else t / size
+        if not all(is_real(self.back(s), self.where) for s in t.free_symbols):
+            return self.letter(e.func, (t,), e)
+        over, under = sp.fraction(sp.together(t))
+        if under.has(sp.I):
+            conjugate = under.xreplace({sp.I: -sp.I})
+            over, under = sp.expand(over * conjugate), sp.expand(under * conjugate)
+        over = sp.expand(over)
+        i = sp.Dummy()
+        along, across = (
+            sp.Add(*(c for (n,), c in sp.Poly(over.xreplace({sp.I: i}), i).terms() if n % 2 == part)) for part in (0, 1)
+        )
+        along, across = along / under, across / under
+        if isinstance(e, sp.re):
+            return along
+        if isinstance(e, sp.im):
+            return across
+        if isinstance(e, sp.conjugate):
+            return along - sp.I * across
+        square = sp.together(along**2 + across**2)
+        content, factors = self.factors(square)
+        size = self._number_power(abs(content), sp.S.Half)
+        for p, k in factors:
+            size *= self._size_power(p, sp.Rational(k, 2))
+        return size if isinstance(e, sp.Abs) else t / size
+
+
+def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
+    """u where base = cos u ± i sin u."""
+    for cosine in base.atoms(sp.cos):
+        u = cosine.args[0]
+        for side in (1, -1):
+            if base == cosine + side * sp.I * sp.sin(u):
+                return side * u
+    return None
+
+
+def _is_small(e: sp.Expr) -> bool:
+    """Whether a polynomial is of low degree."""
+
+    def degree(node: sp.Expr) -> int:
+        if node.is_Add:
+            return max(map(degree, node.args))
+        if node.is_Mul:
+            return sum(map(degree, node.args))
+        if node.is_Pow and node.exp.is_Integer:
+            return int(abs(node.exp)) * degree(node.base)
+        return 0 if node.is_number else 1
+
+    return degree(e) <= _MOST_DEGREE
+
+
+def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+    """Cosine and sine of a sum."""
+    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
+
+
+def _multiple(pair: tuple[sp.Expr, sp.Expr], n: int) -> tuple[sp.Expr, sp.Expr]:
+    """Cosine and sine of n times an angle."""
+    if abs(n) > _MOST_MULTIPLE:
+        raise NotExactError(f"A multiple {n} of an angle is too large.")
+    total = reduce(lambda a, _: _sum(a, pair), range(abs(n)), (sp.S.One, sp.S.Zero))
+    return total if n >= 0 else (total[0], -total[1])
