@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.order_by_order import Unknowns as Unknowns
     from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
     from lagrotor.mechanics.running.programs import motion_program as motion_program
+    from lagrotor.mechanics.running.simulation import SystemRun as SystemRun
+    from lagrotor.mechanics.running.switches import Event as Event
+    from lagrotor.mechanics.running.switches import Impact as Impact
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
     from lagrotor.mechanics.symmetry import legendre as legendre
     from lagrotor.mechanics.systems import System as System

@@ -1,5 +1,6 @@
 """A mechanical system, and what can be derived from it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,9 @@ from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.running.integration import Array, Rhs, Values
-    from lagrotor.mechanics.running.simulation import Run
+    from lagrotor.mechanics.running.flow import Array, Rhs, Values
+    from lagrotor.mechanics.running.simulation import SystemRun
+    from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
 
 
@@ -46,15 +48,15 @@ class System(Equations):
 
         Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
         """
-        from lagrotor.mechanics.running import integration
+        from lagrotor.mechanics.running import starts
 
-        return integration.consistent(self, values, q0, v0, t)
+        return starts.consistent(self, values, q0, v0, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
-        """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.integration`."""
-        from lagrotor.mechanics.running import integration
+        """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
+        from lagrotor.mechanics.running import flow
 
-        return integration.rhs(self, values, engine)
+        return flow.rhs(self, values, engine)
 
     def simulate(
         self,
@@ -64,8 +66,9 @@ class System(Equations):
         t: ArrayLike,
         tol: float = 1e-9,
         engine: "Engine" = "core",
-    ) -> "Run":
+        events: "Event | Impact | Sequence[Event | Impact]" = (),
+    ) -> "SystemRun":
         """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s: see `running.simulation`."""
         from lagrotor.mechanics.running import simulation
 
-        return simulation.simulate(self, values, q0, v0, t, tol, engine)
+        return simulation.simulate(self, values, q0, v0, t, tol, engine, events)

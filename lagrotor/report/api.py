@@ -24,7 +24,9 @@ _BESIDE = {
     "System": "lagrotor.mechanics",
     "coordinates": "lagrotor.mechanics",
     "judge": "lagrotor.paper",
-    "Run": "lagrotor.mechanics.running.simulation",
+    "SystemRun": "lagrotor.mechanics",
+    "Event": "lagrotor.mechanics",
+    "Impact": "lagrotor.mechanics",
 }
 
 

@@ -32,11 +32,17 @@ SYSTEMS = (
     "rolling",
     "rods",
     "pair",
+    "ball",
+    "block",
+    "clock",
 )
 
 
 def test_every_system_of_the_list_is_there() -> None:
-    listed = "spherical double top hoop kapitza foucault wilberforce kepler magnetic gimbals four_bar sleigh disc chains paired"
+    listed = (
+        "spherical double top hoop kapitza foucault wilberforce kepler magnetic gimbals four_bar sleigh disc chains paired "
+        "ball rocking clock"
+    )
     assert [any(word in stem for stem in GALLERY) for word in listed.split()] == [True] * len(listed.split())
 
 

@@ -63,8 +63,11 @@ def test_it_is_refused_with_the_way_out(what: str) -> None:
 def test_a_function_that_the_fast_engine_does_not_know_is_named() -> None:
     pytest.importorskip("heyoka")
     rough = System(C, theta_v**2 / 2, forces=(-theta_v * sp.Abs(theta_v),))
-    with pytest.raises(InputError, match="does not know the function Abs: use engine='core'"):
+    with pytest.raises(InputError, match="no force that jumps: use engine='core'"):
         rough.simulate({}, (1,), (1,), TIMES, engine="fast")
+    odd = System(C, theta_v**2 / 2, forces=(-theta_v * sp.loggamma(2 + theta**2),))
+    with pytest.raises(InputError, match="does not know the function loggamma: use engine='core'"):
+        odd.simulate({}, (1,), (1,), TIMES, engine="fast")
     assert rough.simulate({}, (1,), (1,), TIMES).v[-1] == pytest.approx(1 / 2)  # v' = −v²
 
 

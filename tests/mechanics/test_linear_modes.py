@@ -220,6 +220,20 @@ def test_the_condition_of_stability_says_what_the_eigenvalues_say(entries: list[
     assert bool(linear.stable_if) is stable
 
 
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(1, 6), min_size=5, max_size=5))
+def test_the_determinants_of_routh_and_hurwitz_say_what_the_roots_say(entries: list[int]) -> None:
+    """Two damped coordinates with a circulatory force: every coefficient is positive, so that the determinants decide."""
+    p, q, r, b, d = entries
+    K, C = sp.Matrix([[p, q], [-q, r]]), sp.diag(b, d)
+    linear = LinearSystem(sp.eye(2), C, K, sp.eye(2))
+    s = sp.Symbol("s")
+    coefficients = [float(x) for x in sp.Poly(linear.characteristic(s), s).all_coeffs()]
+    roots = np.roots(coefficients)
+    if np.abs(roots.real).min() > 1e-6:
+        assert bool(linear.stable_if) is bool((roots.real < 0).all())
+
+
 def test_where_the_coordinates_are_singular_an_equilibrium_says_so() -> None:
     """A pendulum turned about x, then y: of its eight points without a force along a coordinate, four are horizontal."""
     c = coordinates("a b")

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.running.integration import MOST, Array, projection
-from lagrotor.mechanics.running.motion import Motion
+from lagrotor.mechanics.running.flow import Array, projection
+from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.shown import Shown
 
 _PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
+MOST = 10_000_000  # evaluations
 _TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
 
 
@@ -35,7 +36,7 @@ class Lyapunov(Shown):
         }
 
 
-def lyapunov(run: Motion) -> Lyapunov:
+def lyapunov(run: SampledMotion) -> Lyapunov:
     """The largest Lyapunov exponent over the time of the run.
 
     It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample,
@@ -43,6 +44,10 @@ def lyapunov(run: Motion) -> Lyapunov:
     """
     if len(run.t) < 2:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
+    if not run.switched.smooth:
+        raise InputError(
+            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
+        )
     given, n = tangent_program(motion_program(run.system)), 2 * run.q.shape[1]
     rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
     project = projection(run.system, run.values) if run.system.multipliers else None

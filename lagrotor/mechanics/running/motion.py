@@ -1,7 +1,9 @@
-"""A motion: its states at some times, and whatever else is a function of them."""
+"""A motion of a system that was run: its states at some times, and whatever else is a function of them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from hashlib import sha256
+from math import inf
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,85 +13,131 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
-from lagrotor.mechanics.running.integration import Array, Values, increasing, states
-from lagrotor.mechanics.running.programs import (
-    Generated,
-    energy_program,
-    function_program,
-    motion_program,
-    parameter_values,
-)
+from lagrotor.mechanics.running.flow import Array, Integrate, Values, smooth_motion
+from lagrotor.mechanics.running.phases import Switched, march
+from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
+from lagrotor.mechanics.running.programs import energy_program, function_program, parameter_values, values_of
+from lagrotor.mechanics.running.scales import Scales
+from lagrotor.mechanics.running.starts import increasing
+from lagrotor.numerics.any_run import Quantity, Run
 from lagrotor.numerics.integrate import Engine
 
-Kind = TypeVar("Kind", bound="Motion")
+Kind = TypeVar("Kind", bound="SampledMotion")
 
 
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """A motion at the times t (n,) in s: coordinates q (n, N) and velocities v (n, N)."""
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SampledMotion(Run):
+    """A motion of a system at the times t (n,) in s: coordinates q (n, N) and velocities v (n, N).
+
+    errors are relative: of each coordinate to its largest value over the run, of each velocity to its own, neither less than a
+    thousandth of what the kinetic energy makes it.
+    """
 
     system: Equations
     values: Values
-    t: Array
     q: Array
     v: Array
     tol: float
     engine: Engine
+    scales: Scales
+    states: Array  # of the integration, with time and mode
+    local: float
+    switched: Switched
 
-    def __repr__(self) -> str:
-        names, n = ", ".join(map(str, self.system.c.q)), len(self.t)
-        return f"{type(self).__name__} of {names}: {n} times" + (f", {self.t[0]:g} to {self.t[-1]:g} s" if n else "")
+    def summary(self) -> dict[str, str]:
+        """What moves, and how well its motion is known, name → words."""
+        return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
 
     @property
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""
-        given = energy_program(self.system)
-        return self._values(given, given.function)
+        program = energy_program(self.system)
+        return values_of(program, self.q.T, self.v.T, self.t, parameter_values(program, self.values))[0]
 
     @property
     def drift(self) -> Array:
         """The largest violation of a constraint, |g| or |G v + b|, (n,); zero without constraints."""
-        off = [*self.system.constraints, *self.system.residual]
-        return np.abs([self.evaluate(e) for e in off]).max(0) if off else np.zeros(len(self.t))
+        off = (*self.system.constraints, *self.system.residual)
+        return np.abs(self._values(self.system, off, self.t)).max(0) if off else np.zeros(len(self.t))
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ
         of the constraints, system.multipliers, with which Gᵀ λ is the generalised force of the constraints.
 
+        Where dry friction sticks, sign(w) is what holds it, between −1 and 1.
         Raises InputError when it contains anything else.
         """
-        given = _function(self.system, checked("evaluate: expression", expression))
-        return self._values(given, given.function)
+        e = checked("evaluate: expression", expression)
+        if self.switched.smooth:
+            return self._values(self.system, (e,), self.t)[0]
+        return evaluate_in_phases(self.switched, e, self.t, self.states)
 
-    def _values(self, given: Generated, function: Any) -> Array:
-        columns = [*self.q.T, *self.v.T, *((self.t,) if len(given.states) > 2 * self.q.shape[1] else ())]
-        with np.errstate(all="ignore"):
-            (found,) = function(*columns, *parameter_values(given, self.values))
-        return np.broadcast_to(np.asarray(found, float), self.t.shape).copy()
+    def _values(self, system: Equations, expressions: Sequence[sp.Expr], times: Array) -> Array:
+        program = function_program(system, *expressions)
+        return values_of(program, self.q.T, self.v.T, times, parameter_values(program, self.values))
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
-        wanted = increasing(np.atleast_1d(times))
+        wanted = increasing("at", np.atleast_1d(times))
         if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
-        found = np.empty((len(wanted), 2 * self.q.shape[1]))
         before = np.clip(np.searchsorted(self.t, wanted, side="right") - 1, 0, len(self.t) - 1)
+        run_on = integration_of(self.system, self.values, self.engine, self.scales, self.switched, self.states[0])
+        states = np.empty((len(wanted), self.states.shape[1]))
         for i in np.unique(before):
             inside = before == i
-            start = np.concatenate([self.q[i], self.v[i]])
-            found[inside] = states(self.system, self.values, start, self.t[i], wanted[inside], self.tol, self.engine)
+            grid = np.union1d(self.t[i], wanted[inside])
+            part = run_on(self.states[i], grid, self.local, False, inf).states
+            states[inside] = part[np.searchsorted(grid, wanted[inside])]
+        return self.read(wanted, states)
+
+    def read(self: Kind, times: Array, states: Array) -> Kind:
+        """The run at other times, at which its states are known."""
         n = self.q.shape[1]
-        return replace(self, t=wanted, q=found[:, :n], v=found[:, n:])
+        errors = self.errors[np.minimum(np.searchsorted(self.t, times), len(self.t) - 1)]
+        return replace(self, t=times, errors=errors, q=states[:, :n], v=states[:, n : 2 * n], states=states)
 
-    def derivatives(self) -> Array:
-        """(v, a) at the samples, (n, 2 N)."""
-        given = motion_program(self.system)
-        rhs = given.rhs(*parameter_values(given, self.values))
-        clock = len(given.states) > 2 * self.q.shape[1]
-        rows = np.hstack([self.q, self.v, *([self.t[:, None]] if clock else [])])
-        return np.array([rhs(0.0, y) for y in rows])[:, : 2 * self.q.shape[1]]
+    def quantities(self) -> dict[str, Quantity]:
+        """Coordinates, velocities, energy and, under constraints, their violation."""
+        c = self.system.c
+        held = {
+            str(s): Quantity(column, ("t",), "") for s, column in zip((*c.q, *c.v), (*self.q.T, *self.v.T), strict=True)
+        }
+        held["energy"] = Quantity(self.energy, ("t",), "J")
+        if self.system.multipliers:
+            held["drift"] = Quantity(self.drift, ("t",), "")
+        return held
+
+    def about(self) -> dict[str, Any]:
+        """What `save` writes beside the arrays, as JSON: no equation, which would have to be read as one."""
+        return {
+            "coordinates": [str(q) for q in self.system.c.q],
+            "equations": digest_of(self.system),
+            "values": {str(name): float(value) for name, value in self.values.items()},
+            "tol": self.tol,
+            "engine": self.engine,
+            "local": self.local,
+            "turn": self.scales.turn,
+            "sizes": self.scales.sizes.tolist(),
+            "modes": self.states[:, 2 * self.q.shape[1] :].tolist(),
+        }
 
 
-@lru_cache(maxsize=256)
-def _function(system: Equations, expression: sp.Expr) -> Generated:
-    return function_program(system, expression)
+def digest_of(system: Equations) -> str:
+    """What identifies the equations of a system."""
+    parts = (
+        system.lagrangian if system.bodies else system.L,
+        system.constraints,
+        system.rolling,
+        system.dissipation,
+        system.forces,
+    )
+    return sha256("; ".join(map(str, parts)).encode()).hexdigest()
+
+
+def integration_of(
+    system: Equations, values: Values, engine: Engine, scales: Scales | None, h: Switched, start: Array
+) -> Integrate:
+    if h.smooth and scales:
+        return smooth_motion(system, values, engine, scales.sizes, scales.turn, start)
+    return lambda start, times, local, companion, budget: march(h, start, times, local, budget)

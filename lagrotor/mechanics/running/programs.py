@@ -11,7 +11,9 @@ from functools import cached_property, lru_cache
 from keyword import iskeyword
 from typing import Any
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, SingularError
@@ -26,6 +28,7 @@ from lagrotor.mechanics.lagrangian import singular_mass, t
 from lagrotor.numerics.codegen import Program, Stage, compile_program, reduce_common, solve_symmetric
 from lagrotor.numerics.rhs import make_rhs
 
+Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
@@ -60,21 +63,24 @@ def motion_program(system: Equations) -> Generated:
     Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
     """
     stages, a, _ = _accelerations(system)
-    return generated(system, stages, [*system.c.v, *a], moving=True)
+    states = state_symbols(system)
+    return generated(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
+
+
+def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
+    """The state of a motion: q, v and, where the time enters, t."""
+    return (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
 
 
 def generated(
-    system: Equations, stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
+    states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """A program of the system's state and parameters, its symbols renamed where a language would not take their names.
+    """A program of a state and parameters, its symbols renamed where a language would not take their names.
 
-    moving: it is evaluated so often that common parts are worth the search, and t' = 1 is its last output where time enters.
+    moving: it is evaluated so often that common parts are worth the search.
     """
     own = {name for name, _ in stages}
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
-    states = (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
-    if moving and len(states) > 2 * len(system.c.q):
-        outputs = [*outputs, sp.S.One]
     parameters = tuple(sorted(used - {*states}, key=str))
     rename: dict[Any, Any] = {
         s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate((*states, *parameters)) if not _is_plain(str(s))
@@ -95,34 +101,36 @@ def generated(
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """(q, v[, t]) → the rows of G, one after another."""
-    return generated(system, (), list(system.rows))
+    """(q, v, t) → the rows of G, one after another."""
+    return function_program(system, *system.rows)
 
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """(q, v[, t]) → M, g, G and G v + b, one row after another."""
-    return generated(system, (), [*system.mass, *system.constraints, *system.rows, *system.residual])
+    """(q, v, t) → M, g, G and G v + b, one row after another."""
+    return function_program(system, *system.mass, *system.constraints, *system.rows, *system.residual)
 
 
-def function_program(system: Equations, expression: sp.Expr) -> Generated:
-    """(q, v[, t]) → an expression in q, v, t, the accelerations and the multipliers of a motion."""
-    if not expression.free_symbols & {*system.c.a, *system.multipliers}:
-        return generated(system, (), [expression])
+@lru_cache(maxsize=256)
+def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
+    """(q, v, t) → expressions in q, v, t, the accelerations and the multipliers of a motion."""
+    states = (*system.c.q, *system.c.v, t)
+    if not set().union(*(e.free_symbols for e in expressions)) & {*system.c.a, *system.multipliers}:
+        return generated(states, (), expressions)
     stages, a, lam = _accelerations(system)
     made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
-    return generated(system, stages, [expression.xreplace(made)])
+    return generated(states, stages, [e.xreplace(made) for e in expressions])
 
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """(q, v[, t]) → the Jacobi integral."""
+    """(q, v, t) → the Jacobi integral."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
-        return generated(system, (), [system.energy])
+        return function_program(system, system.energy)
     keep = Stages()
     energy = tree_energy(tree, joints(tree, keep), system.c, keep)
-    return generated(system, keep.made, [energy])
+    return generated((*system.c.q, *system.c.v, t), keep.made, [energy])
 
 
 def _is_plain(name: str) -> bool:
@@ -192,7 +200,8 @@ def projection_program(system: Equations) -> Generated:
     more, x = constraint_solve(G * W, system.residual, "_s")
     moves[:, 1] = W * x
     state = sp.Matrix([*system.c.q, *system.c.v]) - moves[:, 0].col_join(moves[:, 1])
-    return generated(system, [*stages, *more], list(state) + ([t] if depends_on_time(system) else []))
+    states = state_symbols(system)
+    return generated(states, [*stages, *more], [*state, *states[len(state) :]])
 
 
 def tangent_program(given: Generated) -> Generated:
@@ -236,3 +245,10 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         if not abs(found[-1]) < float("inf"):
             raise InputError(f"{where}: {p} = {found[-1]} must be finite")
     return tuple(found)
+
+
+def values_of(given: Generated, q: Array, v: Array, times: Array, parameters: tuple[float, ...]) -> Array:
+    """The outputs (k, n) of a function's program at states q (N, n), v (N, n) and times (n,)."""
+    with np.errstate(all="ignore"):
+        outputs = given.function(*q, *v, times, *parameters)
+    return np.array([np.broadcast_to(np.asarray(e, float), np.shape(times)) for e in outputs]).reshape(len(outputs), -1)

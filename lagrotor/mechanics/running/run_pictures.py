@@ -10,8 +10,8 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.expressions import vector_of
-from lagrotor.mechanics.running.integration import Array
-from lagrotor.mechanics.running.motion import Motion
+from lagrotor.mechanics.running.flow import Array
+from lagrotor.mechanics.running.motion import SampledMotion
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 Point = Sequence[sp.Expr]
 
 
-def plot(run: Motion) -> "RunFigure":
+def plot(run: SampledMotion) -> "RunFigure":
     """A figure of the coordinates, the change of the energy and, under constraints, their violation over time."""
     from lagrotor.drawing.run_figure import coordinates_figure
 
@@ -27,7 +27,7 @@ def plot(run: Motion) -> "RunFigure":
     return coordinates_figure(run.t, labels, run.energy, run.drift)
 
 
-def animate(run: Motion, path: str | Path, lines: Sequence[Sequence[Point]] = (), fps: float = 25.0) -> Path:
+def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
     """Write the run as a film (.gif or .mp4) of its bodies, or of `lines`: each a sequence of points (x, y, z) in q and t.
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
@@ -58,7 +58,7 @@ def _sequence(given: Sequence[Any]) -> Sequence[Any]:
     return given
 
 
-def _outline(frames: Motion, body: Body) -> list[Array]:
+def _outline(frames: SampledMotion, body: Body) -> list[Array]:
     """The body's lines carried along, each (m, p, 3)."""
     origin = _vectors(frames, body.frame.place())
     rows = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
@@ -66,6 +66,6 @@ def _outline(frames: Motion, body: Body) -> list[Array]:
     return [origin[:, None] + line @ np.stack(rows, 1) for line in lines]
 
 
-def _vectors(frames: Motion, point: Point) -> Array:
+def _vectors(frames: SampledMotion, point: Point) -> Array:
     """A point (x, y, z) of expressions along the run, (m, 3)."""
     return np.stack([frames.evaluate(e) for e in point], -1)

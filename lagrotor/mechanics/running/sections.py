@@ -1,68 +1,107 @@
-"""Where a motion crosses a section: events, and Poincaré sections."""
+"""Where a motion crosses a section, and Poincaré sections: on the exact motion, whatever the times at which it was read."""
 
+import warnings
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import TypeVar
+from itertools import pairwise
+from math import inf
+from typing import Any, TypeVar
 
 import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import derivative
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics.expressions import expression, vector_of
-from lagrotor.mechanics.lagrangian import t
-from lagrotor.mechanics.running.integration import Array
-from lagrotor.mechanics.running.motion import Motion
+from lagrotor.mechanics.running.flow import Array
+from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.mechanics.running.phases import march, polished
+from lagrotor.mechanics.running.programs import function_program, parameter_values, values_of
+from lagrotor.numerics.zeros import zeros_between
 
-Kind = TypeVar("Kind", bound=Motion)
-_BETWEEN = 8  # intervals of the interpolation between two samples in which a crossing is sought
-_STEPS = 8  # of Newton's method, which needs two or three
+Kind = TypeVar("Kind", bound=SampledMotion)
+_ONE = 1e-5  # of a step: zeros so near to each other and in the same direction are one
+_LEAST = 1e-13  # of the section's size, below which it is zero
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
-    """The states where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0).
+    """The states where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0), with those where it
+    is touched: where it turns round at zero, to within the run's tolerance. The start is none; there may be none.
 
-    Sought on a cubic interpolation between the samples, which must therefore resolve the motion; the times are found by
-    Newton's method on states integrated to the run's tolerance. There may be none.
+    Sought on the dense output of an integration from each sample to the next, of whose series all zeros are found. A
+    LagrotorWarning says where the section changes faster than that can be followed.
     """
-    from scipy.interpolate import CubicHermiteSpline
-
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     if len(run.t) < 2:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
     section, n = expression("crossings: section", section), run.q.shape[1]
-    curve = CubicHermiteSpline(run.t, np.hstack([run.q, run.v]), run.derivatives())
-    fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
-    values = _moved(run, fine, curve(fine)).evaluate(section)
-    up, down = (values[:-1] < 0) & (values[1:] >= 0), (values[:-1] > 0) & (values[1:] <= 0)
-    i = np.flatnonzero((up & (direction >= 0)) | (down & (direction <= 0)))
-    if not len(i):
-        return _moved(run, np.zeros(0), np.zeros((0, 2 * n)))
-    low, high = fine[i], fine[i + 1]
-    times = low + (high - low) * values[i] / (values[i] - values[i + 1])
-    slopes = [derivative(section, s) for s in (*run.system.c.q, *run.system.c.v)]
-    for _ in range(_STEPS):
-        there = run.at(times)
-        rates = there.derivatives().T
-        speed = there.evaluate(derivative(section, t)) + sum(
-            there.evaluate(slope) * rate for slope, rate in zip(slopes, rates, strict=True)
+    program = function_program(run.system, section)
+    parameters = parameter_values(program, run.values)
+    touch = max(run.tol, _LEAST) * _change(run, section)
+    found: list[tuple[float, int, Array]] = []
+    hidden: list[tuple[float, float]] = []
+    side = 0.0
+
+    def observe(begun: float, left: float, right: float, curve: Any) -> None:
+        nonlocal side
+
+        def values(s: Array) -> Array:
+            y = curve(s)
+            return values_of(program, y[:, :n].T, y[:, n : 2 * n].T, begun + s, parameters)
+
+        zeros = zeros_between(values, left, right, touch)
+        hidden.extend([(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else [])
+        for s, way in zip(zeros.t, zeros.direction, strict=True):
+            since = float(s) if way == 0 else polished(values, 0, float(s), left, right)
+            at, near = begun + since, _ONE * (right - left)
+            if at > run.t[0] + near and not (found and found[-1][1] == way and at - found[-1][0] <= near):
+                found.append((at, int(way), curve(np.array([since]))[0][: 2 * n]))
+        side = float(values(np.array([right]))[0, 0])
+
+    # A run without events is followed in one phase, with the time among its states.
+    phases = run.switched
+    full = (
+        run.states
+        if not phases.smooth
+        else np.array([phases.state(y, t, phases.slipping) for y, t in zip(run.states, run.t, strict=True)])
+    )
+    known = values_of(program, run.q.T, run.v.T, run.t, parameters)[0]
+    for i, (a, b) in enumerate(pairwise(run.t)):
+        march(phases, full[i], np.array([a, b]), run.local, inf, observe)
+        if side * known[i + 1] < 0 and max(abs(side), abs(known[i + 1])) > 0:  # between the end of a piece and the next
+            way = 1 if known[i + 1] > 0 else -1
+            if not (found and found[-1][1] == -way and b - found[-1][0] < 1e-3 * (b - a)):
+                found.append((float(b), way, full[i + 1][: 2 * n]))
+            else:
+                found.pop()
+    if hidden:
+        warnings.warn(
+            f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
+            "followed: crossings may be hidden there",
+            LagrotorWarning,
+            stacklevel=2,
         )
-        with np.errstate(all="ignore"):
-            moved = np.clip(times - there.evaluate(section) / speed, low, high)
-        if not np.isfinite(moved).all() or np.abs(moved - times).max() <= 1e-15 * (1 + np.abs(times).max()):
-            break
-        times = moved
-    return run.at(times)
+    kept = [(t, y) for t, way, y in found if direction in (0, way)]
+    times = np.array([t for t, _ in kept])
+    tail = run.states.shape[1] - 2 * n
+    rows = np.array([y for _, y in kept]).reshape(-1, 2 * n)
+    before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
+    more = run.states[before, 2 * n :].copy()
+    if tail:
+        more[:, 0] = times
+    return run.read(times, np.hstack([rows, more]))
 
 
-def poincare(run: Motion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
+def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
     """The values of the expressions `of` at the crossings, (m, len(of)): of two, the points of a Poincaré section."""
     wanted = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
     there = crossings(run, section, direction)
     return np.stack([there.evaluate(e) for e in wanted], axis=1)
 
 
-def _moved(run: Kind, times: Array, states: Array) -> Kind:
-    n = run.q.shape[1]
-    return replace(run, t=times, q=states[:, :n], v=states[:, n:])
+def _change(run: SampledMotion, section: sp.Expr) -> float:
+    """The most by which a section changes where each component of the state changes by its size."""
+    symbols = (*run.system.c.q, *run.system.c.v)
+    program = function_program(run.system, *(derivative(section, s) for s in symbols))
+    slopes = values_of(program, run.q.T, run.v.T, run.t, parameter_values(program, run.values))
+    return float((np.abs(slopes).T @ run.scales.sizes).max())

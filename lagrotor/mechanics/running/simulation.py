@@ -1,39 +1,86 @@
-"""Simulation of any system: initial values in, a run out."""
+"""A run of any system: initial values in; states, and whatever else is a function of them, out."""
 
+import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import ConstraintError
+from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running import lyapunov, run_pictures, sections
-from lagrotor.mechanics.running.dependence import warn_of_dependence
-from lagrotor.mechanics.running.integration import (
-    Array,
-    Values,
-    consistent,
-    increasing,
-    states,
-    vector,
+from lagrotor.mechanics.lagrangian import t as time
+from lagrotor.mechanics.running import run_pictures, sections
+from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection
+from lagrotor.mechanics.running.integrals import defect_of
+from lagrotor.mechanics.running.lyapunov import lyapunov
+from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
+from lagrotor.mechanics.running.phases import begin, switched
+from lagrotor.mechanics.running.programs import (
+    depends_on_time,
+    function_program,
+    parameter_values,
+    rows_program,
+    values_of,
 )
-from lagrotor.mechanics.running.motion import Motion
-from lagrotor.mechanics.running.programs import motion_program, parameter_values
+from lagrotor.mechanics.running.scales import Scales, survey
+from lagrotor.mechanics.running.starts import consistent, increasing, vector
+from lagrotor.mechanics.running.switches import Event, Impact, check_events
+from lagrotor.numerics.any_run import read_run
+from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 
 _OFF = 1e-7  # of a start from its constraints, in units of the state's size, beyond which it is refused
+_PATIENCE = Patience(20_000, 1_600)
+_BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Run(Motion):
-    """A simulated motion, and what can be computed from it."""
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SystemRun(SampledMotion):
+    """A run of a system: the motion, and what can be computed from it."""
 
     crossings = sections.crossings
     poincare = sections.poincare
-    lyapunov = lyapunov.lyapunov
+    lyapunov = lyapunov
     plot = run_pictures.plot
     animate = run_pictures.animate
+
+    @staticmethod
+    def load(path: str | Path, system: Equations, events: Any = ()) -> "SystemRun":
+        """The run of `system`, with the events it was run with, that `save` wrote as .npz: a file holds no equations.
+
+        Raises InputError where it is no such file, or one of another system.
+        """
+        saved = read_run(path)
+        about, arrays, c = saved.about, saved.arrays, system.c
+        try:
+            if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
+                raise InputError(
+                    f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give its own"
+                )
+            q, v = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, c.v))
+            states = np.hstack([q, v, np.array(about["modes"], float).reshape(len(q), -1)])
+            scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
+            values = {str(name): float(value) for name, value in about["values"].items()}
+            tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
+        except (KeyError, TypeError, ValueError, AttributeError) as refusal:
+            if isinstance(refusal, InputError):
+                raise
+            raise InputError(f"load: {path} is no run of a system ({refusal}): give a file that `save` wrote") from None
+        if (
+            not np.isfinite(states).all()
+            or len(states) != len(saved.fields["t"])
+            or scales.sizes.shape != (2 * len(c.q),)
+        ):
+            raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
+        check_engine(engine, "load")
+        h = replace(switched(system, values, check_events(system, events)), scale=powers_of_two(scales.sizes))
+        return SystemRun(
+            **saved.fields, system=system, values=values, q=q, v=v, tol=tol, engine=engine, scales=scales, states=states,
+            local=local, switched=h,
+        )  # fmt: skip
 
 
 def simulate(
@@ -44,35 +91,127 @@ def simulate(
     t: ArrayLike,
     tol: float = 1e-9,
     engine: Engine = "core",
-) -> Run:
+    events: Event | Impact | Sequence[Event | Impact] = (),
+) -> SystemRun:
     """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s.
 
-    values: {symbol or name: number} for every parameter. tol: the largest error of the whole run, relative to the state's
-    size; a motion whose neighbours part fast is off by more. engine: "core", or "fast" with heyoka.
+    values: {symbol or name: number} for every parameter. tol: the largest error of the whole run, relative to the sizes of
+    coordinates and velocities. It is estimated; where it is not kept, a LagrotorWarning says up to which time it is, and what
+    the error is: as `run.error`, `run.errors` and `run.horizon`. engine: "core", or "fast" with heyoka. events: what changes
+    the velocities or ends the run (`Event`, `Impact`). Forces that jump with sign(w) or |w| stick and slip.
+
+    A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
 
     Raises InputError for a value that is missing or makes no sense, ConstraintError for a start off the constraints,
-    SingularError for a singular mass matrix, IntegrationError where the motion cannot go on. A LagrotorWarning names the time
+    SingularError for a singular mass matrix, IntegrationError where nothing can be reached. A LagrotorWarning names the time
     where it passed a position at which its constraints are dependent.
     """
-    times, tol = increasing(t), check_tolerance(tol)
+    times, tol = increasing("simulate", t), check_tolerance(tol)
     check_engine(engine)
-    n = len(system.c.q)
-    start = np.concatenate([vector("q0", q0, n), vector("v0", v0, n)])
-    parameter_values(motion_program(system), values)
+    h, n = switched(system, values, check_events(system, events)), len(system.c.q)
+    q, v = vector("q0", q0, n), vector("v0", v0, n)
+    parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
+    for event in h.events:
+        wanted = (
+            [event.gap, event.restitution] if isinstance(event, Impact) else [event.section, *(event.velocities or ())]
+        )
+        parameter_values(function_program(h.system, *wanted), h.numbers(h.slipping))
     if system.multipliers:
-        q, v = consistent(system, values, start[:n], start[n:], times[0])
-        off = np.abs(np.concatenate([q, v]) - start).max()
-        if off > _OFF * (1 + np.abs(start).max()):
-            raise ConstraintError(
-                f"simulate: the start is off the constraints by {off:.3g}; the nearest state on them is q0 = {_shown(q)}, "
-                f"v0 = {_shown(v)} (system.consistent gives it)"
-            )
-        start = np.concatenate([q, v])
-    found = states(system, values, start, times[0], times, tol, engine)
-    run = Run(system, values, times, found[:, :n], found[:, n:], tol, engine)
+        q, v = _on_constraints(system, values, q, v, times[0])
+    if h.smooth:
+        start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
+        scales = survey(system, values, start, times)
+    elif engine == "fast":
+        raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
+    else:
+        start = begin(h, q, v, times[0])
+        scales = survey(system, values, start, times, integration_of(system, values, engine, None, h, start))
+        h = replace(h, scale=powers_of_two(scales.sizes))
+    evolution = Evolution(
+        start=start,
+        integrate=integration_of(system, values, engine, scales, h, start),
+        distance=scales.distance,
+        turn=scales.turn,
+        patience=_PATIENCE,
+        project=projection(system, values) if system.multipliers and h.smooth else None,
+        defect=defect_of(system, values, scales.sizes) if h.smooth else None,
+    )
+    found = estimate_run(evolution, times, tol)
+    run = SystemRun(
+        t=found.t, errors=found.errors, horizon=found.horizon, evaluations=found.evaluations + scales.evaluations,
+        ending=found.ending, system=system, values=values, q=found.states[:, :n], v=found.states[:, n : 2 * n], tol=tol,
+        engine=engine, scales=scales, states=found.states, local=found.local, switched=h,
+    )  # fmt: skip
+    found.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
     if system.multipliers:
-        warn_of_dependence(run)
-    return run
+        _warn_of_dependence(run)
+    return run if h.smooth else _up_to_its_end(run)
+
+
+def _up_to_its_end(run: SystemRun) -> SystemRun:
+    """The run up to where an event ended it, with the state there as its last."""
+    h, n = run.switched, run.q.shape[1]
+    if h.hidden:
+        a, b = h.hidden[0]
+        warnings.warn(
+            f"simulate: between t = {a:.6g} and {b:.6g} s a condition of an event changes faster than it can be followed: "
+            "an event may be hidden there",
+            LagrotorWarning,
+            stacklevel=3,
+        )
+    ended = np.rint(run.states[:, -1]).astype(int)
+    if not ended[-1]:
+        rest = [
+            f"impacts on {h.impacts[i].gap} accumulate at t = {at:.9g} s"
+            for i, at in h.accumulations.items()
+            if at < run.t[-1]
+        ]
+        return replace(run, ending=replace(run.ending, reason="; ".join(rest))) if rest else run
+    k = int(np.argmax(ended > 0))
+    at, ending = float(run.states[k, 2 * n]), h.endings[ended[k] - 1]
+    k += k == 0 or at > run.t[k - 1]  # the state of the end is the last sample
+    kept = run.read(np.append(run.t[: k - 1], at), run.states[:k])
+    if ending.kind != "event" or "accumulate" in ending.reason:
+        warnings.warn(f"simulate: {replace(ending, at=at)}", LagrotorWarning, stacklevel=3)
+    return replace(kept, ending=replace(ending, at=at))
+
+
+def _on_constraints(system: Equations, values: Values, q0: Array, v0: Array, begin: float) -> tuple[Array, Array]:
+    """The start, which must be on the constraints but for rounding."""
+    q, v = consistent(system, values, q0, v0, begin)
+    start = np.concatenate([q0, v0])
+    off = np.abs(np.concatenate([q, v]) - start).max()
+    if off > _OFF * (1 + np.abs(start).max()):
+        raise ConstraintError(
+            f"simulate: the start is off the constraints by {off:.3g}; the nearest state on them is q0 = {_shown(q)}, "
+            f"v0 = {_shown(v)} (system.consistent gives it)"
+        )
+    return q, v
+
+
+def _warn_of_dependence(run: SystemRun) -> None:
+    """A LagrotorWarning with the time where the constraints of a run are dependent between two of its samples: there the
+    product of the rows of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then
+    det(G(t) G(t')ᵀ) < 0 for times before and after it."""
+    rows = run.system.rows
+    if len(run.t) < 2 or not rows.free_symbols & {*run.system.c.q, time}:
+        return
+    from scipy.interpolate import CubicHermiteSpline
+
+    fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
+    q = CubicHermiteSpline(run.t, run.q, run.v)(fine)
+    program = rows_program(run.system)
+    G = values_of(program, q.T, 0 * q.T, fine, parameter_values(program, run.values))
+    G = G.T.reshape(-1, *rows.shape)
+    turned = np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0
+    if turned.any():
+        at = fine[int(np.argmax(turned))]
+        warnings.warn(
+            f"simulate: near t = {at:.6g} s the constraints become dependent: their reactions may have no limit there, "
+            "and the motion beyond may be one of several; end the run before",
+            LagrotorWarning,
+            stacklevel=3,
+        )
 
 
 def _shown(values: Sequence[float] | Array) -> str:

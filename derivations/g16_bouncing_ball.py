@@ -1,0 +1,93 @@
+# %% [markdown]
+# # A bouncing ball
+#
+# **Objective.** Infinitely many impacts in a finite time, the time at which they are over, and the rest beyond it.
+#
+# **Assumptions.** A ball of mass $m$ falls from the height $h$; each impact leaves the part $e<1$ of its speed.
+#
+# **Notation.** $x$ the height, $t_0=\sqrt{2h/g}$ the time of the first fall, $S$ the time from the first impact to the last.
+
+# %%
+import numpy as np
+import sympy as sp
+
+from lagrotor.mechanics import Event, Impact, System, coordinates
+from lagrotor.paper import prove
+
+m, g, h, e, t0, S = sp.symbols("m g h e t_0 S", positive=True)
+c = coordinates("x")
+(x,), (v,) = c.q, c.v
+ball = System(c, m * v**2 / 2 - m * g * x)
+floor = Impact(x, restitution=e)
+
+# %% [markdown]
+# ## An impact
+#
+# The velocity is reversed and multiplied by $e$: the next height is $e^2h$, the next flight lasts $2et_0$.
+
+# %%
+speed = g * t0
+prove((e * speed) ** 2 / (2 * g), e**2 * (g * t0**2 / 2), "the height after an impact, e² of that before", names="h_1")
+
+# %%
+prove(2 * (e * speed) / g, 2 * e * t0, "the time to the next impact", names="t_1")
+
+# %% [markdown]
+# ## All of them
+#
+# What follows the second impact is what follows the first, $e$ times as fast: $S = 2et_0 + eS$. So the last impact is at
+# $t_0+S=t_0\,(1+e)/(1-e)$.
+
+# %%
+(total,) = sp.solve(sp.Eq(S, 2 * e * t0 + e * S), S)
+prove(t0 + total, t0 * (1 + e) / (1 - e), "the time of the last impact", names="t_{\\infty}")
+
+# %% [markdown]
+# ## Against the flights one by one
+#
+# The impacts are located on the motion itself, wherever it is read; where they accumulate the gap stays closed.
+
+# %%
+values, twin = {m: 0.3, g: 9.81, e: 0.7}, {e: 0.701}
+last = float(np.sqrt(2 / 9.81) * 1.7 / 0.3)
+times = np.linspace(0, 1.2 * last, 241)
+
+
+def flights(restitution: float) -> np.ndarray:
+    """Heights of a ball let fall from the height one."""
+    begin, up, heights = -np.sqrt(2 / 9.81), np.sqrt(2 * 9.81), np.zeros(len(times))
+    while up > 1e-12:
+        since = times - begin
+        inside = (since >= 0) & (since < 2 * up / 9.81)
+        heights[inside] = up * since[inside] - 9.81 * since[inside] ** 2 / 2
+        begin, up = begin + 2 * up / 9.81, up * restitution
+    return heights
+
+
+def difference(given: dict) -> float:
+    """Of the run from the flights with e = 0.7, m."""
+    run = ball.simulate(given, (1,), (0,), times, 1e-11, events=floor)
+    return float(np.abs(run.q[:, 0] - flights(0.7)).max())
+
+
+off = difference(values)
+assert off < 1e-9
+off
+
+# %%
+run = ball.simulate(values, (1,), (0,), times, 1e-9, events=floor)
+assert abs(float(run.ending.reason.split("t = ")[1].split(" s")[0]) - last) < 1e-6
+assert not run.q[times > last].any() or np.abs(run.q[times > last]).max() < 1e-9
+run.ending.reason
+
+# %% [markdown]
+# An event without velocities ends a run, with the state on its section.
+
+# %%
+first = ball.simulate(values, (1,), (0,), times, events=Event(x))
+assert abs(first.t[-1] - np.sqrt(2 / 9.81)) < 1e-9 and abs(first.q[-1, 0]) < 1e-12
+str(first.ending)
+
+# %%
+picture = run.plot()
+picture

@@ -1,0 +1,152 @@
+"""The smooth motion of a system in numbers: its right-hand side, the way back onto its constraints, its integration."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
+from lagrotor.mechanics.running.singular import singular_position
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.heyoka_programs import taylor_rhs
+from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
+from lagrotor.numerics.segment import Projection, Segment, StopError, Stretch
+from lagrotor.numerics.solver_constants import CROSSOVER
+from lagrotor.numerics.taylor import companion_order, integrate_taylor, taylor_order
+
+Array = NDArray[np.float64]
+Values = Mapping[Any, Any]
+Rhs = Callable[[float, Array], Any]
+Integrate = Callable[
+    [Array, Array, float, bool, float], Stretch
+]  # start, times, local error, companion, budget → states
+_LIKE = 8.0  # ratio of a component to one below which none is scaled
+
+
+def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
+    """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): for any solver, and the fastest that the engine has.
+
+    engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
+
+    Raises InputError for a value that is missing, another engine, and without heyoka.
+    """
+    check_engine(engine)
+    program = motion_program(system)
+    parameters = parameter_values(program, values)
+    fast = engine == "fast"
+    function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
+    if not depends_on_time(system):
+        return function
+    return lambda t, y: function(t, np.append(y, t))[:-1]
+
+
+def projection(system: Equations, values: Values) -> Callable[[Array], Array]:
+    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ."""
+    program = projection_program(system)
+    function, parameters = program.function, parameter_values(program, values)
+
+    def project(y: Array) -> Array:
+        with np.errstate(all="ignore"):
+            for _ in range(2):
+                y = np.array([np.broadcast_to(e, y.shape[1:]) for e in function(*y, *parameters)], dtype=float)
+        return y
+
+    return project
+
+
+def scaled(bare: Rhs, scale: Array) -> Rhs:
+    """The right-hand side for the state z, y = scale z."""
+    if (scale == 1).all():
+        return bare
+
+    def rate(s: float, z: Array) -> Any:
+        return (np.asarray(bare(s, z * scale)) / scale).tolist()
+
+    if inner := getattr(bare, "bare", None):
+        rate.bare = scaled(inner, scale)  # type: ignore[attr-defined]
+    return rate
+
+
+def unscaled(stretch: Stretch, scale: Array) -> Stretch:
+    """A motion of z as one of y = scale z."""
+    return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
+
+
+def between(project: Projection | None, scale: Array) -> Projection | None:
+    """The projection of a state z, or states (d, n), y = scale z."""
+    return None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
+
+
+def powers_of_two(sizes: Array) -> Array:
+    """The sizes as powers of two, which rounds nothing; ones, where all are about as large as one."""
+    scale = np.exp2(np.rint(np.log2(sizes)))
+    return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
+
+
+def smooth_motion(
+    system: Equations, values: Values, engine: Engine, sizes: Array, turn: float, start: Array
+) -> Integrate:
+    """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
+
+    The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
+    which it is regular.
+    """
+    program, n = motion_program(system), len(system.c.q)
+    parameters, d = parameter_values(program, values), len(program.states)
+    project = projection(system, values) if system.multipliers else None
+    scale = np.append(powers_of_two(sizes), np.ones(d - 2 * n))
+    words = singular_position(system, values, start)
+
+    def by_taylor(start: Array, times: Array, local: float, companion: bool) -> Stretch:
+        order = companion_order(local) if companion else taylor_order(local)
+        longest = turn / 2 if project else np.inf
+        # The time is a state, which may grow without end.
+        clock = tuple(range(2 * n, d))
+        return integrate_taylor(
+            lambda _: (program.program, parameters), start, None, times, local, project, longest, order, clock
+        )
+
+    def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        """By the solver that is fastest; where that is LSODA its companion is DOP853: two runs by one stiff method may be off
+        by the same."""
+        rate = 2 * np.pi / turn
+        bare = scaled(program.rhs(*parameters), scale)
+        problem = Problem(bare, start / scale, budget, project=between(project, scale), typical_rate=rate)
+        try:
+            if companion and local >= CROSSOVER.value:
+                segment = Segment(
+                    bare, problem.start, 0.0, float(times[-1]), times[1:], budget=budget / 2, project=problem.project
+                )
+                try:
+                    stretch = dop853(segment, local / 20)
+                    return unscaled(replace(stretch, states=np.vstack([problem.start, stretch.states])), scale)
+                except StopError as stop:
+                    if stop.cause != "budget":
+                        raise
+                    problem = replace(problem, budget=budget - stop.evaluations)
+            return unscaled(integrate(problem, times, local), scale)
+        except StopError as stop:
+            stop.reached = None if stop.reached is None else unscaled(stop.reached, scale)
+            raise
+
+    def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        if len(times) == 1:
+            return Stretch(start[None], start, 0)
+        since = times - times[0]
+        try:
+            return (
+                by_taylor(start, since, local, companion)
+                if engine == "fast"
+                else by_core(start, since, local, companion, budget)
+            )
+        except StopError as stop:
+            at = float(times[0]) + stop.at
+            singular = words(stop.reached.end if stop.reached else start)
+            if singular:
+                raise StopError(at, singular, stop.reached, stop.evaluations, "singular") from None
+            raise StopError(at, stop.reason, stop.reached, stop.evaluations, stop.cause) from None
+
+    return motion

@@ -1,0 +1,497 @@
+"""A motion in phases, each smooth: between them velocities jump, gaps close and open, dry friction sticks and slips.
+
+In a phase every sign is fixed, what sticks is a rolling constraint, and a closed gap is a holonomic one. The phase ends where
+one of its conditions does: a gap or a sliding velocity reaches zero, a reaction its bound. All are sought on the solver's
+own steps, as zeros of smooth functions, so none depends on the times at which a run is read.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import total_derivative
+from lagrotor.mechanics.running.flow import Array, between, projection, scaled
+from lagrotor.mechanics.running.programs import (
+    Generated,
+    depends_on_time,
+    function_program,
+    motion_program,
+    parameter_values,
+    start_program,
+    values_of,
+)
+from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
+from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.dop853 import dop853_steps
+from lagrotor.numerics.segment import Segment, StopError, Stretch
+from lagrotor.numerics.zeros import zeros_between
+
+_BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
+_FRESH = 0.01  # of the first step of a phase, in which that is looked at
+_NOISE = 1e-12  # of a velocity or a reaction, below which it is zero
+_MOST = 20_000  # events of a run
+_AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
+_HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
+SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
+
+
+class Mode(NamedTuple):
+    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
+    motion, counted from 1. Components of the state of a run, after q, v and t."""
+
+    signs: tuple[int, ...]
+    closed: tuple[int, ...]
+    ended: int = 0
+
+
+class Hit(NamedTuple):
+    """The end of a phase: the time since its start, and of which kind is the condition that ended, with its index."""
+
+    since: float
+    kind: str
+    i: int
+
+
+@dataclass(frozen=True, eq=False)
+class Phase:
+    """A smooth system: what sticks and what is closed among its constraints; conditions: (kind, index, expression > 0)."""
+
+    system: Equations
+    conditions: tuple[tuple[str, int, sp.Expr], ...]
+
+    @cached_property
+    def motion(self) -> Generated:
+        return motion_program(self.system)
+
+    @cached_property
+    def watched(self) -> Generated:
+        return function_program(self.system, *(e for _, _, e in self.conditions))
+
+
+Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Switched:
+    """A system with events: its smooth part, the surfaces of its jumps, the events, and the values of the parameters.
+
+    scale (2 N,): of each component, for the solver. While it is run: the phases that it was in, the endings of its runs, and the
+    times between which a step may hide an event.
+    """
+
+    system: Equations
+    values: Mapping[Any, Any]
+    surfaces: tuple[Surface, ...]
+    events: tuple[Event | Impact, ...]
+    scale: Array
+    phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
+    endings: list[Ending] = field(default_factory=list)
+    hidden: list[tuple[float, float]] = field(default_factory=list)
+    accumulations: dict[int, float] = field(default_factory=dict)
+
+    @property
+    def n(self) -> int:
+        return len(self.system.c.q)
+
+    @property
+    def smooth(self) -> bool:
+        """Whether nothing switches."""
+        return not (self.surfaces or self.events)
+
+    @property
+    def slipping(self) -> Mode:
+        """The mode in which nothing sticks and no gap is closed."""
+        return Mode((1,) * len(self.surfaces), (0,) * len(self.impacts))
+
+    @property
+    def impacts(self) -> tuple[Impact, ...]:
+        return tuple(e for e in self.events if isinstance(e, Impact))
+
+    def mode(self, state: Array) -> Mode:
+        parts = tuple(int(x) for x in np.rint(state[2 * self.n + 1 :]))
+        return Mode(parts[: len(self.surfaces)], parts[len(self.surfaces) : -1], parts[-1])
+
+    def state(self, y: Array, time: float, mode: Mode) -> Array:
+        """(q, v, t, mode): what a run carries from stage to stage."""
+        return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, [mode.ended]])
+
+    def numbers(self, mode: Mode) -> dict[str, Any]:
+        """The values of the parameters, and of the signs in this mode."""
+        if not isinstance(self.values, Mapping):
+            return self.values  # and are refused where a parameter is sought
+        signs = {str(s.sign): float(k) for s, k in zip(self.surfaces, mode.signs, strict=True)}
+        return {str(k): v for k, v in self.values.items()} | signs
+
+    def phase(self, mode: Mode) -> Phase:
+        """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
+        sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
+        key = (sticking, mode.closed)
+        if key not in self.phases:
+            self.phases[key] = self._phase(sticking, mode.closed)
+        return self.phases[key]
+
+    def _phase(self, sticking: tuple[int, ...], closed: tuple[int, ...]) -> Phase:
+        base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
+        held = [self.surfaces[i].argument.xreplace(still) for i in sticking]
+        gaps = [i for i, each in enumerate(closed) if each]
+        lagrangian = base.lagrangian.xreplace(still) if isinstance(base.lagrangian, sp.Expr) else base.lagrangian
+        system = Equations(
+            base.c,
+            lagrangian,
+            (*base.constraints, *(self.impacts[i].gap for i in gaps)),
+            (*base.rolling, *held),
+            base.dissipation.xreplace(still),
+            tuple(e.xreplace(still) for e in base.forces),
+        )
+        lam, first = system.multipliers, len(base.constraints)
+        conditions: list[tuple[str, int, sp.Expr]] = []
+        for i, s in enumerate(self.surfaces):
+            if i not in sticking:
+                conditions.append(("surface", i, s.sign * s.argument))
+            else:
+                reaction = lam[len(lam) - len(sticking) + sticking.index(i)]
+                bound = s.bound.xreplace(still) if s.bound is not None else sp.oo
+                conditions += [("above", i, bound - reaction), ("below", i, bound + reaction)]
+        for i, impact in enumerate(self.impacts):
+            if not closed[i]:
+                conditions.append(("gap", i, impact.gap))
+            elif not impact.latched:
+                conditions.append(("reaction", i, lam[first + gaps.index(i)]))
+        conditions += [("event", i, e.section) for i, e in enumerate(self.events) if isinstance(e, Event)]
+        return Phase(system, tuple(conditions))
+
+
+def switched(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
+    """The system with its events and the surfaces of its jumps."""
+    smooth, surfaces = without_jumps(system)
+    return Switched(smooth, values, surfaces, events, np.ones(2 * len(system.c.q)))
+
+
+def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
+    """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
+    y = np.concatenate([q, v])
+    try:
+        return h.state(y, time, _settled(h, y, time, h.slipping))
+    except StopError as stop:
+        return h.state(y, time, _ended(h, h.slipping, Ending(stop.cause, time, stop.reason)))
+
+
+def march(
+    h: Switched, start: Array, times: Array, local: float, budget: float, observe: Observer | None = None
+) -> Stretch:
+    """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
+
+    Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
+    observe: called with the time at which a phase began, the ends of each step since then, and its dense output (m,) → (m, 2 N).
+    Raises StopError with what was
+    reached, where the solver stops.
+    """
+    end, y, now, mode, spent = float(times[-1]), start[: 2 * h.n], float(times[0]), h.mode(start), 0
+    if mode.ended:
+        return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
+    parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
+    span = end - now
+
+    def add(states: Array) -> None:
+        later = times[times > now]
+        parts.append(
+            np.array([h.state(y, t, mode) for y, t in zip(states, later, strict=False)]).reshape(-1, len(start))
+        )
+
+    while now < end and not mode.ended:
+        try:
+            stretch, hit = _smooth(h, y, now, mode, times[times > now], local, budget - spent, observe, habit)
+        except StopError as stop:
+            reached = stop.reached or Stretch(np.empty((0, 2 * h.n)), y, 0)
+            add(reached.states)
+            last = h.state(reached.end, now + stop.at, mode)
+            so_far = Stretch(np.concatenate(parts), last, spent + stop.evaluations, tuple(jumps))
+            raise StopError(now + stop.at, stop.reason, so_far, cause=stop.cause) from None
+        spent += stretch.evaluations
+        add(stretch.states)
+        y = stretch.end[: 2 * h.n]
+        if hit is None:
+            now = end
+            break
+        now += hit.since
+        past = history.setdefault(hit[1:], [])
+        past.append(now)
+        habit = past[-1] - past[-2] if len(past) > 1 else 0.0
+        try:
+            gone = _accumulating(history, past, span)
+            y, mode = _switch(h, y, now, mode, hit, gone)
+        except StopError as stop:
+            mode, now = _ended(h, mode, Ending(stop.cause, stop.at, stop.reason.rstrip("."))), stop.at
+        if hit.kind in ("gap", "event"):
+            jumps.append(now)
+    last = h.state(y, now, mode)
+    known = sum(map(len, parts))
+    parts.append(np.repeat(last[None], len(times) - known, axis=0))
+    return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
+
+
+def _ended(h: Switched, mode: Mode, ending: Ending) -> Mode:
+    """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
+    same = [i for i, each in enumerate(h.endings) if (each.kind, each.reason) == (ending.kind, ending.reason)]
+    if not same:
+        h.endings.append(ending)
+    return mode._replace(ended=1 + (same[0] if same else len(h.endings) - 1))
+
+
+def _smooth(
+    h: Switched,
+    y: Array,
+    now: float,
+    mode: Mode,
+    times: Array,
+    local: float,
+    budget: float,
+    observe: Observer | None,
+    habit: float,
+) -> tuple[Stretch, Hit | None]:
+    """The motion in one phase, from `now` to the first of its conditions that ends, or to the last time. habit: the time that
+    has passed between the last two events of a kind."""
+    phase, numbers = h.phase(mode), h.numbers(mode)
+    system, scale = phase.system, h.scale
+    if depends_on_time(system):
+        y, scale = np.append(y, now), np.append(scale, 1.0)
+    project = projection(system, numbers) if system.multipliers else None
+    y = y if project is None else project(y)
+    program, n = phase.watched, h.n
+    parameters = parameter_values(program, numbers)
+
+    rhs = scaled(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
+    segment = Segment(rhs, y / scale, 0.0, times[-1] - now, times, budget=budget, project=between(project, scale))
+    parts, done, solver = [np.empty((0, len(y)))], 0, None
+    try:
+        for solver in dop853_steps(segment, local / SAFETY):
+            left, right, dense = solver.t_old, solver.t, solver.dense_output()
+
+            def curve(s: Array, dense: Any = dense) -> Array:
+                return np.asarray(dense(s).T * scale)
+
+            def conditions(s: Array, curve: Any = curve) -> Array:
+                y = curve(s)
+                return values_of(program, y[:, :n].T, y[:, n : 2 * n].T, now + s, parameters)
+
+            hit = _first(h, phase, conditions, left, right, habit) if phase.conditions else None
+            until = right if hit is None else hit.since
+            if observe is not None:
+                observe(now, left, until, curve)
+            reached = int(np.searchsorted(times - now, until, side="right"))
+            parts.append(curve(times[done:reached] - now))
+            done = reached
+            if hit is not None:
+                y = curve(np.array([until]))[0]
+                return Stretch(np.concatenate(parts), y if project is None else project(y), solver.nfev), hit
+    except StopError as stop:
+        end = stop.reached.end * scale if stop.reached else y
+        so_far = Stretch(np.concatenate(parts), end, stop.evaluations)
+        raise StopError(stop.at, stop.reason, so_far, cause=stop.cause) from None
+    assert solver is not None  # a phase that is begun has a length
+    return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
+
+
+def _first(h: Switched, phase: Phase, conditions: Any, left: float, right: float, habit: float) -> Hit | None:
+    """The first condition of a phase that ends in a step, whose times count from the start of the phase."""
+    begun = left > 0
+    # The next of impacts that accumulate is near to the start of a step that is made for the motion between them.
+    soon = 4 * habit if not begun and 0 < 4 * habit < right else left
+    start = left if begun else _BESIDE * (soon or right)
+    parts = [zeros_between(conditions, a, b) for a, b in ((left, soon), (soon, right)) if b > a]
+    h.hidden.extend(part.hidden for part in parts if part.hidden)
+    hits = []
+    for part in parts:
+        for s, k, way in zip(part.t, part.index, part.direction, strict=True):
+            kind, i, _ = phase.conditions[k]
+            event = h.events[i] if kind == "event" else None
+            wanted = event.direction if isinstance(event, Event) else -1
+            # A condition that began at zero touches it once more by rounding, and is true again at twice the time.
+            rounding = not begun and s < _FRESH * right and event is None and conditions(np.array([2 * s]))[k, 0] > 0
+            if s > start and wanted in (0, way) and not rounding:
+                hits.append(Hit(polished(conditions, int(k), float(s), left, right), kind, i))
+    if not begun and not hits:  # a condition that does not hold from the start on
+        ends = conditions(np.array([10 * start, right]))
+        scale = np.abs(ends).max(1)
+        for k, (kind, i, _) in enumerate(phase.conditions):
+            if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
+                return Hit(0.0, kind, i)
+    return min(hits) if hits else None
+
+
+def polished(functions: Any, k: int, t: float, left: float, right: float) -> float:
+    """A zero to the last digit that the dense output has, by the secant method."""
+    other = min(t + 1e-5 * (right - left), right) if t < right else t - 1e-5 * (right - left)
+    f, g = functions(np.array([t, other]))[k]
+    for _ in range(4):
+        if f == g or f == 0:
+            break
+        following = float(np.clip(t - f * (t - other) / (f - g), left, right))
+        (value,) = functions(np.array([following]))[k]
+        if abs(value) >= abs(f):
+            break
+        other, g, t, f = t, f, following, value
+    return t
+
+
+def _switch(h: Switched, y: Array, now: float, mode: Mode, hit: Hit, gone: float | None) -> tuple[Array, Mode]:
+    """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
+    kind, i = hit.kind, hit.i
+    n, signs, closed = h.n, list(mode.signs), list(mode.closed)
+    q, v = y[:n], y[n:]
+    if kind == "surface":
+        signs[i] = _decided(h, y, now, mode._replace(signs=tuple(signs)), i)
+    elif kind in ("above", "below"):
+        signs[i] = -1 if kind == "above" else 1
+    elif kind == "reaction":
+        closed[i] = 0
+    elif kind == "gap":
+        e = float(_numbers(h, h.system, [h.impacts[i].restitution], y, now, mode)[0])
+        if gone is not None:
+            e = 0.0
+            h.accumulations[i] = now + gone
+        v, gentle = _rebound(h, y, now, mode, i, e)
+        closed[i] = int(e == 0 or gentle)
+    else:
+        event = h.events[i]
+        assert isinstance(event, Event)
+        if gone is not None:
+            raise StopError(now + gone, "infinitely many events accumulate there", cause="event")
+        if event.velocities is None:
+            raise StopError(now, f"{event.section} = 0", cause="event")
+        v = _numbers(h, h.system, list(event.velocities), y, now, mode)
+    y = np.concatenate([q, v])
+    return y, _settled(
+        h, y, now, mode._replace(signs=tuple(signs), closed=tuple(closed)), fixed=kind in ("above", "below", "surface")
+    )
+
+
+def _rebound(h: Switched, y: Array, now: float, mode: Mode, i: int, e: float) -> tuple[Array, bool]:
+    """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
+    there was no velocity of approach."""
+    closed = tuple(1 if k == i else each for k, each in enumerate(mode.closed))
+    slipping = tuple(s or 1 for s in mode.signs)
+    phase = h.phase(Mode(slipping, closed))
+    n, system = h.n, phase.system
+    program = start_program(system)
+    numbers = parameter_values(program, h.numbers(mode))
+    values = values_of(program, y[:n, None], y[n : 2 * n, None], np.array([now]), numbers)[:, 0]
+    rows = len(system.multipliers)
+    M, _, G, speeds = np.split(values, np.cumsum([n * n, len(system.constraints), n * rows]))
+    G = G.reshape(rows, n)
+    row = len(h.system.constraints) + sum(closed[:i])
+    change = -speeds
+    gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[n:])
+    change[row] *= 1 if gentle else 1 + e
+    W = np.linalg.solve(M.reshape(n, n), G.T)
+    return np.asarray(y[n : 2 * n] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
+
+
+def _numbers(h: Switched, system: Equations, expressions: list[sp.Expr], y: Array, now: float, mode: Mode) -> Array:
+    """Expressions at one state."""
+    n, program = h.n, function_program(system, *expressions)
+    parameters = parameter_values(program, h.numbers(mode))
+    return values_of(program, y[:n, None], y[n : 2 * n, None], np.array([now]), parameters)[:, 0]
+
+
+def _decided(h: Switched, y: Array, now: float, mode: Mode, i: int) -> int:
+    """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
+    rates = []
+    for s in (1, -1):
+        there = mode._replace(signs=tuple(s if k == i else each for k, each in enumerate(mode.signs)))
+        system = h.phase(there).system
+        rates.append(_numbers(h, system, [total_derivative(h.surfaces[i].argument, system.c)], y, now, there)[0])
+    above, below = rates
+    size = _NOISE * (abs(above) + abs(below))
+    if abs(above - below) <= size:  # no jump here
+        return 1 if above > 0 else -1 if above < 0 else mode.signs[i] or 1
+    if above > size and below >= -size:
+        return 1
+    if below < -size and above <= size:
+        return -1
+    if above > size and below < -size:
+        raise StopError(now, f"on {h.surfaces[i].argument} = 0 the motion may go on to either side")
+    if h.surfaces[i].bound is None:
+        raise StopError(
+            now, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
+        )
+    return 0
+
+
+def _settled(h: Switched, y: Array, now: float, mode: Mode, fixed: bool = False) -> Mode:
+    """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
+    signs, closed = list(mode.signs), list(mode.closed)
+    if h.surfaces and not fixed:
+        w = _numbers(h, h.system, [s.argument for s in h.surfaces], y, now, mode)
+        scale = _NOISE * (1 + np.abs(y).max())
+        for i, value in enumerate(w):
+            signs[i] = int(np.sign(value)) if abs(value) > scale else mode.signs[i]
+        for i in map(int, np.flatnonzero(np.abs(w) <= scale)):
+            signs[i] = _decided(h, y, now, mode._replace(signs=tuple(signs), closed=tuple(closed)), i)
+    for _ in range(2 * (len(signs) + len(closed)) + 1):
+        phase = h.phase(mode._replace(signs=tuple(signs), closed=tuple(closed)))
+        bounded = [(k, each) for k, each in enumerate(phase.conditions) if each[0] in ("above", "below", "reaction")]
+        if not bounded:
+            break
+        values = _numbers(
+            h,
+            phase.system,
+            [e for _, (_, _, e) in bounded],
+            y,
+            now,
+            mode._replace(signs=tuple(signs), closed=tuple(closed)),
+        )
+        worst = int(np.argmin(values))
+        if values[worst] >= -_NOISE * (1 + np.abs(values).max()):
+            break
+        kind, i, _ = bounded[worst][1]
+        if kind == "reaction":
+            closed[i] = 0
+        else:
+            signs[i] = -1 if kind == "above" else 1
+    return mode._replace(signs=tuple(signs), closed=tuple(closed))
+
+
+def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float) -> float | None:
+    """What is left to the time at which events accumulate, each a constant part of the one before it: where that is next to
+    nothing. Raises StopError where they are too many."""
+    now = past[-1]
+    if len(past) > _HABIT:
+        intervals = np.diff(past[-_HABIT - 1 :])
+        ratio = intervals[-1] / intervals[-2] if intervals[-2] > 0 else 1.0
+        left = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
+        if (np.diff(intervals) < 0).all() and left <= _GONE * span:
+            return float(left)
+    if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * (1 + abs(now)):
+        raise StopError(now, "events follow each other without time between them")
+    if sum(map(len, history.values())) > _MOST:
+        raise StopError(now, f"{_MOST} events", cause="budget")
+    return None
+
+
+def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
+    """An expression along a motion in phases (n,): accelerations and multipliers are those of each phase, and the sign of what
+    sticks is what holds it over its bound."""
+    n, c, values = h.n, len(h.system.constraints), np.empty(len(times))
+    modes = [h.mode(state) for state in states]
+    for mode in dict.fromkeys(modes):
+        here = np.array([each == mode for each in modes])
+        phase = h.phase(mode)
+        lam, closed = phase.system.multipliers, sum(mode.closed)
+        put: dict[sp.Expr, sp.Expr] = {
+            name: lam[i if i < c else i + closed] for i, name in enumerate(h.system.multipliers)
+        }
+        sticking = [s for s, sign in zip(h.surfaces, mode.signs, strict=True) if sign == 0]
+        for s, reaction in zip(sticking, lam[len(lam) - len(sticking) :], strict=True):
+            assert s.bound is not None
+            for w, holding in ((s.argument, -reaction / s.bound), (sp.expand(-s.argument), reaction / s.bound)):
+                put |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
+        program = function_program(phase.system, expression.xreplace(put))
+        y, parameters = states[here], parameter_values(program, h.numbers(mode))
+        values[here] = values_of(program, y[:, :n].T, y[:, n : 2 * n].T, times[here], parameters)[0]
+    return values

@@ -1,0 +1,125 @@
+"""How large and how fast a motion is: what its errors are relative to, in whatever units it is given."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.flow import Array, Integrate, Rhs, Values, between, projection, scaled, unscaled
+from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, values_of
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.segment import Segment, StopError, Stretch
+
+_COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
+_PER_TURN = 50  # evaluations that the survey takes for a turn
+_QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
+
+
+@dataclass(frozen=True, eq=False)
+class Scales:
+    """turn: the time (s) in which the motion typically turns. sizes (2 N,): the largest value of each coordinate and velocity,
+    not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them."""
+
+    turn: float
+    sizes: Array
+    evaluations: int
+
+    def distance(self, one: Array, other: Array) -> Array:
+        """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
+        size = len(self.sizes)
+        sizes = np.maximum(self.sizes, np.abs(other[:, :size]))
+        return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
+
+
+def survey(system: Equations, values: Values, start: Array, times: Array, motion: Integrate | None = None) -> Scales:
+    """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
+
+    motion: where it is not smooth.
+    """
+    span = float(times[-1] - times[0])
+    if span == 0:
+        return Scales(1.0, _sizes(system, values, start[None], 1.0), 0)
+    if motion is None:
+        motion = _coarsely(system, values, start, span)
+    try:
+        stretch, reached = motion(start, np.linspace(times[0], times[-1], 400), _COARSE, False, _EVALUATIONS), span
+    except StopError as stop:
+        stretch = stop.reached or Stretch(start[None], start, 1)
+        reached = max(stop.at - float(times[0]), 1e-3 * span)
+    states = np.vstack([start, stretch.states, stretch.end])
+    turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
+    return Scales(turn, _sizes(system, values, states[np.isfinite(states).all(1)], turn), stretch.evaluations)
+
+
+def _coarsely(system: Equations, values: Values, start: Array, span: float) -> Integrate:
+    n, program = len(system.c.q), motion_program(system)
+    bare = program.rhs(*parameter_values(program, values))
+    scale = np.append(first_sizes(bare, start, span, n), np.ones(len(start) - 2 * n))
+    project = projection(system, values) if system.multipliers else None
+
+    def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        since = times - times[0]
+        segment = Segment(
+            scaled(bare, scale), start / scale, 0.0, span, since[1:], budget=budget, project=between(project, scale)
+        )
+        try:
+            return unscaled(dop853(segment, local), scale)
+        except StopError as stop:
+            reached = None if stop.reached is None else unscaled(stop.reached, scale)
+            raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None
+
+    return motion
+
+
+def first_sizes(bare: Rhs, start: Array, span: float, n: int) -> Array:
+    """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
+    velocities = np.asarray(bare(0.0, start), float)[: 2 * n]
+    q, v, a = start[:n], start[n : 2 * n], np.nan_to_num(velocities[n:], posinf=0.0, neginf=0.0)
+    slope = np.zeros((2 * n, 2 * n))
+    for j in range(2 * n):
+        block = q if j < n else v
+        step = 1e-6 * (np.abs(block).max() or 1.0)
+        moved = start.copy()
+        moved[j] += step
+        slope[:, j] = (np.asarray(bare(0.0, moved), float)[: 2 * n] - velocities) / step
+    rate = float(np.abs(np.linalg.eigvals(slope)).max()) if np.isfinite(slope).all() else 0.0
+    rate = max(rate, 1 / span)
+    places = np.maximum.reduce([np.abs(q), np.abs(v) / rate, np.abs(a) / rate**2])
+    speeds = np.maximum.reduce([np.abs(v), np.abs(a) / rate, np.abs(q) / span])
+    return np.concatenate([_without_zeros(places), _without_zeros(speeds)])
+
+
+def _without_zeros(sizes: Array) -> Array:
+    largest = float(sizes.max()) or 1.0
+    return np.where(sizes > 1e-6 * largest, sizes, largest)
+
+
+def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
+    """The largest value of each component of states (m, d), with its least."""
+    n, program = len(system.c.q), energy_program(system)
+    parameters = parameter_values(program, values)
+    q, v = states[:, :n].T, states[:, n : 2 * n].T
+    times = states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states))
+
+    def energy(v: Array) -> Array:
+        return values_of(program, q, v, times, parameters)[0]
+
+    largest = np.abs(states[:, : 2 * n]).max(0)
+    at_rest, moving = energy(0 * v), energy(v)
+    kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
+    least = np.zeros(n)
+    for i in range(n):
+        unit = np.zeros((n, 1))
+        unit[i] = largest[n + i] or 1.0
+        mass = np.nanmedian(energy(unit + 0 * v) + energy(-unit + 0 * v) - 2 * at_rest) / unit[i, 0] ** 2
+        least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
+    speeds = np.maximum(largest[n:], least)
+    places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
+    speeds = np.where(speeds > 0, speeds, places * 2 * np.pi / turn)
+    places, speeds = _positive(places), _positive(speeds)
+    return np.concatenate([places, speeds])
+
+
+def _positive(sizes: Array) -> Array:
+    largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
+    return np.where(np.isfinite(sizes) & (sizes > 0), sizes, largest)

@@ -1,0 +1,64 @@
+"""Where a run starts: coordinates, velocities and times as they are given, and the nearest state on the constraints."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.constraints import project_position, project_velocity
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.programs import parameter_values, start_program
+
+
+def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
+    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
+
+    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
+    """
+    n, h = len(system.c.q), len(system.constraints)
+    q, v = vector("q0", q0, n), vector("v0", v0, n)
+    given = start_program(system)
+    rest = (t, *parameter_values(given, values, "consistent"))
+    ends = np.cumsum([n * n, h, n * len(system.multipliers)])
+
+    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array]:
+        """M, g, G and G v + b."""
+        with np.errstate(all="ignore"):
+            found = np.array(given.function(*np.concatenate([at, rates, rest])), float)
+        M, g, G, off = np.split(found, ends)
+        return M.reshape(n, n), g, G.reshape(-1, n), off
+
+    if h:
+        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2][:h], q, parts(q, v)[0])
+        q = np.asarray(placed, float)
+    mass, _, slope, wanted = parts(q, np.zeros(n))  # wanted: b, so that G v + b = 0
+    particular = -np.linalg.pinv(slope) @ wanted
+    return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
+
+
+def vector(name: str, given: ArrayLike, n: int) -> Array:
+    try:
+        found = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"simulate: {name} = {given!r} must be {n} numbers") from None
+    if found.shape != (n,) or not np.isfinite(found).all():
+        raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, one for each coordinate")
+    return found
+
+
+def increasing(where: str, given: ArrayLike) -> Array:
+    try:
+        found = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{where}: t = {given!r} must be an array of times in s") from None
+    if found.ndim != 1 or not len(found) or not np.isfinite(found).all() or (np.diff(found) <= 0).any():
+        raise InputError(
+            f"{where}: t = {_short(given)} must be an increasing array of finite times, t[0] the time of q0 and v0: "
+            "np.linspace(0, 10, 101)"
+        )
+    return found
+
+
+def _short(given: ArrayLike) -> str:
+    text = repr(given)
+    return text if len(text) < 60 else f"{text[:57]}…"

@@ -1,0 +1,154 @@
+"""What makes a motion switch: given events, impacts, and the surfaces on which a force jumps.
+
+An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻; all
+constraints hold on both sides of it (Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7). A force with
+sign(w) or |w| jumps on w = 0. It is dry friction where it is −F sign(w) ∂w/∂v: there it may hold w at zero, with a reaction of
+at most F (Filippov, Differential Equations with Discontinuous Righthand Sides, §4).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.algebra import decide_zero, derivative
+from lagrotor.errors import InputError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import expression, vector_of
+from lagrotor.mechanics.lagrangian import gradient, t
+
+
+@dataclass(frozen=True)
+class Event:
+    """Where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0).
+
+    velocities: those after it, an expression of the state before it for each coordinate; without them the run ends there.
+    """
+
+    section: sp.Expr
+    velocities: tuple[sp.Expr, ...] | None = None
+    direction: int = 0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "section", expression("Event: section", self.section))
+        if self.direction not in (-1, 0, 1):
+            raise InputError(f"Event: direction = {self.direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
+        if self.velocities is not None:
+            given = vector_of("Event: velocities", self.velocities, len(self.velocities))
+            object.__setattr__(self, "velocities", given)
+
+
+@dataclass(frozen=True)
+class Impact:
+    """A gap g(q, t) that does not become negative: where it closes, the velocity of approach is reversed and multiplied by the
+    coefficient of restitution, a number from 0 to 1 or a parameter.
+
+    Where nothing rebounds the gap stays closed, as a constraint, while its reaction pushes; latched: for good.
+    """
+
+    gap: sp.Expr
+    restitution: sp.Expr = sp.S.One
+    latched: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "gap", expression("Impact: gap", self.gap))
+        e = expression("Impact: restitution", self.restitution)
+        object.__setattr__(self, "restitution", e)
+        if e.is_number and not 0 <= e <= 1:
+            raise InputError(f"Impact: restitution = {e} must lie between 0, nothing rebounds, and 1, nothing is lost")
+        if self.latched and e != 0:
+            raise InputError(f"Impact: restitution = {e} of what is latched: give 0, or latched=False")
+
+
+@dataclass(frozen=True)
+class Surface:
+    """w(q, v, t) = 0, on which a force jumps; `sign` stands for sign(w) in the equations. bound: F of dry friction, or none."""
+
+    argument: sp.Expr
+    sign: sp.Symbol
+    bound: sp.Expr | None
+
+
+def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
+    """The events of a run as a tuple. Raises InputError for what is none, or does not fit the system."""
+    given = (events,) if isinstance(events, Event | Impact) else events
+    if not isinstance(given, Sequence) or not all(isinstance(each, Event | Impact) for each in given):
+        raise InputError(f"simulate: events = {events!r} must be Event(section) or Impact(gap), or several in a tuple")
+    c, n = system.c, len(system.c.q)
+    for each in given:
+        if isinstance(each, Impact):
+            if wrong := each.gap.free_symbols & {*c.v, *c.a}:
+                raise InputError(f"Impact: the gap {each.gap} contains {_names(wrong)}: it depends on q and t alone")
+            if not each.gap.free_symbols & {*c.q}:
+                raise InputError(f"Impact: the gap {each.gap} contains no coordinate: no impact changes it")
+        elif each.velocities is not None and len(each.velocities) != n:
+            raise InputError(
+                f"Event: {len(each.velocities)} velocities after it, for {n} coordinates: give one for each"
+            )
+        if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a, *system.multipliers}):
+            raise InputError(
+                f"Event: the section {each.section} contains {_names(wrong)}: it depends on q, v and t alone"
+            )
+    return tuple(given)
+
+
+def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
+    """The system with a symbol for each sign that jumps where the state passes a surface, and these surfaces.
+
+    sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
+    """
+    moving = {*system.c.q, *system.c.v, t}
+    places = [*system.forces, system.dissipation]
+    if isinstance(system.lagrangian, sp.Expr):
+        places.append(system.lagrangian)
+    put: dict[sp.Expr, sp.Expr] = {}
+    signs: dict[sp.Expr, sp.Expr] = {}
+    for atom in sorted(set().union(*(e.atoms(*_JUMPING) for e in places)), key=sp.default_sort_key):
+        w = atom.args[0] - atom.args[1] if isinstance(atom, sp.Max | sp.Min) else atom.args[0]
+        if w.free_symbols & moving and (not isinstance(atom, sp.Max | sp.Min) or len(atom.args) == 2):
+            w = sp.expand(w)
+            opposite = sp.expand(-w)
+            s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
+            put[atom] = _smooth(atom, w, s)
+    if not put:
+        return system, ()
+    if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:
+        raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
+    forces = tuple(e.xreplace(put) for e in system.forces)
+    L = system.lagrangian.xreplace(put) if isinstance(system.lagrangian, sp.Expr) else system.lagrangian
+    smooth = replace(system, lagrangian=L, forces=forces, dissipation=system.dissipation.xreplace(put))
+    return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+
+
+_JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
+
+
+def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:
+    if isinstance(atom, sp.sign):
+        return s
+    if isinstance(atom, sp.Abs):
+        return s * w
+    if isinstance(atom, sp.Heaviside):
+        return (1 + s) / 2
+    a, b = atom.args
+    return (a + b + (s if isinstance(atom, sp.Max) else -s) * w) / 2
+
+
+def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
+    """F, where the force that jumps with the sign s of w is −F s ∂w/∂v; None where it is another."""
+    c = system.c
+    slope = gradient(w, c.v)
+    lagrangian = isinstance(system.lagrangian, sp.Expr) and s in system.lagrangian.free_symbols
+    if not any(slope) or lagrangian or any(derivative(e, v) != 0 for e in slope for v in c.v):
+        return None
+    i = next(i for i, e in enumerate(slope) if e != 0)
+    on_surface = {c.v[i]: c.v[i] - w / slope[i]}
+    above, below = (system.push.subs(s, side).subs(on_surface) for side in (1, -1))
+    jump = (above - below) / 2
+    F = sp.cancel(-jump[i] / slope[i]) if jump[i] != 0 else sp.S.Zero
+    return F if all(decide_zero(e).answer == "zero" for e in jump + F * slope) else None
+
+
+def _names(symbols: set[sp.Symbol]) -> str:
+    return ", ".join(sorted(map(str, symbols)))

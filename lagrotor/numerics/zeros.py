@@ -1,0 +1,118 @@
+"""All zeros of smooth functions on an interval, from their Chebyshev series: nothing between two samples is passed over.
+
+A function is sampled at Chebyshev's nodes; where the coefficients have not fallen off, the interval is halved. The zeros of the
+series are eigenvalues (Boyd 2002, Computing zeros on a real interval through Chebyshev expansion and polynomial rootfinding).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from lagrotor.numerics.segment import Array
+
+_DEGREE = 16
+_NODES = np.cos(np.pi * np.arange(_DEGREE, -1, -1) / _DEGREE)  # from −1 to 1, the ends among them
+_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))  # values at the nodes → coefficients
+_FALLEN = 1e-9  # the last coefficients over the largest, of a function that is resolved
+_HALVINGS = 8
+_SLACK = 1e-7  # of a half interval: a zero at an end is in both of its neighbours, never in neither
+_REAL = 1e-6  # the imaginary part of a real zero: of a double one the square root of rounding
+
+Functions = Callable[[Array], Array]  # times (m,) → values (k, m)
+
+
+@dataclass(frozen=True)
+class Zeros:
+    """t (n,): zeros in increasing order; index (n,): of which function; direction (n,): 1 upward, −1 downward, 0 touched.
+
+    hidden: an interval in which a function is not resolved, where zeros may be missing; None: all of them are there.
+    """
+
+    t: Array
+    index: Array
+    direction: Array
+    hidden: tuple[float, float] | None
+
+
+def zeros_between(functions: Functions, left: float, right: float, touch: Array | float = 0.0) -> Zeros:
+    """The zeros of k functions in [left, right]. touch, (k,) or one: a least |value| that counts as a zero, where the
+    function turns round without crossing."""
+    parts: list[tuple[float, int, int]] = []
+    hidden = _search(functions, left, right, touch, parts, _HALVINGS)
+    parts = _each_once(sorted(parts), _SLACK * (right - left))
+    t, index, direction = (np.array(column) for column in zip(*parts, strict=True)) if parts else (np.zeros(0),) * 3
+    return Zeros(t, index.astype(int), direction.astype(int), hidden)
+
+
+def _search(
+    functions: Functions,
+    left: float,
+    right: float,
+    touch: Array | float,
+    parts: list[tuple[float, int, int]],
+    halvings: int,
+) -> tuple[float, float] | None:
+    middle, half = (left + right) / 2, (right - left) / 2
+    values = functions(middle + half * _NODES)
+    series = values @ _SERIES.T
+    size = np.abs(series)
+    rest = size[:, 1:].sum(1)
+    near = size[:, 0] <= rest + touch  # elsewhere no value of the series is zero
+    falling = size[:, -3:].sum(1) <= _FALLEN * size.max(1) + touch / 10
+    near &= np.abs(values).max(1) > touch  # what lies on the section crosses nothing
+    if not (falling | ~near).all() or not np.isfinite(values).all():
+        if halvings == 0:
+            _between_nodes(values, middle + half * _NODES, parts)
+            return left, right
+        ends = [(left, middle), (middle, right)]
+        hidden = [_search(functions, a, b, touch, parts, halvings - 1) for a, b in ends]
+        return next((each for each in hidden if each), None)
+    for i in np.flatnonzero(near):
+        least = float(touch if np.ndim(touch) == 0 else np.asarray(touch)[i])
+        parts += [(middle + half * x, int(i), way) for x, way in _zeros_of(series[i], least)]
+    return None
+
+
+def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
+    """(place in [−1, 1], direction) of the zeros of a Chebyshev series."""
+    series = np.where(np.abs(series) > 1e-15 * np.abs(series).max(), series, 0.0)
+    slope: Array = np.asarray(chebyshev.chebder(series), float)
+    turns = [x for x in _real_roots(slope) if abs(chebyshev.chebval(x, series)) <= touch]
+    crossed = []
+    for x in _real_roots(series):
+        # A pair of zeros at a turn that stays within `touch` is one touched zero.
+        if not any(_same_side(series, x, turn, touch) for turn in turns):
+            crossed.append((x, 1 if chebyshev.chebval(x, slope) > 0 else -1))
+    return crossed + [(x, 0) for x in turns]
+
+
+def _same_side(series: Array, x: float, turn: float, touch: float) -> bool:
+    """Whether nothing between a zero and a turn exceeds `touch`."""
+    return bool(np.abs(chebyshev.chebval(np.linspace(x, turn, 9), series)).max() <= 1.01 * touch)
+
+
+def _real_roots(series: Array) -> list[float]:
+    trimmed = chebyshev.chebtrim(series, 0.0)
+    if len(trimmed) < 2:
+        return []
+    roots = chebyshev.chebroots(trimmed)
+    real = roots[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1 + _SLACK)].real
+    return sorted(float(x) for x in np.clip(real, -1, 1))
+
+
+def _between_nodes(values: Array, t: Array, parts: list[tuple[float, int, int]]) -> None:
+    """What can be said of a function that is not resolved: where it changes sign between two nodes."""
+    for i, row in enumerate(values):
+        for k in np.flatnonzero(np.sign(row[:-1]) * np.sign(row[1:]) < 0):
+            parts.append((float((t[k] + t[k + 1]) / 2), i, int(np.sign(row[k + 1] - row[k]))))
+
+
+def _each_once(parts: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
+    """Without the zeros that two neighbouring intervals have in common."""
+    kept: list[tuple[float, int, int]] = []
+    for t, i, way in parts:
+        if not any(j == i and d == way and t - s <= near for s, j, d in kept[-4:]):
+            kept.append((t, i, way))
+    return kept

@@ -1,0 +1,173 @@
+"""Sections, impacts and accumulations, each against a textbook's closed form, and a twin that is elsewhere."""
+
+import warnings
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.errors import InputError, LagrotorWarning
+from lagrotor.mechanics import Event, Impact, System, coordinates, t
+
+C = coordinates("x")
+(x,), (v,) = C.q, C.v
+g, e, w = sp.symbols("g e omega", positive=True)
+OSCILLATOR, BALL = System(C, v**2 / 2 - x**2 / 2), System(C, v**2 / 2 - g * x)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(2, 12), st.floats(5, 100), st.floats(-0.95, 0.95))
+def test_every_crossing_is_on_its_section_however_few_times_are_read(n: int, duration: float, level: float) -> None:
+    """x = cos t: upward through the level at 2πk − acos, downward at 2πk + acos."""
+    run = OSCILLATOR.simulate({}, (1,), (0,), np.linspace(0, duration, n), 1e-10)
+    turns, first = 2 * np.pi * np.arange(20), np.arccos(level)
+    for direction, times in ((-1, turns + first), (1, turns + 2 * np.pi - first)):
+        crossings = run.crossings(x - level, direction)
+        expected = times[times < duration - 1e-6]
+        assert crossings.t[: len(expected)] == pytest.approx(expected, abs=1e-7)
+        assert len(crossings.t) - len(expected) in (0, 1)
+        assert np.abs(crossings.q - level).max(initial=0) < 1e-10
+        assert (np.sign(crossings.v) == direction).all()
+    assert len(run.crossings(x - level).t) == len(run.crossings(x - level, 1).t) + len(run.crossings(x - level, -1).t)
+
+
+def test_a_section_that_is_only_touched_is_found_and_one_that_is_missed_is_not() -> None:
+    run = OSCILLATOR.simulate({}, (1,), (0,), np.linspace(0, 20, 3), 1e-9)
+    assert run.crossings(x - 1).t == pytest.approx(2 * np.pi * np.arange(1, 4), abs=1e-4)
+    assert len(run.crossings(x - 1, 1).t) == len(run.crossings(x - 1 - sp.Rational(1, 10**6)).t) == 0
+    near = run.crossings(x - 1 + sp.Rational(1, 10**6))  # twice each time, 2.8 ms apart
+    assert len(near.t) == 7 and np.abs(near.q - 1 + 1e-6).max() < 1e-9
+
+
+def test_fast_sections_are_resolved_and_what_cannot_be_is_announced() -> None:
+    run = OSCILLATOR.simulate({}, (1,), (0,), (0, 3.0), 1e-9)
+    assert len(run.crossings(sp.sin(300 * x)).t) == int(300 / np.pi) + int(-300 * np.cos(3) / np.pi) + 1
+    with pytest.warns(LagrotorWarning, match="crossings may be hidden"):
+        run.crossings(sp.sin(1 / (x + sp.Rational(1, 2))))
+
+
+def test_a_section_may_move_and_depend_on_velocities() -> None:
+    run = OSCILLATOR.simulate({}, (1,), (0,), (0, 30.0), 1e-10)
+    moved = run.crossings(x - sp.cos(2 * t))
+    assert np.abs(np.cos(moved.t) - np.cos(2 * moved.t)).max() < 1e-9
+    assert len(moved.t) == 14  # 2πk/3 up to 30
+    assert np.abs(run.crossings(v - x / 2).evaluate(v - x / 2)).max() < 1e-9
+
+
+def test_an_event_ends_a_run_with_the_state_on_its_section() -> None:
+    run = BALL.simulate({g: 9.81}, (1,), (0,), np.linspace(0, 3, 31), events=Event(x))
+    assert run.ending.kind == "event" and "x = 0" in str(run.ending)
+    assert run.t[-1] == run.ending.at == pytest.approx(np.sqrt(2 / 9.81), rel=1e-12)
+    assert abs(run.q[-1, 0]) < 1e-12 and run.v[-1, 0] == pytest.approx(-np.sqrt(2 * 9.81), rel=1e-12)
+    upward = BALL.simulate({g: 9.81}, (1,), (0,), (0, 0.3), events=Event(x, direction=1))
+    assert upward.ending.kind == "end" and upward.t[-1] == 0.3
+
+
+def flight(times: np.ndarray, restitution: float) -> np.ndarray:
+    """A ball let fall from the height one, g = 9.81: its height."""
+    speed, begin, heights = np.sqrt(2 * 9.81), -np.sqrt(2 / 9.81), np.zeros(len(times))
+    while speed > 1e-9 and begin < times[-1]:
+        since = times - begin
+        inside = (since >= 0) & (since < 2 * speed / 9.81)
+        heights[inside] = speed * since[inside] - 9.81 * since[inside] ** 2 / 2
+        begin, speed = begin + 2 * speed / 9.81, speed * restitution
+    return heights
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.3, 0.9))
+def test_a_ball_bounces_infinitely_often_and_comes_to_rest(restitution: float) -> None:
+    """The impacts accumulate at sqrt(2 h/g) (1 + e)/(1 − e)."""
+    end = np.sqrt(2 / 9.81) * (1 + restitution) / (1 - restitution)
+    times = np.linspace(0, 1.3 * end, 200)
+    run = BALL.simulate({g: 9.81, e: restitution}, (1,), (0,), times, 1e-8, events=Impact(x, e))
+    assert np.abs(run.q[:, 0] - flight(times, restitution)).max() < 1e-6
+    assert (run.q[times > end] == pytest.approx(0, abs=1e-9)) and (run.v[times > end] == pytest.approx(0, abs=1e-9))
+    assert "impacts on x accumulate" in str(run.ending)
+    assert run.ending.reason and float(run.ending.reason.split("t = ")[1].split(" s")[0]) == pytest.approx(
+        end, rel=1e-5
+    )
+    # Its twin with another restitution is elsewhere.
+    assert np.abs(run.q[:, 0] - flight(times, restitution - 0.05)).max() > 1e-3
+
+
+def test_an_elastic_ball_keeps_its_energy() -> None:
+    run = BALL.simulate({g: 9.81}, (1,), (0,), np.linspace(0, 9, 100), 1e-9, events=Impact(x))
+    assert np.ptp(run.energy) < 1e-7 and run.q.min() > -1e-9
+
+
+def test_what_does_not_rebound_is_held_while_it_is_pushed_and_let_go_when_it_is_pulled() -> None:
+    """A mass on a table that goes up and down, A cos ωt with A ω² > g: it leaves where the table is pulled away from it."""
+    A = sp.Rational(1, 10)
+    gap = x - A * sp.cos(w * t)
+    run = BALL.simulate(
+        {g: 9.81, w: 12.0}, (-0.1,), (0,), np.linspace(np.pi / 12, np.pi / 12 + 0.45, 451), 1e-9, events=Impact(gap, 0)
+    )
+    above = run.evaluate(gap.subs(w, 12))
+    left = run.t[np.argmax(above > 1e-7)]
+    # Contact ends where the table's acceleration −A ω² cos ωt falls to −g.
+    expected = (2 * np.pi - np.arccos(9.81 / (0.1 * 144))) / 12
+    assert left == pytest.approx(expected, abs=5e-3)
+    assert above.min() > -1e-9
+    latched = BALL.simulate(
+        {g: 9.81, w: 12.0}, (0.2,), (0,), np.linspace(0, 1, 101), 1e-9, events=Impact(gap, 0, latched=True)
+    )
+    assert np.abs(latched.evaluate(gap.subs(w, 12))[-50:]).max() < 1e-9
+
+
+def test_a_plastic_impact_projects_the_velocities_in_the_mass_metric() -> None:
+    """A rod that falls and is caught at one end: angular momentum about that end is kept (Goldstein, ch. 5)."""
+    c = coordinates("z theta")
+    m, l = 2.0, 0.6
+    rod = System(c, m * c.v[0] ** 2 / 2 + m * l**2 / 24 * c.v[1] ** 2 - m * 9.81 * c.q[0])
+    end = c.q[0] - l / 2 * sp.cos(c.q[1])
+    start = (1.0, 1.2), (0.0, 0.4)
+    run = rod.simulate({}, *start, np.linspace(0, 0.5, 51), 1e-10, events=Impact(end, 0))
+    before = rod.simulate({}, *start, np.linspace(0, 0.5, 51), 1e-10, events=Event(end))
+    (z_v, spin), angle = before.v[-1], before.q[-1, 1]
+    arm = l / 2 * np.sin(angle)
+    after = (m * l**2 / 12 * spin - m * arm * z_v) / (m * l**2 / 12 + m * arm**2)
+    caught = run.at([before.t[-1] + 1e-7])
+    assert caught.v[0, 1] == pytest.approx(after, rel=1e-4)
+    assert caught.v[0, 0] == pytest.approx(-arm * after, rel=1e-4)
+
+
+def test_a_clock_goes_at_the_amplitude_at_which_its_impulses_make_good_its_losses() -> None:
+    """Andronov, Vitt & Khaikin, ch. III: each upward passage of rest adds an impulse k; v* = k/(1 − exp(−2π n/ω))."""
+    damped = System(C, v**2 / 2 - x**2 / 2, dissipation=sp.Rational(1, 20) * v**2 / 2)
+    kick = Event(x, (v + sp.Rational(1, 10),), direction=1)
+    run = damped.simulate({}, (-0.1,), (0.1,), np.linspace(0, 500, 401), 1e-7, events=kick)
+    n = 1 / 40
+    lost = np.exp(-2 * np.pi * n / np.sqrt(1 - n**2))
+    there = run.crossings(x, -1)  # half a period after an impulse
+    expected = 0.1 / (1 - lost) * np.sqrt(lost)
+    assert -there.v[-1, 0] == pytest.approx(expected, rel=1e-4)
+    assert -there.v[0, 0] < 0.7 * expected
+
+
+REFUSED = {
+    "must be Event": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=x),
+    "depends on q and t alone": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=Impact(v)),
+    "contains no coordinate": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=Impact(t)),
+    "must lie between 0": lambda: Impact(x, 2),
+    "of what is latched": lambda: Impact(x, 1, latched=True),
+    "direction": lambda: Event(x, direction=2),
+    "velocities after it": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=Event(x, (v, v))),
+    "takes no events": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), engine="fast", events=Event(x)),
+    "e without a value": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=Impact(x, e)),
+    "jump": lambda: BALL.simulate({g: 1}, (1,), (0,), (0, 1), events=Impact(x)).lyapunov(),
+}
+
+
+@pytest.mark.parametrize("message", REFUSED)
+def test_what_makes_no_sense_is_refused_in_words(message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        REFUSED[message]()
+
+
+def test_a_run_without_events_says_nothing_of_them() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert OSCILLATOR.simulate({}, (1,), (0,), (0, 1)).ending.kind == "end"
