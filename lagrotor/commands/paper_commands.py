@@ -1,4 +1,4 @@
-"""The commands about a paper: init, readings, check, reproduce, audit, claims, figure.
+"""The commands about a paper: init, readings, derive, check, reproduce, audit, claims, figure.
 
 Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """init, readings, check, reproduce, audit, claims, figure."""
+    """init, readings, derive, check, reproduce, audit, claims, figure."""
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
     added.description = (
         "Begin a paper of your own: a folder with one worked equation, claim and figure, or with the equations of a source.\n"
@@ -38,6 +38,12 @@ def add_paper_commands(command: Command) -> None:
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
     added.add_argument("--confirm", nargs="+", metavar="ID", help="these readings are what is printed")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+
+    added = command("derive", derive_command, "derive what paper.toml states", "lagrotor derive my-paper")
+    added.description = (
+        "Write the derivation of the system that paper.toml states: coordinates, L, constraints; no Python is needed."
+    )
+    added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder, with [system] in its paper.toml")
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
@@ -140,6 +146,15 @@ def readings_command(given: argparse.Namespace) -> int:
     say(f"{_some(len(found), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
     if counts["unconfirmed"] or counts["changed"]:
         say(f"confirm what is read as printed: lagrotor readings {given.folder} --confirm ID …", 0)
+    return 0
+
+
+def derive_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.catalogue import Catalogue
+    from lagrotor.paper.source.stated_system import write_derivation
+
+    made = write_derivation(Catalogue(given.folder))
+    print(f"{made}; judge it with: lagrotor audit --paper {given.folder}")
     return 0
 
 

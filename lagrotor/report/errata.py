@@ -43,9 +43,9 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 cited=entry.cited,
                 title=entry.title,
                 printed=entry.latex,
-                corrected=correction_lines(statement),
+                corrected=correction_lines(statement) or tuple(_as_derived(r) for r in statement.relations),
                 wrong=statement.wrong,
-                verdict_of_correction=(verdict.correction_verdict or "undecided").replace("-", " "),
+                verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
                 letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
@@ -55,6 +55,11 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 def correction_lines(statement: Statement) -> tuple[str, ...]:
     """The correction of an equation in LaTeX, a line for each of its relations."""
     return tuple(_line(relation.quantity, relation) for relation in statement.correction)
+
+
+def _as_derived(relation: Relation) -> str:
+    """quantity = what was derived, where no correction is given."""
+    return (f"{relation.quantity} = " if relation.quantity else "") + (relation.written or latex(relation.derived))
 
 
 def _line(quantity: str, relation: Relation) -> str:
@@ -74,7 +79,7 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     items = "\n".join(map(latex_item, errors)) or rf"\item {prose('None.')}"
     # Two pages: small print, and no more space between the items than a line of it.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
-    return "\n".join([head(f"Errata to {paper.title}") + title, *sheet, r"\end{enumerate}}", END])
+    return "\n".join([head(f"Errata to {paper.title}", paper.about.preamble) + title, *sheet, r"\end{enumerate}}", END])
 
 
 def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> Iterator[str]:

@@ -63,10 +63,10 @@ _LONG_WORD = 18
 _LONGEST = 2_500
 
 
-def head(title: str) -> str:
-    """What a document begins with; its title as plain ASCII, for what a viewer shows of the PDF."""
+def head(title: str, preamble: str = "") -> str:
+    """What a document begins with, packages of the paper's own formulas too; its title as plain ASCII, for the PDF's viewer."""
     about = rf"\hypersetup{{pdftitle={{{prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
-    return f"{_HEAD}{about}\n\\begin{{document}}\n"
+    return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 
 
 def prose(text: str) -> str:

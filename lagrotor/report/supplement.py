@@ -42,7 +42,7 @@ def supplement(report: Report) -> str:
         if name != "model":
             blocks.append(rf"\section*{{{prose(heading)}}}\addcontentsline{{toc}}{{subsection}}{{{prose(heading)}}}")
             blocks += _section(report, name)
-    return "\n\n".join([head(report.title), *filter(None, blocks), END])
+    return "\n\n".join([head(report.title, report.paper.about.preamble), *filter(None, blocks), END])
 
 
 def _section(report: Report, name: str) -> list[str]:

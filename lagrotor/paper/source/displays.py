@@ -416,6 +416,7 @@ class _Walker:
             latex = _without_columns(group[0].tokens, kind)
         if kind == "multline" and r"\\" in latex:
             latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
+        latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # which stands in any formula
         if lead:
             latex = f"{latex_of(lead)} {latex}"
         body = latex[_LEADING.match(latex).end() :]  # type: ignore[union-attr]

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lagrotor.paper.source.formula import Statement, read_formula
+from lagrotor.paper.source.formula import Side, Statement, read_formula
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 from lagrotor.paper.source.tree import Letter, Number, in_catalogue, letters_of, text_of, walk
 from lagrotor.paper.source.usage import Notation, declared, notation_of
 
@@ -46,7 +47,7 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> 
             aside.append(as_text(statement))
             continue
         lines.append(line)
-        for side in statement.sides:
+        for side in (each for each in statement.sides if in_catalogue(each.node)):
             for each in walk(side.node):
                 if isinstance(each, Letter) and each.name in letters_of(each):
                     (vectors if each.vector else letters)[each.name] = None
@@ -55,18 +56,34 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> 
 
 def _line(statement: Statement) -> dict[str, Any] | None:
     """quantity, members, and the order that is claimed; None for what no line of the catalogue can hold."""
-    if statement.kind != "equation" or not all(in_catalogue(side.node) for side in statement.sides):
+    if statement.kind != "equation":
         return None
-    line: dict[str, Any] = {"quantity": statement.sides[0].latex.replace("&", " ").strip()}
-    line["members"] = [text_of(side.node) for side in statement.sides[1:]]
+    held = [in_catalogue(side.node) for side in statement.sides]
+    first_member = next((place for place, each in enumerate(held) if place and each), 0)
+    if not first_member or not all(held[first_member:]):
+        return None
+    names = statement.sides[:first_member]  # p = ∂L/∂q̇: what the line is about
+    line: dict[str, Any] = {"quantity": " = ".join(_latex(side) for side in names)}
+    line["members"] = [text_of(side.node) for side in statement.sides[first_member:]]
     if statement.order is not None:
         small, power = statement.order
         line |= {"order": power - 1, "small": small}
     first = statement.sides[0].node
-    if isinstance(first, Number):
-        line["quantity"] = statement.sides[1].latex
+    if isinstance(first, Number) and all(held):
+        line["quantity"] = _latex(statement.sides[1])
         line["members"] = [text_of(side.node) for side in (statement.sides[0], *statement.sides[2:])]
     return line
+
+
+def _latex(side: Side) -> str:
+    """A side in LaTeX without the columns and rows of its display."""
+    kept: list[Token] = []
+    depth = 0
+    for token in tokenize(side.latex):
+        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        if depth or token.text not in ("&", r"\\"):
+            kept.append(token)
+    return " ".join(latex_of(kept).split())
 
 
 def as_text(statement: Statement) -> str:

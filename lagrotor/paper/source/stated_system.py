@@ -1,0 +1,170 @@
+"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and what each equation is of it.
+
+    [system]
+    coordinates = "theta"
+    L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
+    constraints = []                        # each is zero
+
+    [system.derives]                        # id → what the printed quantity is
+    "1" = "L"
+    "2" = "acceleration theta"              # θ̈ from the equations of motion, multipliers eliminated
+    "3" = "energy"                          # q̇ ∂L/∂q̇ − L
+    "4" = "momentum theta"                  # ∂L/∂θ̇
+    "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
+    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ
+
+The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
+§§1.4, 2.4, 2.7, 6.2.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
+from lagrotor.mechanics.lagrangian import (
+    Coordinates,
+    coordinates,
+    energy,
+    euler_lagrange,
+    gradient,
+    linear_solve,
+    momenta,
+    total_derivative,
+)
+from lagrotor.mechanics.systems import System
+from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.letters import read
+
+_KEYS = ("coordinates", "L", "constraints", "derives")
+_KIND = re.compile(
+    r"(L|energy|momentum|acceleration|motion|frequency(?:\^2)?)(?:\s+(?!at\b)([A-Za-z_]\w*|\d+))?(?:\s+at\s+(.*))?"
+)
+
+
+@dataclass(frozen=True)
+class StatedSystem:
+    """What `paper.toml` states; `derived["2"]` is what it gives for equation 2."""
+
+    c: Coordinates
+    L: sp.Expr
+    constraints: tuple[sp.Expr, ...]
+    derives: Mapping[str, str]
+    names: Mapping[str, Any]
+    where: str
+
+    def __getitem__(self, identifier: str) -> sp.Expr:
+        if identifier not in self.derives:
+            raise InputError(
+                f"{self.where}: derives: equation {identifier} is not there: it has {', '.join(self.derives)}"
+            )
+        said = self.derives[identifier]
+        match = _KIND.fullmatch(said.strip())
+        if match is None:
+            raise InputError(
+                f"{self.where}: derives: {said!r} is not known: L, energy, momentum q, acceleration q, motion q, "
+                "or frequency at q = 0"
+            )
+        kind, which, point = match.groups()
+        if kind in ("L", "energy"):
+            return self.L if kind == "L" else energy(self.L, self.c)
+        if kind.startswith("frequency"):
+            square = self._squared_frequency(int(which or 1), point or "")
+            return square if kind.endswith("^2") else sp.sqrt(square)
+        return self._of_coordinate(kind, which or "")
+
+    def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
+        place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
+        if place is None:
+            raise InputError(
+                f"{self.where}: derives: {kind} {which or '?'}: the coordinates are {', '.join(map(str, self.c.q))}"
+            )
+        rows: dict[str, Callable[[], sp.Matrix]] = {
+            "momentum": lambda: momenta(self.L, self.c),
+            "motion": lambda: euler_lagrange(self.L, self.c),
+            "acceleration": lambda: self.accelerations,
+        }
+        return rows[kind]()[place]
+
+    @cached_property
+    def accelerations(self) -> sp.Matrix:
+        """a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
+        motion = euler_lagrange(self.L, self.c)
+        multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
+        for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
+            motion -= multiplier * gradient(constraint, self.c.q)
+        kept = [total_derivative(total_derivative(each, self.c), self.c) for each in self.constraints]
+        rows, unknown = sp.Matrix([*motion, *kept]), sp.Matrix([*self.c.a, *multipliers])
+        matrix = rows.jacobian(unknown)
+        solved = linear_solve(
+            matrix, -rows.subs(dict.fromkeys(unknown, 0)), f"{self.where}: its equations of motion are singular"
+        )
+        return sp.Matrix(solved[: len(self.c.q)])
+
+    def _squared_frequency(self, which: int, point: str) -> sp.Expr:
+        """ω² of a small oscillation about an equilibrium: rate = i ω."""
+        at: dict[sp.Symbol, sp.Expr] = {}
+        for each in filter(None, (part.strip() for part in point.split(","))):
+            name, _, value = each.partition("=")
+            at[read(name.strip(), self.names, self.where)] = read(value.strip() or "0", self.names, self.where)
+        still = dict.fromkeys(self.c.q, sp.S.Zero) | at
+        modes = System(self.c, self.L, constraints=self.constraints).linearise(still).modes()
+        squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
+        if not 0 < which <= len(squares):
+            raise InputError(f"{self.where}: derives: there is no frequency {which}: the system has {len(squares)}")
+        return sorted(squares, key=sp.default_sort_key)[which - 1]
+
+
+def stated_system(paper: Catalogue) -> StatedSystem:
+    """The system of a paper's folder. Raises InputError where none is stated, or one that cannot be read."""
+    given, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
+    if unknown := sorted(given.keys() - set(_KEYS)):
+        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
+    if missing := [key for key in ("coordinates", "L") if not given.get(key)]:
+        raise InputError(f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L")
+    known = {symbol.name: symbol for symbol in paper.glossary}
+    fresh = coordinates(given["coordinates"])
+    c = Coordinates(*(tuple(known.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
+    names = known | {s.name: s for row in (c.q, c.v, c.a) for s in row}
+    for identifier in given.get("derives", {}):
+        paper.equation(identifier)
+    return StatedSystem(
+        c,
+        read(given["L"], names, f"{where}: L"),
+        tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ())),
+        given.get("derives", {}),
+        names,
+        where,
+    )
+
+
+def stated(script: str) -> StatedSystem:
+    """The system of the paper whose folder holds `derivations/` with this script."""
+    return stated_system(Catalogue(Path(script).resolve().parent.parent))
+
+
+def write_derivation(paper: Catalogue) -> Path:
+    """Write `derivations/s_system.py`, in which each equation of [system.derives] is stated. Raises what reading raises."""
+    system = stated_system(paper)
+    cells = [
+        "# %% [markdown]\n# # The system that paper.toml states\n#\n# Written by `lagrotor derive`; change paper.toml, not this."
+    ]
+    cells.append(
+        "# %%\nfrom lagrotor.paper import verdict\nfrom lagrotor.paper.source.stated_system import stated\n\nsystem = stated(__file__)"
+    )
+    for identifier, said in system.derives.items():
+        _ = system[identifier]
+        cells.append(
+            f"# %% [markdown]\n# ## ({identifier}): {said}\n\n# %%\nverdict({identifier!r}, system[{identifier!r}])".replace(
+                "'", '"'
+            )
+        )
+    folder = paper.folder / "derivations"
+    folder.mkdir(exist_ok=True)
+    return write_text(folder / f"{paper.about.equations_in}_system.py", "\n\n".join(cells) + "\n")

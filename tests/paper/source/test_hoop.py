@@ -1,0 +1,126 @@
+"""The bead on a turning hoop: a paper written as LaTeX, read from it, derived from text, judged, its report compiled."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.paper import Paper
+from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.scripts import beside
+from lagrotor.paper.source.start import begin
+from lagrotor.paper.source.stated_system import stated_system, write_derivation
+
+HOOP = beside("papers/hoop")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(HOOP, tmp_path / "hoop", ignore=shutil.ignore_patterns("__pycache__")))
+
+
+def edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text(encoding="utf-8")
+    assert old in text, old
+    file.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+def test_the_folder_is_what_its_source_says(tmp_path: Path) -> None:
+    begin(tmp_path / "again", HOOP / "paper.tex")
+    fresh, kept = Catalogue(tmp_path / "again").equations, Catalogue(HOOP).equations
+    assert {i: (e.number, e.label, e.latex, e.line) for i, e in fresh.items()} == {
+        i: (e.number, e.label, e.latex, e.line) for i, e in kept.items()
+    }
+    assert all(entry.is_confirmed for entry in kept.values())
+
+
+def test_the_two_misprints_are_found_and_no_other() -> None:
+    paper = Paper(HOOP)
+    audit = paper.audit()
+    assert {v.id for v in audit if v.verdict == "refuted"} == {"4", "7"} and not audit.waiting
+    assert paper.changes({v.id: v.verdict for v in audit}, paper.equations) == []
+
+
+MISPRINTS = {
+    "1": ("theta_dot**2 + Omega**2*sin(theta)**2) + m", "theta_dot**2 - Omega**2*sin(theta)**2) + m"),
+    "2": ('["m*R**2*theta_dot"]', '["m*R*theta_dot"]'),
+    "3": ("Omega**2*cos(theta) - g/R", "Omega**2*cos(theta) + g/R"),
+    "5": ("g/R - Omega**2)", "g/R + Omega**2)"),
+    "6": ("Omega**2 - g**2", "Omega**2 + g**2"),
+}
+
+
+def test_every_other_misprint_would_be_found(folder: Path) -> None:
+    for old, new in MISPRINTS.values():
+        edit(folder / "equations.toml", old, new)
+    text = (folder / "equations.toml").read_text(encoding="utf-8")
+    by_hand = "\n".join(line for line in text.splitlines() if not line.startswith(("read =", "print =")))
+    (folder / "equations.toml").write_text(by_hand, encoding="utf-8")
+    assert {v.id for v in Paper(folder).audit() if v.verdict == "refuted"} == {*MISPRINTS, "4", "7"}
+
+
+def test_a_changed_reading_is_no_longer_confirmed_and_gives_no_verdict(folder: Path) -> None:
+    edit(folder / "equations.toml", *MISPRINTS["3"])
+    verdict = Paper(folder).audit("3")
+    assert verdict.verdict == "undecided" and "it would be refuted" in verdict.evidence[0]
+
+
+def test_the_derivation_is_written_from_the_text(folder: Path) -> None:
+    script = (folder / "derivations" / "s_system.py").read_text(encoding="utf-8")
+    assert main(["derive", str(folder)]) == 0
+    assert (folder / "derivations" / "s_system.py").read_text(encoding="utf-8") == script
+
+
+def test_constraints_are_kept_by_multipliers(folder: Path) -> None:
+    about = folder / "paper.toml"
+    text = about.read_text(encoding="utf-8")
+    system = """[system]
+coordinates = "x y"
+L = "m*(x_dot**2 + y_dot**2)/2 - m*g*y"
+constraints = ["(x**2 + y**2 - R**2)/2"]
+[system.derives]
+"3" = "acceleration x"
+"""
+    about.write_text(text[: text.index("[system]")] + system, encoding="utf-8")
+    found = stated_system(Catalogue(folder))["3"]
+    s = {symbol.name: symbol for symbol in found.free_symbols}
+    x, y, speed = s["x"], s["y"], s["x_dot"] ** 2 + s["y_dot"] ** 2
+    assert (found - x * (s["g"] * y - speed) / (x**2 + y**2)).simplify() == 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' means nothing here"),
+        ('"acceleration theta"', '"acceleration phi"', "the coordinates are theta"),
+        ('"energy"', '"action"', "'action' is not known"),
+        ("theta_dot**2 +", "__import__('os') +", "no part of an expression|is not defined"),
+        ('"7" = "acceleration theta"', '"9" = "energy"', "'9' is not in the catalogue"),
+    ],
+)
+def test_a_system_that_cannot_be_read_is_refused(old: str, new: str, says: str, folder: Path) -> None:
+    edit(folder / "paper.toml", old, new)
+    with pytest.raises(InputError, match=says):
+        write_derivation(Catalogue(folder))
+
+
+def test_its_report_and_errata_are_compiled_without_an_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    compiler = shutil.which("pdflatex")
+    if compiler is None:
+        pytest.skip("no pdflatex on this machine: install a LaTeX distribution to check that the report compiles")
+    assert main(["reproduce", "--paper", str(HOOP), "--out", str(tmp_path / "report"), "--jobs", "1"]) == 0
+    for name in ("report", "errata"):
+        done = subprocess.run(
+            [compiler, "-interaction=nonstopmode", f"{name}.tex"],
+            cwd=tmp_path / "report",
+            capture_output=True,
+            check=False,
+        )
+        if b"not found" in done.stdout:
+            pytest.skip("a package that the report loads is not installed")
+        assert done.returncode == 0 and b"\n!" not in done.stdout, name
