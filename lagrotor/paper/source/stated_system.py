@@ -82,9 +82,8 @@ class StatedSystem:
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
         place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
         if place is None:
-            raise InputError(
-                f"{self.where}: derives: {kind} {which or '?'}: the coordinates are {', '.join(map(str, self.c.q))}"
-            )
+            known = ", ".join(map(str, self.c.q))
+            raise InputError(f"{self.where}: derives: {kind} {which or '?'}: the coordinates are {known}")
         rows: dict[str, Callable[[], sp.Matrix]] = {
             "momentum": lambda: momenta(self.L, self.c),
             "motion": lambda: euler_lagrange(self.L, self.c),
@@ -149,22 +148,32 @@ def stated(script: str) -> StatedSystem:
     return stated_system(Catalogue(Path(script).resolve().parent.parent))
 
 
+_HEAD = """# %% [markdown]
+# # The system that paper.toml states
+#
+# Written by `lagrotor derive`; change paper.toml, not this.
+
+# %%
+from lagrotor.paper import verdict
+from lagrotor.paper.source.stated_system import stated
+
+system = stated(__file__)
+"""
+_CELL = """
+# %% [markdown]
+# ## ({id}): {said}
+
+# %%
+verdict("{id}", system["{id}"])
+"""
+
+
 def write_derivation(paper: Catalogue) -> Path:
     """Write `derivations/s_system.py`, in which each equation of [system.derives] is stated. Raises what reading raises."""
     system = stated_system(paper)
-    cells = [
-        "# %% [markdown]\n# # The system that paper.toml states\n#\n# Written by `lagrotor derive`; change paper.toml, not this."
-    ]
-    cells.append(
-        "# %%\nfrom lagrotor.paper import verdict\nfrom lagrotor.paper.source.stated_system import stated\n\nsystem = stated(__file__)"
-    )
-    for identifier, said in system.derives.items():
+    for identifier in system.derives:
         _ = system[identifier]
-        cells.append(
-            f"# %% [markdown]\n# ## ({identifier}): {said}\n\n# %%\nverdict({identifier!r}, system[{identifier!r}])".replace(
-                "'", '"'
-            )
-        )
+    text = _HEAD + "".join(_CELL.format(id=identifier, said=said) for identifier, said in system.derives.items())
     folder = paper.folder / "derivations"
     folder.mkdir(exist_ok=True)
-    return write_text(folder / f"{paper.about.equations_in}_system.py", "\n\n".join(cells) + "\n")
+    return write_text(folder / f"{paper.about.equations_in}_system.py", text)
