@@ -38,7 +38,7 @@ _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the
 
 
 @dataclass(frozen=True, eq=False)
-class Modes:
+class LinearPair:
     """The linear pair of a scene in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); mass: M; turning: N = M⁻¹ C, all
     (3, 3); frequency: Omega (rad/s)."""
 
@@ -95,7 +95,7 @@ def _toppling_growth() -> str:
     return toppling_growth().code("numpy")
 
 
-def modes(scene: Scene) -> Modes:
+def modes(scene: Scene) -> LinearPair:
     """The linear pair of a scene, about the upright rest state. Raises SingularError without a bar."""
     if scene.link is None:
         raise SingularError("linear: the scene has no bar; use model='closed_form' or 'spheres'")
@@ -104,7 +104,7 @@ def modes(scene: Scene) -> Modes:
     upright = np.array([[1, 0, 0], [0, twist, -1], [0, -twist, -1]])
     numbers = _matrices()(*scene.inertias, *scene.momenta)
     mass, gyroscopic = (upright.T @ np.reshape(part, (3, 3)) @ upright for part in (numbers[:9], numbers[9:18]))
-    return Modes(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
+    return LinearPair(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
 
 
 def linear_states(scene: Scene, t: Array) -> Array:
@@ -129,7 +129,7 @@ def linear_states(scene: Scene, t: Array) -> Array:
     return states
 
 
-def _straightened(linear: Modes, start: Array, shock: Shock) -> Shock:
+def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
     """The shock as an upright pair feels it: turned back by the azimuth that its axis has when the pulse peaks."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
@@ -138,7 +138,7 @@ def _straightened(linear: Modes, start: Array, shock: Shock) -> Shock:
     return replace(shock, force=(fx, c * fy + s * fz, c * fz - s * fy))
 
 
-def _pulsed(scene: Scene, linear: Modes, shock: Shock, t: Array) -> tuple[Array, Array]:
+def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[Array, Array]:
     """The response to the pulse at all times but the last (n, 6), and at the last (6,)."""
     from scipy.special import erfc
 
@@ -220,7 +220,7 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
     return (1 + angle / (2 * ratio)) * exp(min(growth * duration, 600.0))
 
 
-def _defect(scene: Scene, linear: Modes, shock: Shock | None, t: Array, states: Array) -> Array:
+def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, states: Array) -> Array:
     """Exact less linear acceleration along the linear motion, (n, 3)."""
     assert scene.link is not None
     (own, shared), k = scene.inertias, scene.link.length / scene.rotor.length

@@ -128,21 +128,33 @@ def test_rounding_that_breaks_a_tolerance_is_not_run_against() -> None:
     assert set(made.locals) == {APART * TIGHTEST, TIGHTEST}
 
 
+@pytest.mark.parametrize(("share", "integrations"), [(1.01, 4), (0.99, 2)])
+def test_what_rounding_leaves_is_the_limit(monkeypatch: pytest.MonkeyPatch, share: float, integrations: int) -> None:
+    monkeypatch.setattr(estimated_run, "ROUNDING", estimated_run.ROUNDING._replace(value=1e-9))
+    times = np.array([0.0, 60.0])
+    made = Made(share=100.0)
+    made.run(share * 1e-9 * (START + 60), times)
+    assert len(made.locals) >= integrations and (integrations == 4 or len(made.locals) == 2)
+
+
 def test_where_two_have_parted_nothing_is_known_and_the_better_one_goes_on_alone() -> None:
     made = Made(growth=1.0)
     run = made.run(1e-6, np.linspace(0.0, 200.0, 21))
     assert run.ending.kind == "lost" and run.errors[-1] == UNKNOWN
     lost = run.t[np.argmax(run.errors == UNKNOWN)]
     assert run.ending.at <= lost < 60 and run.horizon < run.ending.at
-    with pytest.warns(LagrotorWarning, match="only up to"):
+    beyond = estimated_run.BEYOND.value
+    assert run.loosened == pytest.approx(estimated_run.STAGE.value) and made.locals[-1] == beyond > run.local
+    said = rf"only up to t = [\d.]+ s; from t = {run.loosened:.6g} s its local error is {beyond:g}"
+    with pytest.warns(LagrotorWarning, match=said):
         run.warn_unless_kept("made", 1e-6)
 
 
 def test_the_stages_double() -> None:
     made = Made(share=0.0)
-    made.run(1e-6, np.array([0.0, 1000.0]))
+    made.run(1e-6, np.array([0.0, 700.0]))
     stage = estimated_run.STAGE.value
-    assert len(made.locals) == 2 * len([end for n in range(20) if (end := stage * 2.0**n) < 1000] + [1000])
+    assert len(made.locals) == 2 * len([end for n in range(20) if (end := stage * 2.0**n) < 700] + [700])
 
 
 @pytest.mark.parametrize("cause", ["budget", "singular", "stopped"])
@@ -155,6 +167,29 @@ def test_a_run_that_stops_is_what_was_reached(cause: Any) -> None:
     assert run.evaluations == made.spent and (np.abs(run.states[:, 0] - 1) <= run.errors).all()
     with pytest.warns(LagrotorWarning, match=r"ended early: .* at t = 7\.3 s: it stops"):
         run.warn_unless_kept("made", 1e-6)
+
+
+def test_a_run_that_stops_in_a_later_stage_is_what_was_reached_in_all() -> None:
+    made, times = Made(share=1e-3), np.linspace(0.0, 200.0, 21)
+    made.fails[1.0] = StopError(157.0, "it stops", cause="budget")
+    run = made.run(1e-6, times)
+    assert run.t.tolist() == times[:16].tolist() and (np.diff(run.states[:, 0]) > 0).all()
+    assert run.states[:, 0] - 1 == pytest.approx(
+        1e-3 * run.local * run.t * (run.states[-1, 0] - 1) / (1e-3 * run.local * 150)
+    )
+
+
+def test_a_run_is_watched_where_its_conservation_is_measured() -> None:
+    seen = list[Array]()
+
+    def defect(t: Array, states: Array) -> float:
+        seen.append(t)
+        return 0.0
+
+    made = Made(share=0.1)
+    made.run(1e-6, defect=defect, watch=np.array([-1.0, 0.017, 3.1234, 99.0]))
+    assert {0.017, 3.1234} < set(seen[0]) and not {-1.0, 99.0} & set(seen[0])
+    assert seen[0][0] == 0 and seen[0][-1] == 10
 
 
 def test_a_singular_position_is_said_only_where_it_is_measured() -> None:

@@ -207,6 +207,42 @@ def test_a_run_that_crawls_is_stopped() -> None:
     assert integrate(Problem(oscillate, START, 500), np.array([1.0]), 1e-9).evaluations < 500
 
 
+@pytest.mark.parametrize("tol", [1e-6, 1e-12])
+@pytest.mark.parametrize("bare", [False, True])
+def test_a_run_that_finishes_is_kept_whatever_it_took(tol: float, bare: bool) -> None:
+    """LSODA counts the evaluations of a bare right-hand side when it is done."""
+
+    def rhs(s: float, y: Array) -> list[float]:
+        return oscillate(s, y)
+
+    if bare:
+        rhs.bare = oscillate  # type: ignore[attr-defined]
+    times = np.linspace(1, 10, 10)
+    needed = integrate(Problem(rhs, START, ENOUGH), times, tol)
+    again = integrate(Problem(rhs, START, needed.evaluations - 1), times, tol)
+    assert (again.states == needed.states).all() and again.evaluations == needed.evaluations
+
+
+@pytest.mark.parametrize("tol", [1e-6, 1e-12])
+def test_a_budget_that_is_spent_is_said_with_all_that_was_spent_and_reached(tol: float) -> None:
+    calls = 0
+
+    def counted(s: float, y: Array) -> list[float]:
+        nonlocal calls
+        calls += 1
+        return oscillate(s, y)
+
+    times = np.linspace(0, 2e4, 2001)
+    with pytest.raises(StopError, match=r"evaluations spent.*larger tol or a shorter run") as stopped:
+        integrate(Problem(counted, START, 20_000, typical_rate=1.0), times, tol)
+    stop = stopped.value
+    assert stop.cause == "budget" and stop.evaluations == pytest.approx(calls, abs=30) and calls < 41_000
+    reached = stop.reached
+    assert reached is not None and (times[: len(reached.states)] <= stop.at).all()
+    assert np.abs(reached.states[:, 0] - np.cos(times[: len(reached.states)])).max() < 2e4 * tol
+    assert len(reached.states) > 1 or tol > 1e-10  # what LSODA has made is not known
+
+
 def test_the_allowance_is_for_the_whole_run() -> None:
     """The segments before, in and after the pulse share it."""
     problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, 0.1)

@@ -59,8 +59,8 @@ def references(seed: int, count: int) -> list[Trial]:
             continue
         if not run.ending.early:
             axes, drift = exact(s, run.axes[:, 0], run.rates[:, 0], run.t)
-            assert drift < 1e-15
-            found.append((s, given, tol, axes.astype(float)))
+            if drift < 1e-15:  # else neighbours part so fast that 80 bits are too few
+                found.append((s, given, tol, axes.astype(float)))
     return found
 
 
