@@ -657,6 +657,8 @@ LOADING = """
 import os, signal, sys
 import lagrotor.__main__ as command
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # one that began in the background ignores it
+
 class Interrupt:
     def find_spec(self, name, path=None, target=None):
         if name == "lagrotor.commands.command_line":
