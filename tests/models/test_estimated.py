@@ -13,6 +13,7 @@ from lagrotor.models import simulate as simulating
 from lagrotor.models.conserved import pulse_nodes
 from lagrotor.models.natural_units import natural_units, typical_rate
 from lagrotor.numerics import estimated_run
+from lagrotor.numerics.segment import StopError
 from tests.models.one_integration import observed
 
 SHOCKED = Scene(
@@ -158,9 +159,13 @@ def test_a_bar_almost_as_long_as_the_axes_loses_no_digit_at_the_fold(gap: float)
     exact = simulate(scene, times, "spheres", 1e-13)
     assert np.abs(run.axes - exact.axes).max() < max(1e-9, 3 * exact.error)
     # Twin: through the fold by Mercator coordinates, outside the range in which they are well conditioned.
+    # As the kernels of linear algebra round, they stop there or go on in another motion.
     units = natural_units(scene)
-    through = observed(minimal.MODEL, units.scene, times * units.rate, 1e-9)
-    assert np.abs(through.axes - exact.axes).max() > 1e-5
+    try:
+        through = observed(minimal.MODEL, units.scene, times * units.rate, 1e-9).axes
+    except StopError:
+        through = np.full_like(exact.axes, np.nan)
+    assert not np.abs(through - exact.axes).max() <= 1e-5
 
 
 @pytest.mark.parametrize("turns", [20, pytest.param(1000, marks=pytest.mark.slow)])
