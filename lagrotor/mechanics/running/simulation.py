@@ -13,8 +13,8 @@ from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_pictures, sections
+from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection
-from lagrotor.mechanics.running.integrals import defect_of
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import begin, switched

@@ -1,0 +1,79 @@
+"""The promise of a run on random systems of twelve kinds: its error is at most what is estimated, and tol is kept or announced.
+
+Against motions known to 60 bits, made in `references`; the size of a state is what `SystemRun` says it is.
+"""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from lagrotor.errors import LagrotorWarning
+from tests.mechanics.running.references import EXTENDED, KINDS, drawn
+
+pytestmark = pytest.mark.skipif(
+    not EXTENDED, reason="the references need numbers of 64 bits, which this machine has not"
+)
+ROUNDED = 1e-12  # an error at one of the times that rounding alone may make
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run promised, and what it is."""
+
+    name: str
+    true: float
+    error: float
+    kept: bool
+    announced: bool
+    everywhere: bool
+
+
+def outcome(seed: int, engine: str = "core") -> Outcome:
+    given = drawn(seed)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        run = given.system.simulate(given.values, given.q, given.v, given.t, given.tol, engine)
+    announced = any(issubclass(w.category, LagrotorWarning) for w in caught)
+    exact = given.exact()[: len(run.t)]
+    true = run.scales.distance(np.hstack([run.q, run.v]), exact)
+    sizes = np.abs(exact).max(0)
+    assert (run.scales.sizes < 1e4 * np.maximum(sizes, sizes.max() / 1e3)).all()  # no error is hidden in a size
+    everywhere = bool((true <= np.maximum(run.errors, ROUNDED)).all())
+    return Outcome(
+        f"{given.name} {seed}", float(true.max()), run.error, bool(true.max() <= given.tol), announced, everywhere
+    )
+
+
+def held(outcomes: list[Outcome]) -> list[str]:
+    """Those that break the promise."""
+    return [
+        str(o) for o in outcomes if o.true > max(o.error, ROUNDED) or not o.everywhere or not (o.kept or o.announced)
+    ]
+
+
+@pytest.mark.parametrize("kind", range(len(KINDS)), ids=lambda i: KINDS[i].__name__)
+def test_one_of_each_kind_keeps_its_promise(kind: int) -> None:
+    assert held([outcome(1200 + kind)]) == []
+
+
+def test_a_run_that_promised_too_much_would_be_seen() -> None:
+    """The twin: an error a hundred times as small as estimated, and a miss without a word."""
+    good = outcome(1211)
+    assert held([Outcome(good.name, 200 * good.error, good.error, True, False, True)])
+    assert held([Outcome(good.name, good.true, good.error, False, False, True)])
+
+
+@pytest.mark.slow
+def test_three_hundred_and_sixty_random_systems_keep_their_promise_and_it_is_tight() -> None:
+    outcomes = [outcome(seed) for seed in range(360)]
+    assert held(outcomes) == []
+    assert np.median([o.error / o.true for o in outcomes if o.true > 1e-13]) < 15
+
+
+@pytest.mark.slow
+def test_the_fast_engine_keeps_it_too() -> None:
+    pytest.importorskip("heyoka")
+    outcomes = [outcome(seed, "fast") for seed in range(400, 448)]
+    assert held(outcomes) == []
