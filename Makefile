@@ -2,10 +2,11 @@
 # `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
 # `make test-machines` runs the tests as they run elsewhere: other kernels of linear algebra, numpy without its vector features,
 # other hash seeds, the lowest dependencies, the extras, other Pythons; `make test-machines RUNS="Prescott extras"` some of it.
+# `make certify` writes a proof of every exact verdict into certificates/ and checks each with Coq (Debian: coq libcoq-interval).
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test check docs test-machines
+.PHONY: reproduce test check docs certify test-machines
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
@@ -19,6 +20,10 @@ check: $(VENV)/.installed-test
 
 docs: $(VENV)/.installed-docs
 	$(VENV)/bin/mkdocs build --quiet
+
+certify: $(VENV)/.installed
+	$(VENV)/bin/python -m lagrotor audit --certify certificates > /dev/null
+	$(VENV)/bin/python -m lagrotor certify certificates
 
 test-machines:
 	$(PYTHON) -m tests.machines $(RUNS)

@@ -1,4 +1,4 @@
-"""The commands about a paper: init, readings, derive, check, reproduce, audit, claims, figure.
+"""The commands about a paper: init, readings, derive, check, reproduce, audit, certify, claims, figure.
 
 Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
@@ -7,6 +7,7 @@ Without --paper they are about the paper that lagrotor was written for.
 
 import argparse
 import json
+import time
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """init, readings, derive, check, reproduce, audit, claims, figure."""
+    """init, readings, derive, check, reproduce, audit, certify, claims, figure."""
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
     added.description = (
         "Begin a paper of your own: a folder with one worked equation, claim and figure, or with the equations of a source.\n"
@@ -71,6 +72,16 @@ def add_paper_commands(command: Command) -> None:
     _add_paper(added)
     added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
     added.add_argument("--record", action="store_true", help="put the verdicts on record, once they have been read")
+    proofs = "write each exact verdict with its proof as a file of Coq into this folder; lagrotor certify checks them"
+    added.add_argument("--certify", type=Path, metavar="DIR", help=proofs)
+
+    added = command("certify", certify_command, "check certificates with Coq", "lagrotor certify certificates")
+    added.description = (
+        "Check the certificates that lagrotor audit --certify wrote. It needs coqc and its Interval library."
+    )
+    added.epilog = "exit status: 0 all accepted, 1 one is rejected, 2 nothing could be checked\n" + str(added.epilog)
+    added.add_argument("folder", type=Path, metavar="DIR", help="the folder of certificates")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object a line")
 
     added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
@@ -248,10 +259,49 @@ def audit_command(given: argparse.Namespace) -> int:
         print(table(("id", "verdict", "equation: order, premises"), rows))
         if found is not None and waiting:
             say(f"{len(found.ids)} equations: {count_list(found.counts)}", 0)
+    if given.certify is not None:
+        from lagrotor.paper.certificates.certificate_folder import certify
+
+        files = sum(bool(row.file) for row in certify(shown, paper, given.certify))
+        say(f"{_some(files, 'certificate')} in {given.certify}; to check: lagrotor certify {given.certify}", 0)
     if given.record:
         return say(f"put on record in {paper.renew_record(shown)}", 0)
     changes = paper.changes({v.id: v.verdict for v in shown}, identifiers or paper.equations)
     return _say_changes(changes, bool(paper.recorded))
+
+
+def certify_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.certificates.certificate_folder import read_certificates
+    from lagrotor.paper.certificates.checked_by_coq import check_certificates
+    from lagrotor.paper.readable import from_latex
+    from lagrotor.report.content import word
+
+    began = time.perf_counter()
+    with progress(len(read_certificates(given.folder))) as step:
+        found = check_certificates(given.folder, step)
+    counts = Counter(each.status for each in found)
+    if given.json:
+        rows = [
+            {"id": c.id, "line": c.line.name, "verdict": c.line.verdict, "checked": c.status, "why": c.why}
+            for c in found
+        ]
+        print(json.dumps(rows, indent=1, ensure_ascii=False))
+    else:
+        shown = [
+            (
+                c.id,
+                c.line.name,
+                word(c.line.verdict),
+                ": ".join(filter(None, (c.status, c.why))),
+                from_latex(c.line.quantity),
+            )
+            for c in found
+        ]
+        print(table(("id", "line", "verdict", "Coq", "quantity"), shown))
+    summary = ", ".join(f"{counts[status]} {status}" for status in ("accepted", "rejected", "skipped"))
+    return say(
+        f"{_some(len(found), 'line')}: {summary}; {time.perf_counter() - began:.0f} s", min(counts["rejected"], 1)
+    )
 
 
 def claims_command(given: argparse.Namespace) -> int:

@@ -1,0 +1,122 @@
+"""Certificates checked by Coq's kernel: `coqc` compiles each file, and nothing but lemmas and theorems may be in it."""
+
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from os import cpu_count
+from pathlib import Path
+
+from lagrotor.errors import LagrotorError
+from lagrotor.files import read_text
+from lagrotor.paper.certificates.certificate import PREAMBLE, CertifiedLine
+from lagrotor.paper.certificates.certificate_folder import CertifiedEquation, read_certificates
+
+# The seconds after which a file counts as rejected.
+_LONGEST = 300
+# Words that a sentence of a certificate begins with: nothing is assumed, no notation is changed.
+_SENTENCES = frozenset(["From", "Open", "Lemma", "Theorem", "Proof", "Qed", "Ltac"])
+_START = re.compile(r"(?:\A|\.\s|[{}])\s*(#\[|[A-Z]\w*)")
+_TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What Coq said of one line. status: accepted, rejected, or skipped; why: what it rejected, or why there is nothing."""
+
+    id: str
+    line: CertifiedLine
+    status: str
+    why: str = ""
+
+
+def missing_coq() -> str:
+    """Why nothing can be checked here; empty where Coq and its Interval are installed."""
+    if shutil.which("coqc") is None:
+        return f"coqc is not on the PATH: {_TO_INSTALL}"
+    with tempfile.TemporaryDirectory() as folder:
+        failed = _compiled(Path(folder), "needed.v", PREAMBLE)
+    return f"coqc has no Interval library ({failed}): {_TO_INSTALL}" if failed else ""
+
+
+def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name: None) -> list[Checked]:
+    """Check every certificate of a folder, as many at once as there are cores; `begins` is called with each id.
+
+    Raises InputError for a folder without certificates, LagrotorError where there is no Coq.
+    """
+    rows = read_certificates(folder)
+    if why := missing_coq():
+        lines = sum(bool(line.theorems) for row in rows for line in row.lines)
+        raise LagrotorError(f"nothing was checked, {lines} lines were skipped: {why}")
+
+    def checked(row: CertifiedEquation) -> list[Checked]:
+        begins(row.id)
+        return list(_checked(row, read_text(folder / row.file) if row.file else ""))
+
+    with ThreadPoolExecutor(cpu_count() or 1) as pool:
+        return [each for found in pool.map(checked, rows) for each in found]
+
+
+def _checked(row: CertifiedEquation, text: str) -> Iterator[Checked]:
+    failed = _failures(row, text) if text else {}
+    for line in row.lines:
+        if not line.theorems:
+            yield Checked(row.id, line, "skipped", line.why_not)
+        elif wrong := next((failed[name] for name in ("", *line.theorems) if name in failed), ""):
+            yield Checked(row.id, line, "rejected", wrong)
+        else:
+            yield Checked(row.id, line, "accepted")
+
+
+def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
+    """Theorem -> why Coq rejects it; "" for the whole file. A theorem that is rejected is left out of the next attempt."""
+    if other := foreign_word(text):
+        return {"": f"the file holds {other}, which is no part of a certificate"}
+    failed: dict[str, str] = {}
+    for theorem in (name for line in row.lines for name in line.theorems):
+        if len(re.findall(rf"^Theorem {re.escape(theorem)}\b", text, re.MULTILINE)) != 1:
+            failed[theorem] = f"the file does not hold one theorem {theorem}"
+    with tempfile.TemporaryDirectory() as folder:
+        while error := _compiled(Path(folder), row.file, text):
+            place = re.match(r"line (\d+)", error)
+            before = "\n".join(text.split("\n")[: int(place[1])]) if place else ""
+            begun = re.findall(r"^Theorem (\w+)", before, re.MULTILINE)
+            if not begun or begun[-1] in failed:
+                return {"": error}
+            failed[begun[-1]] = error
+            text = re.sub(rf"^Theorem {begun[-1]}\b.*?\bQed\.$", "", text, count=1, flags=re.MULTILINE | re.DOTALL)
+    return failed
+
+
+def _compiled(folder: Path, name: str, text: str) -> str:
+    """What coqc objects to, as line n: the message; empty where it accepts."""
+    (folder / name).write_text(text, encoding="utf-8")
+    try:
+        run = subprocess.run(["coqc", "-q", name], cwd=folder, capture_output=True, text=True, timeout=_LONGEST)
+    except subprocess.TimeoutExpired:
+        return f"it takes more than {_LONGEST} s"
+    if run.returncode == 0:
+        return ""
+    said = " ".join((run.stderr or run.stdout).split())
+    return re.sub(r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?', r"\1: ", said)[:300] or "coqc failed"
+
+
+def foreign_word(text: str) -> str:
+    """What in a file is neither lemma, theorem, tactic nor comment; empty where all is."""
+    plain = _without_comments(text)
+    if '"' in plain:
+        return "a string"
+    return next((word for word in _START.findall(plain) if word not in _SENTENCES), "")
+
+
+def _without_comments(text: str) -> str:
+    """The text with each comment, which may hold others, left out."""
+    kept, depth = [], 0
+    for part in re.split(r"(\(\*|\*\))", text):
+        depth += {"(*": 1, "*)": -1}.get(part, 0)
+        if depth == 0 and part != "*)":
+            kept.append(part)
+    return "".join(kept)

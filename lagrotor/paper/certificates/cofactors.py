@@ -1,0 +1,579 @@
+"""Why two sides are equal, as steps that Coq checks: each side in generators, the numerator as a sum of cofactor times relation.
+
+A generator is a letter, the cosine and the sine of a base angle, an exponential, a root, or a function of which nothing is
+used. Every function in the statement is written in them by the addition theorems (`atom_n`), every denominator is factored
+(`whole_n`), each factor a letter of its own (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial
+that is the sum of q_i times relation_i: sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. The q_i are found by
+division, since the leading terms of the relations have no letter in common; Coq checks them by `ring`.
+"""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from math import lcm
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.polys.rings import PolyElement, PolyRing
+
+from lagrotor.errors import NotExactError
+from lagrotor.paper.certificates.coq_terms import QUOTIENTS, Comparison, Terms
+
+LetterEquation = tuple[sp.Expr, sp.Expr]
+_CIRCULAR, _EXPONENTIAL = (sp.sin, sp.cos), (sp.exp, sp.sinh, sp.cosh)
+_OPAQUE = (sp.log, sp.atan, sp.asin, sp.acos)
+# The largest multiple of a base angle, the most terms of a denominator that is factored and of a numerator.
+_NOT_NEGATIVE = "first [assumption | lra | positive]"
+_LARGEST_MULTIPLE, _MOST_FACTORED, _MOST_TERMS = 12, 60, 4000
+
+
+@dataclass(frozen=True)
+class _Relation:
+    """What vanishes: its name in the proof, and the polynomial in generators, as it stands there."""
+
+    name: str
+    zero: sp.Expr
+    text: str
+
+
+@dataclass
+class _Steps:
+    """Statements that were proved on the way, in order: lines of tactics."""
+
+    lines: list[str] = field(default_factory=list)
+
+    def show(self, name: str, proposition: str, tactics: str) -> None:
+        """Assert a proposition under a name, and prove it."""
+        self.lines.append(f"assert ({name} : {proposition}). {{ {tactics} }}")
+
+
+class Sides:
+    """The sides of a statement in generators, under equations between letters; `steps` is the proof so far.
+
+    equations: the premises, named premise_1, …; conditions: named defined_1, …; small: the letter whose powers are looked at,
+    or the sine of it. Raises NotExactError outside the class.
+    """
+
+    def __init__(
+        self,
+        terms: Terms,
+        expressions: Sequence[sp.Expr],
+        equations: Sequence[LetterEquation],
+        conditions: Sequence[Comparison],
+        small: sp.Symbol | None = None,
+    ) -> None:
+        self.terms, self.steps, self.small = terms, _Steps(), small
+        self.eliminated = elimination(equations)
+        self.relations: list[_Relation] = []
+        self._known: dict[sp.Expr, sp.Expr] = {}
+        self._generators: dict[Any, sp.Symbol] = {}
+        self._rewritten: dict[str, list[tuple[int, str, bool]]] = {"whole": [], "atom": []}
+        self._apart: set[sp.Symbol] = set()
+        self._factors: dict[sp.Expr, sp.Symbol] = {}
+        self._count: dict[str, int] = {}
+        held = [*expressions, *(e for _, e in conditions), *self.eliminated.values()]
+        self._quotients = sorted({f.func.__name__ for e in held for f in e.atoms(sp.tan, sp.tanh)})
+        self._step_of = _steps_of_angles(held, self.eliminated)
+        for place, (sign, e) in enumerate(conditions, 1):
+            if sign == "<>":
+                self._denominator(e, f"defined_{place}")
+
+    def _name(self, kind: str) -> str:
+        self._count[kind] = self._count.get(kind, 0) + 1
+        return f"{kind}_{self._count[kind]}"
+
+    @property
+    def put_in(self) -> str:
+        """The tactic that puts the premises into the goal."""
+        return "".join(f"try subst {self.terms.names[letter]}. " for letter in self.eliminated)
+
+    def _settled(self) -> str:
+        """The tactics that bring a goal into generators: the largest denominators and functions first.
+
+        What a premise brings in is rewritten after it; the value of a letter is not, since the premise puts it in.
+        """
+        rows = sorted(
+            ((kind == "whole", *row) for kind, found in self._rewritten.items() for row in found), reverse=True
+        )
+        letters = [name for _, _, name, letter in rows if letter]
+        before, after = ([name for _, _, name, letter in rows if not (letter and late)] for late in (False, True))
+        first, second = (
+            f"rewrite {', '.join(f'?{name}' for name in names)}. " if names else "" for names in (before, after)
+        )
+        cleared = f"clear {' '.join(letters)}. " if letters else ""
+        unfolded = "".join(f"try unfold {name}. " for name in self._quotients)
+        return first + (unfolded + cleared + self.put_in + second if self.eliminated or unfolded else "")
+
+    def value(self, node: sp.Expr) -> sp.Expr:
+        """The expression in generators; its denominators are monomials."""
+        if node not in self._known:
+            self._known[node] = self._value(node)
+        return self._known[node]
+
+    def _value(self, node: sp.Expr) -> sp.Expr:
+        if node.is_Symbol:
+            return self.value(self.eliminated[node]) if node in self.eliminated else node
+        if node.is_Rational:
+            return node
+        if node is sp.pi:
+            return self._generator(sp.pi, "PI")
+        if node.is_Mul and any(part.is_Symbol and self.value(part) == 0 for part in node.args):
+            return sp.S.Zero
+        if node.is_Add or node.is_Mul:
+            return node.func(*map(self.value, node.args))
+        if node.is_Pow and node.base is not sp.E:
+            return self._power(node)
+        if node.func is sp.tan or node.func is sp.tanh or node.func in QUOTIENTS:
+            over, under = {sp.tan: (sp.sin, sp.cos), sp.tanh: (sp.sinh, sp.cosh)}.get(node.func) or QUOTIENTS[node.func]
+            above = sp.S.One if over is None else self.value(over(*node.args))
+            return above / self._denominator(under(*node.args))
+        return self._atom(node)
+
+    def _power(self, node: sp.Expr) -> sp.Expr:
+        base, exponent = node.base, node.exp
+        if exponent.is_Integer:
+            return self.value(base) ** exponent if exponent > 0 else self._denominator(base) ** exponent
+        if exponent.is_Rational and exponent.q == 2:
+            root = self._atom(sp.sqrt(base, evaluate=False) if base.is_Number else sp.sqrt(base))
+            return root**exponent.p
+        raise NotExactError(f"nothing is known here of the power {node}")
+
+    def _generator(self, key: Any, text: str) -> sp.Symbol:
+        """The generator that a function of Coq is, written as that function."""
+        if key not in self._generators:
+            generator = sp.Dummy(text)
+            self._generators[key] = generator
+            self.terms.names[generator] = f"({text})" if " " in text else text  # alone where it is raised to a power
+        return self._generators[key]
+
+    def _relate(self, kind: str, zero: sp.Expr, tactics: str) -> None:
+        name = self._name(kind)
+        text = self.terms.write(zero)
+        self.steps.show(name, f"{text} = 0", tactics)
+        self.relations.append(_Relation(name, zero, text))
+
+    def _atom(self, node: sp.Expr) -> sp.Expr:
+        """The value of a function, with the step that shows it where it is not a generator as it stands."""
+        if node.func in _CIRCULAR:
+            value, tactics = self._circular(node)
+        elif node.func in _EXPONENTIAL:
+            value, tactics = self._exponential(node)
+        elif node.is_Pow:
+            value, tactics = self._root(node)
+        elif node.func is sp.Abs:
+            value, tactics = self._absolute(node)
+        elif isinstance(node, AppliedUndef) or node.func in _OPAQUE:
+            value, tactics = self._opaque(node)
+        else:
+            raise NotExactError(f"nothing is known here of {node.func}")
+        text, written = self.terms.write(node), self.terms.write(value)
+        if text not in (written, written[1:-1]):
+            name = self._name("atom")
+            self.steps.show(name, f"{text} = {written}", tactics)
+            self._rewritten["atom"].append((len(text), name, False))
+        return value
+
+    def _angle(self, node: sp.Expr) -> tuple[list[tuple[sp.Expr, int]], int]:
+        """The argument as whole multiples of base angles, and of a quarter turn."""
+        rates = _rates(node.args[0].xreplace(self.eliminated))
+        quarters = rates.pop(sp.pi, sp.S.Zero) * 2
+        if not quarters.is_Integer:
+            raise NotExactError(f"{node} is turned by a part of a right angle")
+        family = node.func in _CIRCULAR
+        multiples = [(m / self._step_of[family, m], int(rate * self._step_of[family, m])) for m, rate in rates.items()]
+        if any(abs(n) > _LARGEST_MULTIPLE for _, n in multiples) or abs(quarters) > _LARGEST_MULTIPLE:
+            raise NotExactError(f"{node} is a large multiple of an angle")
+        return multiples, int(quarters)
+
+    def _split(self, node: sp.Expr, multiples: Iterable[tuple[sp.Expr, int]], quarters: int, tactic: str) -> str:
+        """The tactics for a function of a sum of base angles, once its argument is written as one."""
+        parts = [(self.terms.write(base), n) for base, n in multiples] + [("PI / 2", quarters)]
+        copies = [f"({text})" if n > 0 else f"(- ({text}))" for text, n in parts for _ in range(abs(n))]
+        function = self.terms.write(node).split(" ")[0]
+        return f"transitivity ({function} ({' + '.join(copies) or '0'})); [ f_equal; {self._inner()}same | {tactic}; same ]."
+
+    def _inner(self) -> str:
+        return self.put_in.replace(". ", "; ")
+
+    def _circular(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        multiples, quarters = self._angle(node)
+        cosine, sine = {0: (1, 0), 1: (0, 1), 2: (-1, 0), 3: (0, -1)}[quarters % 4]
+        total = sp.Integer(cosine), sp.Integer(sine)
+        for base, n in multiples:
+            pair = self._pair(base)
+            for _ in range(abs(n)):
+                c, s = pair[0], pair[1] if n > 0 else -pair[1]
+                total = sp.expand(total[0] * c - total[1] * s), sp.expand(total[1] * c + total[0] * s)
+        return total[node.func is sp.sin], self._split(node, multiples, quarters, "circular")
+
+    def _pair(self, base: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
+        """Cosine and sine of a base angle, generators whose squares add up to one."""
+        text, new = self.terms.alone(base), ("cos", base) not in self._generators
+        pair = tuple(self._generator((name, base), f"{name} {text}") for name in ("cos", "sin"))
+        if new:
+            self._relate("known", pair[1] ** 2 + pair[0] ** 2 - 1, f"generalize (sine_and_cosine {text}). lra.")
+        return pair[0], pair[1]
+
+    def _exponential(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        multiples, quarters = self._angle(node)
+        if quarters:
+            raise NotExactError(f"{node} is a power of exp(pi)")
+        value = sp.S.One
+        for base, n in multiples:
+            new, text = ("exp", base) not in self._generators, f"exp {self.terms.alone(base)}"
+            generator = self._generator(("exp", base), text)
+            if new:
+                self.steps.show(self._name("apart"), f"{text} <> 0", "apply more_than_zero, exp_pos.")
+                self._apart.add(generator)
+            value *= generator**n
+        if node.func is not sp.exp:
+            value = (value + (1 if node.func is sp.cosh else -1) / value) / 2
+        return value, self._split(node, multiples, 0, "unfold sinh, cosh; exponential")
+
+    def _root(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        radicand = self._fraction(self.value(node.base))
+        over, under = radicand.numerator.as_expr(), radicand.under
+        base = sp.cancel(over / under) if not under.is_number else sp.expand(over / under)
+        key = "root", base
+        write = self.terms.write
+        if base.is_Rational and (exact := sp.sqrt(base)).is_Rational:
+            same = _joined(self._settled() + self._equal(exact * exact, self.value(node.base)))
+            return exact, f"apply sqrt_lem_1; [ {_NOT_NEGATIVE} | lra | {same} ]."
+        if key not in self._generators:
+            self._add_root(node, base)
+        over, under = base.as_numer_denom()
+        tactics = _joined(self._equal_settled(base, node.base))
+        if under.is_number:
+            return self._generators[key], f"f_equal; {tactics}."
+        letter = self._generators[key]
+        shown = f"transitivity (sqrt ({write(base)})); [ f_equal; {tactics} | subst {write(letter)}; same ]."
+        return letter / under, shown
+
+    def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
+        """The root of a radicand as a generator; of a quotient, the root times the denominator, under a letter."""
+        write, under = self.terms.write, base.as_numer_denom()[1]
+        same = _joined(self._equal_settled(base, node.base, turned=True))
+        shown = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
+        tactics = f"assert (zero_1 : 0 <= {write(base)}) by ({shown}). generalize (root_squared _ zero_1). "
+        if under.is_number:
+            generator = self._generator(("root", base), f"sqrt {self.terms.alone(base)}")
+            self._relate("root", generator**2 - base, tactics + "lra.")
+            return
+        name = self._name("radical")
+        letter = self._generators["root", base] = sp.Dummy(name)
+        self.terms.names[letter] = name
+        root = f"sqrt ({write(base)})"
+        self.steps.lines.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
+        square = f"replace (({root} * ({write(under)})) ^ 2) with ({root} ^ 2 * ({write(under)}) ^ 2) by ring"
+        put = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
+        self._relate("root", letter**2 - sp.expand(base * under**2), tactics + put)
+
+    def _absolute(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        inner = sp.expand(self.value(node.args[0]))
+        new = ("abs", inner) not in self._generators
+        generator = self._generator(("abs", inner), f"Rabs {self.terms.alone(inner)}")
+        if new:
+            text = self.terms.write(inner)
+            self._relate("known", generator**2 - inner**2, f"generalize (size_squared ({text})). lra.")
+        return generator, f"f_equal; {_joined(self._equal_settled(inner, node.args[0]))}."
+
+    def _opaque(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        """A function of which nothing is used but that it is one: the same of the same arguments."""
+        inner = [sp.expand(self.value(each)) for each in node.args]
+        alike = self.terms.write(node.func(*inner))
+        proofs = " | ".join(
+            self._equal_settled(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True)
+        )
+        return self._generator(("opaque", alike), alike), f"f_equal; first [ {_joined(proofs)} ]."
+
+    def _equal_settled(self, value: sp.Expr, node: sp.Expr, turned: bool = False) -> str:
+        """Tactics for node = value (value = node if turned), value in generators."""
+        return ("symmetry. " if turned else "") + self._settled() + self._equal(self.value(node), value)
+
+    def _denominator(self, base: sp.Expr, condition: str = "") -> sp.Expr:
+        """The value of what is divided by, as a product of powers of letters, none of them zero: by its condition."""
+        key = sp.Tuple(sp.Symbol("denominator"), base)
+        if key in self._known:
+            return self._known[key]
+        fraction = self._fraction(self.value(base))
+        reduced = self._reduced(fraction.numerator)[1]
+        if not reduced:
+            raise NotExactError(f"{base} is zero under the premises")
+        number, parts = self._parts(fraction.ring, reduced)
+        value = number * sp.Mul(*(part**n for part, n in parts)) / fraction.under
+        text, written = self.terms.write(base), self.terms.write(value)
+        positive = bool(base.is_positive) or not condition
+        names = {part for part, _ in parts} - self._apart
+        if positive:
+            self._show_apart(names)
+        whole = ""
+        if text not in (written, written[1:-1]):
+            whole = self._name("whole")
+            tactics = self._settled() + self._equal(self.value(base), value)
+            self.steps.show(whole, f"{text} = {written}", tactics)
+            if not base.is_Symbol or not value.is_Symbol:
+                self._rewritten["whole"].append((len(text), whole, base.is_Symbol))
+        if not positive:
+            for part in sorted(names, key=self.terms.write):
+                shown = f"intro zero_1. apply {condition}. " + (
+                    f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
+                )
+                self.steps.show(self._name("apart"), f"{self.terms.write(part)} <> 0", shown)
+        self._apart |= names
+        self._known[key] = value
+        return value
+
+    def _show_apart(self, parts: Iterable[sp.Symbol]) -> None:
+        polynomial_of = {letter: polynomial for polynomial, letter in self._factors.items()}
+        for part in sorted(parts, key=self.terms.write):
+            text = self.terms.write(part)
+            inner = (
+                f"replace {text} with ({self.terms.write(polynomial_of[part])}) by congruence. "
+                if part in polynomial_of
+                else ""
+            )
+            self.steps.show(self._name("apart"), f"{text} <> 0", f"apply more_than_zero. {inner}{self.put_in}positive.")
+
+    def _parts(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
+        """A number and powers of letters and of new letters for irreducible factors."""
+        factored = len(polynomial) <= _MOST_FACTORED
+        number, factors = polynomial.factor_list() if factored else (sp.QQ(1), [(polynomial, 1)])
+        parts = []
+        for factor, times in factors:
+            expression = factor.as_expr()
+            if not expression.is_Symbol:
+                lead = factor.LC
+                number, expression = number * lead**times, (factor.monic()).as_expr()
+                expression = self._factor(expression)
+            parts.append((expression, times))
+        return sp.Rational(int(number.numerator), int(number.denominator)), parts
+
+    def _factor(self, polynomial: sp.Expr) -> sp.Symbol:
+        """The letter that stands for a factor of a denominator."""
+        if polynomial not in self._factors:
+            name = self._name("factor")
+            letter = self._factors[polynomial] = sp.Dummy(name)
+            self.terms.names[letter] = name
+            shown, written = self._name("sum"), self.terms.write(polynomial)
+            self.steps.lines.append(f"destruct (a_letter_for ({written})) as [{name} {shown}].")
+            self.relations.insert(0, _Relation(shown, letter - polynomial, ""))
+        return self._factors[polynomial]
+
+    def _fraction(self, value: sp.Expr) -> "_Fraction":
+        return _one_fraction(value, self._order(value))
+
+    def _order(self, *values: sp.Expr) -> list[sp.Symbol]:
+        """The generators, so that each relation leads with the square, or the letter, that it is solved for."""
+        letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in self.relations))
+        leading = [_leading(relation.zero, self.small) for relation in self.relations]
+        rest = sorted(letters - set(leading), key=lambda letter: (letter.name, str(letter)))
+        return [*dict.fromkeys(leading), *rest]
+
+    def _reduced(self, numerator: PolyElement) -> tuple[list[PolyElement], PolyElement]:
+        """Cofactors of the relations, and the rest that they do not account for."""
+        ring = numerator.ring
+        if not self.relations or not numerator:
+            return [], numerator
+        return numerator.div([ring.from_expr(sp.expand(r.zero)) for r in self.relations])
+
+    def _equal(self, left: sp.Expr, right: sp.Expr) -> str:
+        """The tactics that close a goal between two values in generators. Raises NotExactError where they differ."""
+        difference = self._fraction(left - right)
+        if not difference.numerator:
+            return "same."
+        quotients, rest = self._reduced(difference.numerator)
+        if rest:
+            raise NotExactError("the two sides differ by more than the relations that are used here account for")
+        used = [(q, r) for q, r in zip(quotients, self.relations, strict=True) if q and r.text]
+        write = self.terms.write
+        total = " + ".join(f"({write(q.as_expr())}) * ({r.text})" for q, r in used) or "0"
+        names = "".join(f"rewrite {r.name}; " for _, r in used)
+        factors = "".join(f"subst {self.terms.names[letter]}; " for letter in reversed(self._factors.values()))
+        closed = f"first [{factors}same | field_simplify_eq; [ {factors}same | apart .. ]]"
+        return f"apply (by_cofactors _ _ ({total}) ({write(difference.under)})); [ apart | {closed} | {names}ring ]."
+
+    def equality(self, left: sp.Expr, right: sp.Expr) -> str:
+        """The tactics that prove left = right of the statement."""
+        values = self.value(left), self.value(right)  # these steps come first
+        return self._settled() + self._equal(*values)
+
+    def expansion(self, left: sp.Expr, right: sp.Expr, order: int) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+        """small, or the sine of it; c and q with left - right = small**order * (c + small*q), c free of small.
+
+        Raises NotExactError where the difference is no such polynomial in small, its denominators free of it.
+        """
+        value = self.value(left) - self.value(right)
+        found = self._fraction(value)
+        numerator, ring = self._reduced(found.numerator)[1], found.ring
+        small = self._generators.get(("sin", self.small), self.small)
+        others = [g for g in (*numerator.as_expr().free_symbols, *found.under.free_symbols) if g != small]
+        depend = [g for g in others if g == self.small or self._holds_small(g)]
+        if depend:
+            raise NotExactError(f"{self.terms.write(depend[0])} is a series in {self.small}")
+        place = list(ring.symbols).index(small) if small in ring.symbols else -1
+        powers = {m[place] if place >= 0 else 0 for m in numerator.itermonoms()}
+        if powers and (min(powers) < order or small in found.under.free_symbols):
+            raise NotExactError(f"the two sides differ at order {min(powers)} in {self.small}")
+        first, rest = (
+            sum((sp.Mul(c, *(g**n for g, n in zip(ring.symbols, m, strict=True) if g != small)) * small ** (m[place] - by)
+                 for m, c in ((m, sp.Rational(int(c.numerator), int(c.denominator))) for m, c in numerator.terms())
+                 if (m[place] == order) == exactly), sp.S.Zero)
+            for by, exactly in ((order, True), (order + 1, False))
+        )  # fmt: skip
+        return small, first / found.under, rest / found.under
+
+    def _holds_small(self, generator: sp.Symbol) -> bool:
+        """Whether a generator, or the polynomial that it stands for, depends on the small letter."""
+        polynomial = next((p for p, letter in self._factors.items() if letter == generator), None)
+        if polynomial is not None:
+            return any(g == self.small or self._holds_small(g) for g in polynomial.free_symbols)
+        words = re.findall(r"\w+", self.terms.names[generator])
+        return bool(self.small) and self.terms.names[self.small] in words
+
+    def written_out(self, value: sp.Expr) -> sp.Expr:
+        """A value with every factor as the polynomial that it stands for."""
+        for _ in self._factors:
+            value = value.xreplace({letter: polynomial for polynomial, letter in self._factors.items()})
+        return value
+
+    def functions(self) -> dict[sp.Expr, sp.Symbol]:
+        """Function -> the generator that it is, of cosines, sines, exponentials and roots."""
+        made = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "root": sp.sqrt, "abs": sp.Abs}
+        found = ((key, letter) for key, letter in self._generators.items() if isinstance(key, tuple))
+        return {made[key[0]](key[1]): letter for key, letter in found if key[0] in made}
+
+    def remainder(self, left: sp.Expr, right: sp.Expr, value: sp.Expr) -> str:
+        """The tactics that prove left - right = value, which is in generators."""
+        difference = self.value(left) - self.value(right)
+        return self._settled() + self._equal(difference, value)
+
+
+def elimination(equations: Iterable[LetterEquation]) -> dict[sp.Symbol, sp.Expr]:
+    """letter -> its value in the letters that are left, of equations each of which has a letter alone on one side.
+
+    Raises NotExactError for another equation, and for one that contradicts those before it.
+    """
+    found: dict[sp.Symbol, sp.Expr] = {}
+    for one, other in equations:
+        left, right = one.xreplace(found), other.xreplace(found)
+        if sp.expand(left - right) == 0:
+            continue
+        for letter, value in ((left, right), (right, left)):
+            if letter.is_Symbol and letter not in value.free_symbols:
+                found = {old: new.xreplace({letter: value}) for old, new in found.items()} | {letter: value}
+                break
+        else:
+            raise NotExactError(f"the premise {one} = {other} is not solved for a letter")
+    return found
+
+
+@dataclass(frozen=True)
+class _Fraction:
+    """A polynomial over a monomial."""
+
+    numerator: PolyElement
+    under: sp.Expr
+    ring: PolyRing
+
+
+def _one_fraction(value: sp.Expr, letters: Sequence[sp.Symbol]) -> _Fraction:
+    """The value, whose denominators are monomials, as one fraction. Raises NotExactError where it is too large."""
+    ring = PolyRing(list(letters) or [sp.Dummy()], sp.QQ, sp.lex)
+    found = _quotient(value, ring, {letter: ring.gens[i] for i, letter in enumerate(letters)})
+    numerator, powers = found
+    under = sp.Mul(*(letter**n for letter, n in zip(letters, powers, strict=False) if n))
+    return _Fraction(numerator, under, ring)
+
+
+_Parts = tuple[PolyElement, tuple[int, ...]]
+
+
+def _quotient(node: sp.Expr, ring: PolyRing, letters: dict[sp.Symbol, PolyElement]) -> _Parts:
+    """Polynomial and the exponents of the monomial below it."""
+    none = (0,) * ring.ngens
+    if node.is_Rational:
+        return ring(sp.QQ(node.p, node.q)), none
+    if node.is_Symbol:
+        return letters[node], none
+    parts = [_quotient(part, ring, letters) for part in (node.args if not node.is_Pow else node.args[:1])]
+    if node.is_Add:
+        common = tuple(map(max, *(powers for _, powers in parts)))
+        raised = (p * _monomial(ring, [a - b for a, b in zip(common, powers, strict=True)]) for p, powers in parts)
+        return _bounded(reduce(lambda a, b: a + b, raised)), common
+    if node.is_Mul:
+        return reduce(_times, parts)
+    [(over, under)], n = parts, int(node.exp)
+    if n > 0:
+        return reduce(_times, [(over, under)] * n)
+    if len(over) != 1:
+        raise NotExactError(f"{node} is divided by a sum")
+    [(powers, coefficient)] = over.terms()
+    turned: _Parts = ring({tuple(under): 1 / coefficient}), powers
+    return reduce(_times, [turned] * -n)
+
+
+def _times(a: _Parts, b: _Parts) -> _Parts:
+    over, under = _bounded(a[0] * b[0]), tuple(x + y for x, y in zip(a[1], b[1], strict=True))
+    if not over or not any(under):
+        return over, under if over else (0,) * len(under)
+    shared = [min(least, n) for least, n in zip(map(min, zip(*over.itermonoms(), strict=True)), under, strict=True)]
+    if any(shared):
+        over = over.ring({tuple(x - y for x, y in zip(m, shared, strict=True)): c for m, c in over.terms()})
+    return over, tuple(x - y for x, y in zip(under, shared, strict=True))
+
+
+def _monomial(ring: PolyRing, powers: Sequence[int]) -> PolyElement:
+    return ring({tuple(powers): sp.QQ(1)})
+
+
+def _bounded(polynomial: PolyElement) -> PolyElement:
+    if len(polynomial) > _MOST_TERMS:
+        raise NotExactError(f"its numerator has more than {_MOST_TERMS} terms")
+    return polynomial
+
+
+def _leading(zero: sp.Expr, small: sp.Symbol | None) -> sp.Symbol:
+    """The generator that a relation is solved for: of a sine and a cosine the sine, the cosine where the sine is small."""
+    return next(
+        letter
+        for letter in sorted(zero.free_symbols, key=lambda each: (each.name != f"cos {small}", _rank(each), each.name))
+        if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2)
+    )
+
+
+def _rank(letter: sp.Symbol) -> int:
+    starts = ("factor_", "radical_", "sqrt", "Rabs", "sin ")
+    return next((i for i, start in enumerate(starts) if letter.name.startswith(start)), len(starts))
+
+
+def _rates(argument: sp.Expr) -> dict[sp.Expr, sp.Rational]:
+    """Monomial -> its rational factor in an angle."""
+    found: dict[sp.Expr, Any] = {}
+    for part in sp.Add.make_args(sp.expand(argument)):
+        rate, monomial = part.as_coeff_Mul()
+        if not rate.is_Rational:
+            raise NotExactError(f"the argument {argument} is not exact")
+        found[monomial] = found.get(monomial, sp.S.Zero) + rate
+    return {monomial: rate for monomial, rate in found.items() if rate}
+
+
+def _steps_of_angles(
+    expressions: Iterable[sp.Expr], put_in: dict[sp.Symbol, sp.Expr]
+) -> dict[tuple[bool, sp.Expr], int]:
+    """(circular or not, monomial) -> the common denominator of its factors."""
+    found: dict[tuple[bool, sp.Expr], int] = {}
+    for expression in expressions:
+        for node in sp.preorder_traversal(expression):
+            if node.func in (*_CIRCULAR, *_EXPONENTIAL, sp.tan, sp.tanh) or node.func in QUOTIENTS:
+                circular = node.func not in (*_EXPONENTIAL, sp.tanh, sp.coth, sp.sech, sp.csch)
+                for monomial, rate in _rates(node.args[0].xreplace(put_in)).items():
+                    key = circular, monomial
+                    found[key] = lcm(found.get(key, 1), int(rate.q))
+    return found
+
+
+def _joined(tactics: str) -> str:
+    """Tactics in a row as one."""
+    return tactics.rstrip(". ").replace(". ", "; ")

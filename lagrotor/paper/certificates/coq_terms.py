@@ -1,0 +1,224 @@
+"""Expressions of sympy as terms of Coq's real numbers, and where these terms mean what the expression means.
+
+Coq's functions are total: x/0, the root of -1 and the logarithm of -1 are numbers there, of which nothing useful is known. A
+term therefore stands beside its `conditions`: a denominator is not zero, a radicand not negative, the argument of a logarithm
+positive. Every letter has a name of its own, and none hides a word that the terms use. What has no term is refused.
+"""
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrotor.errors import NotExactError
+
+# sympy's function -> Coq's, of one real argument.
+_FUNCTIONS: dict[Any, str] = {
+    **{sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh"},
+    **{sp.exp: "exp", sp.log: "ln", sp.atan: "atan", sp.asin: "asin", sp.acos: "acos", sp.Abs: "Rabs"},
+}
+# The other circular and hyperbolic functions: the two whose quotient they are.
+QUOTIENTS: dict[Any, tuple[Any, Any]] = {
+    **{sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin)},
+    **{sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh)},
+}
+# What a file of certificates says itself: no letter is called so. Coq's own words, and those of the standard library.
+_TAKEN = frozenset(
+    """as at cofix do else end exists exists2 fix for forall fun if IF in let match mod return then where with using by
+    Prop SProp Set Type R I O S Q Z N nat True False not or and PI sqrt Rpower pow IZR Rinv Rmult Rplus Rminus Rdiv Ropp
+    sine_and_cosine root_squared size_squared a_letter_for by_cofactors more_than_zero exp_pos sqrt_lem_1
+    """.split()  # noqa: SIM905
+) | set(_FUNCTIONS.values())
+_WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+# Coq's names of what the proofs bring in themselves: no letter is called so either.
+OWN = re.compile(r"(?:known|apart|root|sum|atom|whole|factor|radical|zero|over|sign|premise|defined)_\d+")
+Comparison = tuple[str, sp.Expr]  # ("<>" or "<=" or "<" zero, of an expression): 0 <> e, 0 <= e, 0 < e
+
+
+class Terms:
+    """The names of the letters and functions of some expressions, and how these are written.
+
+    Raises NotExactError where two letters have one name, or an expression holds what has no term over the reals.
+    """
+
+    def __init__(self, expressions: Iterable[Any]) -> None:
+        self.names: dict[Any, str] = {}
+        self.stands_for: dict[sp.Expr, sp.Symbol] = {}
+        held = [sp.sympify(e) for e in expressions]
+        nodes = {node for e in held for node in sp.preorder_traversal(e)}
+        letters = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
+        seen: dict[str, Any] = {}
+        for letter in sorted(letters, key=lambda each: (_plain(each), str(each))):
+            if _plain(letter) in seen:
+                raise NotExactError(f"two letters are called {_plain(letter)}")
+            if letter.is_Symbol and letter.is_extended_real is False:
+                raise NotExactError(f"{_plain(letter)} is no real number")
+            seen[_plain(letter)] = letter
+            self.add(letter)
+
+    def add(self, letter: Any) -> str:
+        """Name a letter, as it is called where that can be."""
+        called = _plain(letter)
+        name = called if _WORD.fullmatch(called) else "x_" + re.sub(r"\W", "_", called, flags=re.ASCII)
+        while name in _TAKEN or OWN.fullmatch(name) or name in self.names.values():
+            name += "_"
+        self.names[letter] = name
+        return name
+
+    def write(self, node: Any) -> str:
+        """The term, in Coq's scope of real numbers."""
+        return self._within(node, 0)
+
+    def alone(self, node: Any) -> str:
+        """The term as the argument of a function: in brackets where it is more than a word."""
+        return self._within(node, 4)
+
+    def _within(self, node: Any, strength: int) -> str:
+        """The term in brackets where it binds less than its place needs: 1 in a sum, 2 in a product, 3 a factor, 4 alone."""
+        text, binds = self._term(node)
+        return text if binds >= strength else f"({text})"
+
+    def _term(self, node: Any) -> tuple[str, int]:
+        if node in self.names:
+            return self.names[node], 4
+        if node.is_Integer:
+            return (str(node), 4) if node >= 0 else (f"(- {-node})", 4)
+        if node.is_Rational:
+            return f"({node.p} / {node.q})" if node.p >= 0 else f"(- {-node.p} / {node.q})", 4
+        if node is sp.pi:
+            return "PI", 4
+        if node is sp.E:
+            return "exp 1", 3
+        if node.is_Add:
+            return self._sum(node), 1
+        if node.is_Mul:
+            return self._product(node), 2
+        if node.is_Pow:
+            return self._power(node)
+        if isinstance(node, AppliedUndef):
+            return " ".join([self.names[node.func], *(self._within(each, 4) for each in node.args)]), 3
+        if node.func in QUOTIENTS:
+            over, under = (1 if part is None else part(*node.args, evaluate=False) for part in QUOTIENTS[node.func])
+            return f"{self._within(sp.sympify(over), 2)} / {self._within(under, 3)}", 2
+        if node.func in _FUNCTIONS:
+            return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
+        raise NotExactError(f"{getattr(node, 'func', node)} has no term over the reals")
+
+    def _sum(self, node: sp.Expr) -> str:
+        text = ""
+        for part in node.as_ordered_terms():
+            negative = part.could_extract_minus_sign() and (part.is_Rational or part.is_Mul)
+            written = self._within(-part if negative else part, 2)
+            text += f" {'-' if negative else '+'} {written}" if text else f"- {written}" if negative else written
+        return text
+
+    def _product(self, node: sp.Expr) -> str:
+        over, under = [], []
+        number, factors = node.as_coeff_mul()
+        for factor in factors:
+            if factor.is_Pow and factor.exp.is_Rational and factor.exp < 0:
+                under.append(factor.base**-factor.exp if factor.exp != -1 else factor.base)
+            else:
+                over.append(factor)
+        sign = "- " if number < 0 else ""
+        number = abs(number)
+        upper = [self._within(sp.Integer(number.p), 3)] if number.p != 1 or not over else []
+        lower = [self._within(sp.Integer(number.q), 3)] if number.q != 1 else []
+        text = " * ".join([*upper, *(self._within(each, 3) for each in over)])
+        lower += [self._within(each, 3) for each in under]
+        if lower:
+            text += f" / ({' * '.join(lower)})" if len(lower) > 1 else f" / {lower[0]}"
+        return sign + text
+
+    def _power(self, node: sp.Expr) -> tuple[str, int]:
+        base, exponent = node.base, node.exp
+        if exponent.is_Rational and exponent.q <= 2:
+            if exponent < 0:
+                return f"/ {self._within(base if exponent == -1 else base**-exponent, 3)}", 2
+            root = f"sqrt {self._within(base, 4)}"
+            if exponent.q == 2:
+                return (root, 3) if exponent.p == 1 else (f"({root}) ^ {exponent.p}", 3)
+            return f"{self._within(base, 4)} ^ {exponent.p}", 3
+        if base is sp.E:
+            return f"exp {self._within(exponent, 4)}", 3
+        return f"Rpower {self._within(base, 4)} {self._within(exponent, 4)}", 3
+
+
+def _plain(letter: Any) -> str:
+    return str(letter.name if hasattr(letter, "name") else letter.__name__)
+
+
+def conditions_of_value(expressions: Iterable[Any]) -> list[Comparison]:
+    """Where every part of the expressions has a value, in their order: those that are not true of numbers at once.
+
+    ("<>", e): e is not zero; ("<=", e): 0 <= e; ("<", e): 0 < e.
+    """
+    found: dict[Comparison, None] = {}
+    for expression in expressions:
+        for node in sp.postorder_traversal(expression):
+            found |= dict.fromkeys(_conditions_of(node))
+    return [(sign, e) for sign, e in found if not _plainly(sign, e)]
+
+
+def _conditions_of(node: Any) -> list[Comparison]:
+    if isinstance(node, sp.MatrixBase) or not isinstance(node, sp.Expr):
+        return []
+    if node.is_Pow:
+        base, exponent = node.base, node.exp
+        if base is sp.E or (exponent.is_Integer and exponent > 0):
+            return []
+        if exponent.is_Integer:
+            return [("<>", base)]
+        if exponent.is_Rational and exponent.q == 2 and exponent > 0:
+            return [("<=", base)]
+        return [("<", base)]
+    if node.func is sp.tan:
+        return [("<>", sp.cos(*node.args))]
+    if node.func in QUOTIENTS:
+        under = QUOTIENTS[node.func][1]
+        return [("<>", under(*node.args))] if under is not sp.cosh else []
+    if node.func is sp.log:
+        return [("<", node.args[0])]
+    if node.func in (sp.asin, sp.acos):
+        return [("<=", 1 - node.args[0]), ("<=", 1 + node.args[0])]
+    return []
+
+
+def _plainly(sign: str, e: sp.Expr) -> bool:
+    """Whether a condition holds of a number, or of a letter by what it was declared as, which is a hypothesis."""
+    if e.is_Symbol:
+        return bool(e.is_positive or (sign == "<>" and e.is_nonzero) or (sign == "<=" and e.is_nonnegative))
+    plain = e.is_Rational or e is sp.pi
+    return bool(plain and {"<>": e != 0, "<=": e >= 0, "<": e > 0}[sign])
+
+
+def declared_signs(letters: Iterable[sp.Symbol]) -> list[Comparison]:
+    """What the letters were declared as: positive ones are greater than zero."""
+    found: list[Comparison] = []
+    for letter in sorted(letters, key=str):
+        if letter.is_positive:
+            found.append(("<", letter))
+        elif letter.is_negative:
+            found.append(("<", -letter))
+        elif letter.is_nonnegative:
+            found.append(("<=", letter))
+        elif letter.is_nonpositive:
+            found.append(("<=", -letter))
+        elif letter.is_nonzero:
+            found.append(("<>", letter))
+    return found
+
+
+def comparison(terms: Terms, sign: str, e: sp.Expr) -> str:
+    """A condition as a proposition."""
+    return f"{terms.write(e)} <> 0" if sign == "<>" else f"0 {sign} {terms.write(e)}"
+
+
+def comment(text: str) -> str:
+    """Text as a comment of Coq, whatever is in it: nothing of it ends the comment or begins a string."""
+    plain = re.sub(r"\s+", " ", text).replace('"', "'")
+    while "(*" in plain or "*)" in plain:
+        plain = plain.replace("(*", "( *").replace("*)", "* )")
+    return f"(* {plain} *)"

@@ -1,0 +1,57 @@
+"""Points with rational values at which hypotheses hold, and the enclosure of a value there."""
+
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from math import floor, log10
+from typing import Any
+
+import sympy as sp
+from mpmath import mp
+
+from lagrotor.algebra.enclosures import enclosed_at
+from lagrotor.errors import NotExactError
+from lagrotor.paper.certificates.coq_terms import Comparison
+
+_VALUES = [
+    sp.Rational(n, d) for n, d in ((1, 1), (2, 1), (3, 1), (1, 2), (3, 2), (5, 2), (1, 3), (2, 3), (1, 4), (5, 4))
+]
+_TRIES, _DIGITS, _CLEAR = 200, 30, 1e-6
+
+
+def points_of(
+    letters: Sequence[sp.Symbol], eliminated: Mapping[sp.Symbol, sp.Expr], hold: Sequence[Comparison], most: int = 1
+) -> Iterator[dict[sp.Symbol, sp.Expr]]:
+    """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call."""
+    drawn, found = random.Random(1), 0
+    for _ in range(_TRIES):
+        free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
+        free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
+        point = free | {x: sp.sympify(value).xreplace(free) for x, value in eliminated.items() if x in letters}
+        if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
+            yield point
+            found += 1
+            if found == most:
+                return
+
+
+def _holds(sign: str, value: Any) -> bool:
+    if value is None:
+        return False
+    return bool(abs(value) > _CLEAR if sign == "<>" else value > _CLEAR if sign == "<" else value >= 0)
+
+
+def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> Any:
+    """The real value at the point; None where there is none."""
+    try:
+        value = enclosed_at(sp.sympify(expression), dict(point), _DIGITS)
+    except NotExactError:
+        return None
+    complex_there = value.imag.a > 0 or value.imag.b < 0 or value.imag.delta > 0
+    return None if complex_there else mp.mpf(value.real.mid)
+
+
+def rational_bounds(value: Any) -> tuple[sp.Rational, sp.Rational]:
+    """Rationals of few digits below and above a value, with zero outside."""
+    step = sp.Integer(10) ** (floor(log10(abs(float(value)))) - 2)
+    low = step * (int(mp.floor(value / (mp.mpf(step.p) / step.q))) - 1)
+    return low, low + 3 * step

@@ -1,0 +1,365 @@
+"""Certificates: Coq accepts what was decided, and rejects a print, a premise, a condition that is another one."""
+
+import json
+import re
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError, NotExactError
+from lagrotor.paper import Paper, Premise, judge
+from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.certificates import checked_by_coq
+from lagrotor.paper.certificates.certificate import PREAMBLE, CertifiedLine, certificate, certified_line, file_name
+from lagrotor.paper.certificates.certificate_folder import (
+    CERTIFICATE_LIST,
+    CertifiedEquation,
+    certify,
+    read_certificates,
+)
+from lagrotor.paper.certificates.checked_by_coq import check_certificates, foreign_word
+from lagrotor.paper.certificates.coq_terms import Terms, comment, conditions_of_value
+from lagrotor.paper.certificates.propositions import Proposition, _letters_for_operators
+
+NO_COQ = checked_by_coq.missing_coq() if shutil.which("coqc") else "coqc is not installed"
+coq = pytest.mark.skipif(bool(NO_COQ), reason=NO_COQ)
+
+x, y, z = sp.symbols("x y z", real=True)
+J, I_3, R = sp.symbols("J I_3 R", positive=True)
+ENTRY = Equation("1.1", "1", "a line", "x = y")
+HEAVY_TOP = Path(__file__).parent.parent.parent / "papers" / "heavy_top"
+
+
+def of(
+    printed: Any, derived: Any, given: Any = (), entry: Equation = ENTRY, **series: Any
+) -> tuple[str, CertifiedLine]:
+    """The file of one line, and the line."""
+    text, (line,) = certificate(judge(printed, derived, given, **series), entry)
+    return text, line
+
+
+def failures(text: str, lines: tuple[CertifiedLine, ...]) -> Mapping[str, str]:
+    row = CertifiedEquation("1.1", "", "equation_1_1.v", lines)
+    return checked_by_coq._failures(row, text)
+
+
+IDENTITIES: list[tuple[Any, Any, Any]] = [
+    ((x**2 - 1) / (x - 1), x + 1, ()),
+    (sp.sin(3 * x), 3 * sp.sin(x) - 4 * sp.sin(x) ** 3, ()),
+    (sp.cos(x + sp.pi / 2), -sp.sin(x), ()),
+    (sp.tan(x / 2), sp.sin(x) / (1 + sp.cos(x)), ()),
+    (sp.cot(x) * sp.sec(x), sp.csc(x), ()),
+    (sp.cosh(x) ** 2 - sp.sinh(x) ** 2, sp.S.One, ()),
+    (sp.exp(x + y) * sp.exp(-y), sp.exp(x), ()),
+    (sp.tanh(x), (sp.exp(2 * x) - 1) / (sp.exp(2 * x) + 1), ()),
+    (1 / (sp.sqrt(x**2 + 1) + x), sp.sqrt(x**2 + 1) - x, ()),
+    (sp.sqrt(R) ** 3 / R, sp.sqrt(R), ()),
+    (sp.sqrt((x**2 + 1) / R) ** 2 * R / (y**2 + 1), (x**2 + 1) / (y**2 + 1), ()),
+    (1 / (sp.sqrt(x**2 + J / R) - x), (sp.sqrt(J / R + x**2) + x) * R / J, ()),
+    (J * x + I_3 * y, I_3 * (x + y), {J: I_3}),
+    (sp.sin(y) / J, -sp.sin(x) / (I_3 + R), {y: -x, J: I_3 + R}),
+    (sp.sin(x * y + z), sp.sin(x * y) * sp.cos(z) + sp.cos(x * y) * sp.sin(z), ()),
+    (sp.cos(y), sp.S.Zero, {y: sp.pi / 2}),
+]
+
+
+@coq
+@pytest.mark.slow
+def test_coq_accepts_identities_of_every_function_that_has_a_proof() -> None:
+    texts, lines = [], []
+    for number, (printed, derived, given) in enumerate(IDENTITIES, 1):
+        text, line = of(printed, derived, given)
+        assert line.theorems, (printed, line.why_not)
+        name = f"line_{number}"
+        texts.append(re.sub(r"\bline_1\b", name, text.split(PREAMBLE)[1]).replace("line_1_has", f"{name}_has"))
+        lines.append(CertifiedLine(name, "", "", tuple(t.replace("line_1", name) for t in line.theorems)))
+    assert failures(PREAMBLE + "\n".join(texts), tuple(lines)) == {}
+
+
+FALSE: list[tuple[Any, Any, Any]] = [
+    (sp.sin(2 * x), 2 * sp.sin(x), ()),
+    (J * x, I_3 * y, {J: I_3}),
+    (sp.sqrt(x**2 + y**2), x + y, ()),
+    (sp.exp(x + y), sp.exp(x) + sp.exp(y), ()),
+    (sp.cosh(x), 1 + x**2 / 2, ()),
+    (1 / (x + y), 1 / x + 1 / y, ()),
+    (sp.Matrix([x, y]), sp.Matrix([x, y + sp.Rational(1, 10**6) * x]), ()),
+]
+
+
+@coq
+@pytest.mark.slow
+def test_coq_accepts_the_point_at_which_a_line_is_refuted() -> None:
+    texts, lines = [], []
+    for number, (printed, derived, given) in enumerate(FALSE, 1):
+        text, line = of(printed, derived, given)
+        assert line.theorems == ("line_1_refuted",), (printed, line.why_not)
+        texts.append(text.split(PREAMBLE)[1].replace("line_1", f"line_{number}"))
+        lines.append(CertifiedLine(f"line_{number}", "", "", (f"line_{number}_refuted",)))
+    assert failures(PREAMBLE + "\n".join(texts), tuple(lines)) == {}
+
+
+@coq
+@pytest.mark.slow
+def test_orders_are_an_identity_with_a_remainder() -> None:
+    e = sp.Symbol("e", real=True)
+    text, line = of(x, x + e**2 * y / (1 + x**2), small=e, order=1)
+    assert line.verdict == "holds-to-order" and "= e ^ 2 * (" in text
+    assert failures(text, (line,)) == {}
+    text, line = of(x + e, x + 2 * e, small=e, order=1)
+    assert line.verdict == "refuted" and line.theorems == ("line_1_differs", "line_1_refuted")
+    assert failures(text, (line,)) == {}
+
+
+CHANGED = [
+    ("the print", "x * J / z +", "2 * x * J / z +"),
+    ("a premise that is dropped", "  (premise_1 : J = I_3)", "  (* *)"),
+    ("a premise that is exchanged", "(premise_1 : J = I_3)", "(premise_1 : J = x)"),
+    ("a condition that is dropped", "  (defined_1 : z <> 0)", ""),
+    ("what was derived", "x * I_3 / z", "y * I_3 / z"),
+]
+
+
+@coq
+@pytest.mark.parametrize(("what", "old", "new"), CHANGED, ids=[row[0] for row in CHANGED])
+def test_coq_rejects_a_file_in_which_something_was_changed(what: str, old: str, new: str) -> None:
+    text, line = of(J * x / z + sp.sin(y) ** 2, I_3 * x / z + 1 - sp.cos(y) ** 2, {J: I_3})
+    assert old in text
+    assert "line_1" in failures(text.replace(old, new), (line,))
+
+
+@coq
+@pytest.mark.slow
+def test_what_was_rejected_does_not_hide_what_comes_after_it() -> None:
+    text, _ = of(x + y, y + x)
+    wrong = text.split(PREAMBLE)[1].replace("line_1", "line_2").replace("x + y =", "x + 2 * y =")
+    assert "x + 2 * y" in wrong
+    third = text.split(PREAMBLE)[1].replace("line_1", "line_3")
+    lines = tuple(CertifiedLine(f"line_{n}", "", "", (f"line_{n}",)) for n in (1, 2, 3))
+    assert list(failures("\n".join([text, wrong, third]), lines)) == ["line_2"]
+
+
+@coq
+def test_a_refutation_with_another_enclosure_or_point_is_rejected() -> None:
+    text, line = of(2 * x, 3 * x)
+    point = re.search(r"exists \((.*?)\)\. at_the_point", text)
+    assert point
+    assert failures(text, (line,)) == {}
+    assert failures(text.replace(point[0], "exists (0). at_the_point"), (line,))
+    assert failures(re.sub(r"<= 2 \* x - \(3 \* x\)", "<= 3 * x - (3 * x)", text), (line,))
+
+
+def test_a_file_with_an_axiom_a_notation_or_an_open_proof_is_refused() -> None:
+    text, line = of(x + y, y + x)
+    assert foreign_word(text) == ""
+    for added in (
+        "Axiom a : 0 = 1.",
+        "Admitted.",
+        'Notation "a = b" := True.',
+        "Parameter p : False.",
+        "#[x] Lemma a.",
+    ):
+        assert failures(text + "\n" + added, (line,))[""]
+    assert failures(text.replace("Qed.", "Admitted."), (line,))
+    assert foreign_word("(* Axiom *) (* (* Axiom a *) *) Lemma") == ""
+    assert foreign_word("(* *) Axiom a : False. (* *)") == "Axiom"
+
+
+# ---- what the terms say
+
+
+def test_a_denominator_a_root_and_a_logarithm_have_their_conditions() -> None:
+    assert conditions_of_value([1 / (x + y)]) == [("<>", x + y)]
+    assert conditions_of_value([sp.sqrt(x)]) == [("<=", x)] and conditions_of_value([1 / sp.sqrt(x)]) == [("<", x)]
+    assert conditions_of_value([x ** sp.Rational(3, 2)]) == [("<=", x)]
+    assert conditions_of_value([sp.log(x)]) == [("<", x)] and conditions_of_value([x**y]) == [("<", x)]
+    assert conditions_of_value([sp.tan(x)]) == [("<>", sp.cos(x))] and conditions_of_value([sp.cot(x)]) == [
+        ("<>", sp.sin(x))
+    ]
+    assert conditions_of_value([sp.asin(x)]) == [("<=", 1 - x), ("<=", 1 + x)]
+    assert conditions_of_value([x**-2, 1 / R, sp.sqrt(R), sp.sqrt(2)]) == [("<>", x)]
+    assert conditions_of_value([1 / (x - 1 / y)]) == [("<>", y), ("<>", x - 1 / y)]
+
+
+HOSTILE = [
+    "R",
+    "sin",
+    "PI",
+    "forall",
+    "I",
+    "exp",
+    "x'",
+    "a b",
+    "premise_1",
+    "known_1",
+    "Rinv",
+    "θ",
+    "*)",
+    "by_cofactors",
+    "1",
+]
+
+
+def test_no_letter_hides_a_word_of_the_terms_and_no_two_have_one_name() -> None:
+    letters = [sp.Symbol(name) for name in HOSTILE]
+    names = Terms(letters).names
+    assert len(set(names.values())) == len(letters)
+    assert not set(names.values()) & {
+        "R",
+        "sin",
+        "PI",
+        "forall",
+        "I",
+        "exp",
+        "premise_1",
+        "known_1",
+        "Rinv",
+        "by_cofactors",
+    }
+    assert all(re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) for name in names.values())
+
+
+@coq
+@pytest.mark.slow
+def test_letters_with_hostile_names_are_only_letters() -> None:
+    a, b, *rest = (sp.Symbol(name, real=True) for name in HOSTILE)
+    total = sum(n * letter for n, letter in enumerate(rest, 2))
+    text, line = of(sp.sin(a + b) / b + total, (sp.sin(a) * sp.cos(b) + sp.cos(a) * sp.sin(b)) / b + total)
+    assert line.theorems and failures(text, (line,)) == {}
+    text, line = of(sp.Symbol("PI", real=True), sp.pi)  # the letter is not the number
+    assert line.verdict == "refuted" and failures(text, (line,)) == {}
+
+
+def test_two_letters_of_one_name_are_refused() -> None:
+    with pytest.raises(NotExactError, match="two letters are called g"):
+        Terms([sp.Symbol("g") + sp.Symbol("g", positive=True)])
+
+
+@pytest.mark.parametrize(
+    "side",
+    [sp.I * x, sp.Float(0.5) * x, sp.Piecewise((x, x > 0), (-x, True)), sp.gamma(x), sp.Symbol("i", imaginary=True)],
+)
+def test_what_has_no_term_over_the_reals_has_no_certificate(side: Any) -> None:
+    assert of(side, side)[1].theorems == ()
+
+
+CONTRADICTORY = [[(x, 1), (x, 2)], [(x, 0)], [(R, -1)], [(y, x), (y, x + 1)], [(sp.sin(x), 2)], [(x**2, -1)]]
+
+
+@pytest.mark.parametrize("rows", CONTRADICTORY)
+def test_hypotheses_that_contradict_each_other_prove_nothing(rows: list[tuple[Any, Any]]) -> None:
+    equations = tuple(("", sp.sympify(left), sp.sympify(right)) for left, right in rows)
+    for verdict, derived in (("holds-if", 1 / x + R), ("refuted", 2 / x + R)):
+        line = certified_line(Proposition("line_1", "", verdict, 1 / x + R, derived, equations))  # type: ignore[arg-type]
+        assert not line.theorems and line.why_not
+
+
+def test_words_of_a_paper_stay_in_their_comment() -> None:
+    evil = '*) Axiom a : False. (* " *'
+    assert comment(evil).count("*)") == 1 and comment(evil).endswith("*)") and '"' not in comment(evil)
+    entry = Equation("1.1", "1", evil, evil, reading=evil)
+    text, line = of(J, I_3, [Premise(evil, {J: I_3})], entry)
+    assert line.theorems and foreign_word(text) == ""
+
+
+@coq
+def test_an_unknown_function_is_one_of_which_nothing_is_used() -> None:
+    f = sp.Function("f")
+    line = certified_line(Proposition("line_1", "", "holds", f((x + y) ** 2) + x, x + f(x**2 + 2 * x * y + y**2)))
+    assert "(f : R -> R)" in line.text and failures(PREAMBLE + line.text, (line,)) == {}
+    assert not certified_line(Proposition("line_1", "", "refuted", f(x), f(y))).theorems
+
+
+def test_a_derivative_is_a_letter_that_the_line_does_not_have() -> None:
+    f = sp.Function("f")
+    rate, taken = sp.diff(f(x), x), sp.Symbol("derivative_1")
+    letters = _letters_for_operators([rate + taken, sp.Integral(f(x), (x, 0, y))])
+    assert set(letters) == {rate, sp.Integral(f(x), (x, 0, y))} and len({*letters.values(), taken}) == 3
+
+
+# ---- the folder, the commands
+
+
+def test_a_folder_lists_its_lines_and_replaces_only_its_own(tmp_path: Path) -> None:
+    paper = Paper(HEAVY_TOP)
+    folder = tmp_path / "certificates"
+    verdicts = paper.audit().verdicts
+    rows = certify(verdicts, paper, folder)
+    assert [row.id for row in read_certificates(folder)] == list(paper.equations) == [row.id for row in rows]
+    assert (folder / "equation_1_1.v").is_file() and json.loads((folder / CERTIFICATE_LIST).read_text())[0][
+        "id"
+    ] == "1.1"
+    certify(verdicts[1:], paper, folder)
+    assert not (folder / "equation_1_1.v").exists() and (folder / "equation_1_2.v").is_file()
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "thesis.tex").write_text("mine")
+    with pytest.raises(InputError, match="other files"):
+        certify(verdicts, paper, other)
+    with pytest.raises(InputError, match=r"has no certificates\.json"):
+        read_certificates(other)
+    assert file_name("5.15") == "equation_5_15.v"
+
+
+@coq
+@pytest.mark.slow
+def test_the_heavy_tops_certificates_are_accepted_and_a_changed_one_is_not(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "certificates"
+    assert main(["audit", "--paper", str(HEAVY_TOP), "--certify", str(folder)]) == 0
+    assert main(["certify", str(folder), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out.split("\n[")[-1].join(["[", ""]))
+    exact = [row for row in rows if row["verdict"] in EXACT and "series" not in row["why"]]
+    assert {row["checked"] for row in exact} == {"accepted"} and all(row["why"] for row in rows if row not in exact)
+    file = folder / "equation_1_2.v"
+    file.write_text(file.read_text().replace("psi_dot", "(2 * psi_dot)"))
+    assert main(["certify", str(folder)]) == 1
+    assert "rejected" in capsys.readouterr().out
+
+
+def test_without_coq_nothing_is_said_to_be_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    folder = tmp_path / "certificates"
+    certify(Paper(HEAVY_TOP).audit().verdicts, Paper(HEAVY_TOP), folder)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert main(["certify", str(folder)]) == 2
+    assert re.search(
+        r"nothing was checked, \d+ lines were skipped: coqc is not on the PATH: install", capsys.readouterr().err
+    )
+
+
+@coq
+@pytest.mark.slow
+def test_every_exact_verdict_of_the_paper_has_a_certificate_that_coq_accepts(audit: Any, tmp_path: Path) -> None:
+    from lagrotor.paper.rotor_pair.own_paper import PAPER
+
+    certify(audit, PAPER, tmp_path / "certificates")
+    found = check_certificates(tmp_path / "certificates")
+    assert [each for each in found if each.status == "rejected"] == []
+    skipped = {(each.id, each.line.name) for each in found if each.status == "skipped" and each.line.verdict in EXACT}
+    assert skipped == {("3.19", "line_1")}  # a vector against a number
+
+
+EXACT = ("holds", "holds-if", "refuted")
+
+
+@coq
+@pytest.mark.slow
+@pytest.mark.parametrize("identifier", ["2.12", "3.02", "5.01", "5.12", "5.15", "5.18"])
+def test_each_premise_of_a_line_of_the_paper_is_needed(identifier: str, audit: Any) -> None:
+    from lagrotor.paper.rotor_pair.own_paper import PAPER
+
+    text, lines = certificate(audit[identifier], PAPER.equation(identifier))
+    first = text.split("Theorem line_1_has_a_case")[0]
+    line = CertifiedLine("line_1", "", "", ("line_1",))
+    assert failures(first, (line,)) == {} and lines[0].theorems
+    before = [row for row in first.splitlines() if row.startswith("  (premise_")]
+    rejected = [bool(failures(first.replace(row.split("(*")[0].rstrip(" :"), ""), (line,))) for row in before]
+    assert any(rejected) and before
