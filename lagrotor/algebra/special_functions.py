@@ -65,11 +65,11 @@ def _binomial(n: sp.Expr, k: sp.Expr) -> sp.Expr | None:
 
 
 def _wave(f: Any, sign: int = 1) -> Callable[[sp.Expr], sp.Expr]:
-    return lambda x: sign * sp.sqrt(2 / (sp.pi * x)) * f(x)
+    return lambda x: sign * sp.sqrt(2 / sp.pi) / sp.sqrt(x) * f(x)
 
 
 def _decay(x: sp.Expr) -> sp.Expr:
-    return sp.sqrt(sp.pi / (2 * x)) * sp.exp(-x)
+    return sp.sqrt(sp.pi / 2) / sp.sqrt(x) * sp.exp(-x)
 
 
 # Of order 1/2 and −1/2.

@@ -18,7 +18,7 @@ def written_out(e: sp.Sum) -> sp.Expr | None:
     if others:
         return None
     if low.is_Integer and high.is_Integer:
-        if high - low >= _MOST_TERMS:
+        if high - low >= _MOST_TERMS or high < low - 1:
             return None
         return sp.Add(*(body.subs(i, k) for k in range(int(low), int(high) + 1)))
     expanded = sp.expand_mul(body)
@@ -91,10 +91,10 @@ def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[s
     linear = sp.expand(expression.xreplace({total: S}))
     c = linear.coeff(S)
     rest = linear - c * S
-    if rest.has(S) or c.has(S) or c == 0:
+    if rest.has(S) or c.has(S, n) or c == 0:
         return False
     start = 1 if n.is_positive else 0
     first = sp.Add(*(body.subs(i, k) for k in range(int(low), start + 1)))
     at_start = (c * first + rest).subs(n, start)
-    after = c.subs(n, n + 1) * (body.subs(i, n + 1) - rest / c) + rest.subs(n, n + 1)
+    after = c * body.subs(i, n + 1) - rest + rest.subs(n, n + 1)
     return vanishes(at_start, where) and vanishes(after, where)

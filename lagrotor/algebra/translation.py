@@ -246,9 +246,7 @@ class Translation:
         content, factors = self.factors(base)
         result = self.exponential(sp.expand(n * self.log_size(abs(content))))
         if content < 0:
-            sign = self.letter("sign", (n,), (-1) ** self.back(n))
-            self.relations.setdefault(sign, (2, sp.S.One))
-            result *= sign
+            result *= self._turned(sp.Pow(sp.S.NegativeOne, self.back(n), evaluate=False))
         for p, k in factors:
             log = self.log_size(p) if is_positive(self.back(p), self.where) else self._log_letter(p)
             result *= self.exponential(sp.expand(k * n * log))
@@ -263,6 +261,8 @@ class Translation:
                 self.want(False, original)
             return self._principal(base, r, original)
         content, factors = self.factors(base)
+        if not self._are_real(factors):
+            return self._principal(base, r, original)
         result = self._number_power(abs(content), r)
         for p, k in factors:
             result *= self._size_power(p, k * r)
@@ -274,13 +274,11 @@ class Translation:
             return self.exponential(self.exponentials[p] * r)
         original = self.back(p)
         found = signs(original, self.where)
-        if found is None and r.is_Integer and r % 2 == 0:
-            return p**r
         if found is not None and found <= NONNEGATIVE:
             return self._principal(p, r, original)
         if found is not None and found <= {-1, 0}:
             return self._principal(-p, r, -original)
-        if r.is_Integer and r % 2 == 0:
+        if found is not None and r.is_Integer and r % 2 == 0:
             return p**r
         self.want(False, original)
         size = self.letter("size", (p,), sp.Abs(original))
@@ -425,6 +423,8 @@ class Translation:
     def log_size(self, u: sp.Expr) -> sp.Expr:
         """log|u| of a real translated u, as a sum over its factors."""
         content, factors = self.factors(u)
+        if not self._are_real(factors):
+            return self._size_letter(u)
         total = sp.S.Zero
         content = sp.Abs(content)
         for side, sign in ((content.p, 1), (content.q, -1)):
@@ -453,6 +453,10 @@ class Translation:
         letter = self.letter("logsize", (p,), sp.log(sp.Abs(self.back(p))))
         self.logarithms.setdefault(letter, (p, True))
         return letter
+
+    def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
+        """Whether each factor is known to be real: a product may be without that."""
+        return all(is_real(self.back(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:
         """u = content · Π p**k, coprime p with positive leading coefficients."""
