@@ -87,7 +87,7 @@ def powers_of_two(sizes: Array) -> Array:
 
 
 def smooth_motion(
-    system: Equations, values: Values, engine: Engine, sizes: Array, turn: float, start: Array
+    system: Equations, values: Values, engine: Engine, sizes: Array, turn: float, start: Array, stiff: bool
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
@@ -110,13 +110,13 @@ def smooth_motion(
         )
 
     def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        """By the solver that is fastest; where that is LSODA its companion is DOP853: two runs by one stiff method may be off
-        by the same."""
+        """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
+        for stiff ones may be off by the same."""
         rate = 2 * np.pi / turn
         bare = scaled(program.rhs(*parameters), scale)
         problem = Problem(bare, start / scale, budget, project=between(project, scale), typical_rate=rate)
         try:
-            if companion and local >= CROSSOVER.value:
+            if companion and stiff and local >= CROSSOVER.value:
                 segment = Segment(
                     bare, problem.start, 0.0, float(times[-1]), times[1:], budget=budget / 2, project=problem.project
                 )

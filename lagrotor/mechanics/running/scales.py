@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import Array, Integrate, Rhs, Values, between, projection, scaled, unscaled
@@ -12,17 +13,21 @@ from lagrotor.numerics.segment import Segment, StopError, Stretch
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
 _PER_TURN = 50  # evaluations that the survey takes for a turn
+_STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
 
 
 @dataclass(frozen=True, eq=False)
 class Scales:
     """turn: the time (s) in which the motion typically turns. sizes (2 N,): the largest value of each coordinate and velocity,
-    not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them."""
+    not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
+    neighbouring motions are drawn together so fast that a run may be by a stiff method.
+    """
 
     turn: float
     sizes: Array
     evaluations: int
+    stiff: bool = False
 
     def distance(self, one: Array, other: Array) -> Array:
         """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
@@ -39,6 +44,7 @@ def survey(system: Equations, values: Values, start: Array, times: Array, motion
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0)
+    smooth = motion is None
     if motion is None:
         motion = _coarsely(system, values, start, span)
     try:
@@ -48,7 +54,14 @@ def survey(system: Equations, values: Values, start: Array, times: Array, motion
         reached = max(stop.at - float(times[0]), 1e-3 * span)
     states = np.vstack([start, stretch.states, stretch.end])
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    return Scales(turn, _sizes(system, values, states[np.isfinite(states).all(1)], turn), stretch.evaluations)
+    states = states[np.isfinite(states).all(1)]
+    stiff = False
+    if smooth and (system.forces or system.dissipation != 0):
+        program = motion_program(system)
+        bare = program.rhs(*parameter_values(program, values))
+        some = states[:: max(1, len(states) // 8)]
+        stiff = min(_rates(bare, state, len(system.c.q)).real.min() for state in some) * span < -_STIFF
+    return Scales(turn, _sizes(system, values, states, turn), stretch.evaluations, bool(stiff))
 
 
 def _coarsely(system: Equations, values: Values, start: Array, span: float) -> Integrate:
@@ -75,18 +88,21 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int) -> Array:
     """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
     velocities = np.asarray(bare(0.0, start), float)[: 2 * n]
     q, v, a = start[:n], start[n : 2 * n], np.nan_to_num(velocities[n:], posinf=0.0, neginf=0.0)
-    slope = np.zeros((2 * n, 2 * n))
-    for j in range(2 * n):
-        block = q if j < n else v
-        step = 1e-6 * (np.abs(block).max() or 1.0)
-        moved = start.copy()
-        moved[j] += step
-        slope[:, j] = (np.asarray(bare(0.0, moved), float)[: 2 * n] - velocities) / step
-    rate = float(np.abs(np.linalg.eigvals(slope)).max()) if np.isfinite(slope).all() else 0.0
-    rate = max(rate, 1 / span)
+    rate = max(float(np.abs(_rates(bare, start, n)).max()), 1 / span)
     places = np.maximum.reduce([np.abs(q), np.abs(v) / rate, np.abs(a) / rate**2])
     speeds = np.maximum.reduce([np.abs(v), np.abs(a) / rate, np.abs(q) / span])
     return np.concatenate([_without_zeros(places), _without_zeros(speeds)])
+
+
+def _rates(bare: Rhs, state: Array, n: int) -> NDArray[np.complex128]:
+    """The eigenvalues of the linear motion about a state, 1/s; zero where it is not finite."""
+    known, slope = np.asarray(bare(0.0, state), float)[: 2 * n], np.zeros((2 * n, 2 * n))
+    for j in range(2 * n):
+        step = 1e-6 * (np.abs(state[:n] if j < n else state[n : 2 * n]).max() or 1.0)
+        moved = state.copy()
+        moved[j] += step
+        slope[:, j] = (np.asarray(bare(0.0, moved), float)[: 2 * n] - known) / step
+    return np.asarray(np.linalg.eigvals(slope) if np.isfinite(slope).all() else [0.0], complex)
 
 
 def _without_zeros(sizes: Array) -> Array:
