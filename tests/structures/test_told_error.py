@@ -96,3 +96,28 @@ def test_an_estimate_that_is_too_small_would_be_seen(monkeypatch: pytest.MonkeyP
         monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=1e-3))
     with pytest.raises(AssertionError):
         judge(outcomes(FEW, FEW))
+
+
+def in_units(s: Structure, mass: float, length: float, time: float) -> Structure:
+    """The same structure with units of mass, length and time so many times smaller."""
+    inertia = mass * length**2
+    return Structure(
+        [(length * x, length * y) for x, y in s.joints],
+        [(i, j, length * ell) for i, j, ell in s.bars],
+        [w / time for w in s.spins],
+        [Rotor(mass * r.mass, length * r.length, inertia * r.I1, inertia * r.I3) for r in s.rotor],
+        [Link(1, mass * b.mass, inertia * b.inertia) for b in s.link] or Link(),
+        gravity=s.gravity * length / time**2,
+        load=[mass * load for load in s.load],
+        friction=[inertia / time * c for c in s.friction],
+    )
+
+
+@pytest.mark.parametrize("units", [(1e6, 1, 1), (1, 1e-4, 1), (1, 1, 1e5), (1e-3, 1e2, 1e-4)])
+def test_it_is_the_same_motion_in_any_units(units: tuple[float, float, float]) -> None:
+    for s, given, tol, _ in references(FEW, FEW):
+        run, time = s.simulate(**given, tol=tol), units[2]  # type: ignore[arg-type]
+        there = {"t": time * given["t"], "tilt": given["tilt"], "rates": given["rates"] / time}  # type: ignore[operator]
+        other = in_units(s, *units).simulate(**there, tol=tol)
+        assert np.abs(other.axes - run.axes).max() < run.error + other.error
+        assert other.evaluations == pytest.approx(run.evaluations, rel=0.1)
