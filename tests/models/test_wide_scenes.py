@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Trajectory
+from lagrotor import Trajectory, sweep
 from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
+from lagrotor.models.sweeps import chunk
 from lagrotor.numerics import estimated_run, taylor
 from lagrotor.numerics.taylor import taylor_order
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
@@ -111,6 +112,32 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
 
     monkeypatch.setattr(simulating, "estimate_run", trusting)
     assert len(judge(SHORT[1::2], "core")[0]) > 1
+
+
+def under_estimated(which: list[int]) -> list[str]:
+    """Runs of sweeps whose error is larger than it is said to be, or than a tolerance that they are said to keep."""
+    found = []
+    for i in which:
+        trial = TRIALS[i]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LagrotorWarning)
+            ensemble = sweep([trial.scene], [0.0, *trial.t], trial.tol)
+        if not len(ensemble.failed):
+            axes = ensemble.axes[0][:, 1:]
+            error = np.linalg.norm(axes - RECORDED["axes"][i], axis=-1).max() - 2 * RECORDED["own"][i].max()
+            found += [f"{trial}: {error:.1e}, {ensemble.error[0]:.1e}"] if error > ensemble.error[0] else []
+    return found
+
+
+@pytest.mark.parametrize("every", [16, pytest.param(1, marks=pytest.mark.slow)])
+def test_each_run_of_a_sweep_says_its_error(every: int) -> None:
+    assert not under_estimated([i for i in SHORT if RECORDED["growth"][i].max() < PREDICTABLE][::every])
+
+
+def test_a_sweep_that_says_too_little_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    for constant in ("SAFETY", "LEAST", "ROUNDING"):
+        monkeypatch.setattr(chunk, constant, getattr(chunk, constant)._replace(value=1e-18))
+    assert under_estimated(SHORT[::16])
 
 
 @NO_HEYOKA

@@ -17,6 +17,7 @@ Index = NDArray[np.intp]
 # (s (n,), y (d, n), into (d, n)): writes y' into its last argument. Made anew for those who are left.
 Rates = Callable[[Array, Array, Array], None]
 _SHRINK, _GROW, _SAFE = 0.2, 10.0, 0.9
+LEAST_TOLERANCE = 20 * 2.3e-14  # below it every step is refused for what rounding leaves
 _LEAST = 1e-14  # of the run or of the pulse's width: a step below it goes nowhere
 # Evaluations in all, and more for each radian of `fastest` that is done: three times what motions take at a tolerance of 1e-13
 # that stay clear of singular positions.

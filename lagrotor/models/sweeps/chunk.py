@@ -2,17 +2,20 @@
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
+from lagrotor.errors import IntegrationError, LagrotorError, LagrotorWarning, SingularError
+from lagrotor.models.conserved import conservation_defect
 from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
-from lagrotor.models.natural_units import typical_rate
+from lagrotor.models.model import Observed, check_range, constant_momenta
+from lagrotor.models.natural_units import natural_units, typical_rate
 from lagrotor.models.simulate import simulate
-from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march
+from lagrotor.models.sweeps.batch_dop853 import LEAST_TOLERANCE, Index, Rates, Swarm, march
 from lagrotor.numerics.estimate_constants import APART, FIRST, LEAST, RESOLVED, ROUNDING, SAFETY, START
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import TIGHTEST
@@ -21,6 +24,7 @@ from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
 MODELS = ("minimal", "spheres", "none")
+_BETWEEN = 0.38  # of the way from one time to the next, where a companion stops besides
 
 
 class Chunk(NamedTuple):
@@ -44,7 +48,7 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
     chunk = Chunk(axes, rates, np.full((n, m), np.nan), np.zeros(n, np.int64), none)
     groups: dict[Kind | None, list[int]] = {}
     for i, scene in enumerate(scenes):
-        groups.setdefault(kind_of(scene), []).append(i)
+        groups.setdefault(kind_of(scene) if _in_range(scene) else None, []).append(i)
     for kind, group in groups.items():
         if kind is not None:
             _by_minimal(kind, [scenes[i] for i in group], np.array(group), times, tol, engine, chunk)
@@ -60,6 +64,26 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
             chunk.axes[i], chunk.rates[i], chunk.errors[i] = run.axes, run.rates, run.errors
             chunk.models[i] = MODELS.index("spheres")
     return chunk
+
+
+def _in_range(scene: Scene) -> bool:
+    """Whether the minimal model is well conditioned at the scene's start."""
+    try:
+        check_range(MODEL, scene)
+    except LagrotorError:
+        return False
+    return True
+
+
+def _defects(scenes: list[Scene], times: Array, axes: Array, rates: Array) -> Array:
+    """The error that explains how far each run is from conserving what it must, (n,): what rounding leaves in states that are
+    badly conditioned, which two runs may have in common. The work of a shock is not followed."""
+    found = np.empty(len(scenes))
+    for i, scene in enumerate(scenes):
+        units = natural_units(replace(scene, shock=scene.shock_until(float(times[-1]))))
+        seen = Observed(axes[i], rates[i] / units.rate, constant_momenta(units.scene, len(times)))
+        found[i] = conservation_defect(units.scene, times * units.rate, seen, None)
+    return found
 
 
 def kind_of(scene: Scene) -> Kind | None:
@@ -84,14 +108,21 @@ def _by_minimal(
     rounding = ROUNDING.value * (START.value + turns)
     columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
     swarm, who, local, companion = _swarm(kind, scenes, columns, start), np.arange(len(scenes)), tol * FIRST.value, True
-    before = np.full((len(scenes), 2, len(times), 3), np.nan)
+    before, tightest = (
+        np.full((len(scenes), 2, len(times), 3), np.nan),
+        TIGHTEST if engine == "fast" else LEAST_TOLERANCE,
+    )
     while who.size:
-        local = max(local, TIGHTEST)
+        local = max(local, tightest)
+        begun = start[:, who] * (1 + np.finfo(float).eps * companion * np.cos(np.arange(1, len(start) + 1))[:, None])
         if engine == "fast":
             parameters = np.array([column[who] for column in columns])
-            states, spent = march_taylor(program(*kind), start[:, who], parameters, times, local, companion)
+            states, spent = march_taylor(program(*kind), begun, parameters, times, local, companion)
         else:
-            states, spent = march(swarm.part(who), times, local)
+            # A step ends at each time: a companion has others between them, so that no two take the same few steps.
+            t = np.union1d(times, times[:-1] + _BETWEEN * np.diff(times)) if companion else times
+            states, spent = march(replace(swarm.part(who), start=begun), t, local)
+            states = states[:, np.isin(t, times)]
         chunk.evaluations[places[who]] += spent
         whole = np.isfinite(states).all((1, 2))
         who, states = who[whole], states[whole]
@@ -103,6 +134,7 @@ def _by_minimal(
                 rows[alike] = part.reshape(2, len(alike), len(times), 3).swapaxes(0, 1)
         safety = SAFETY.value ** (2 if local < RESOLVED.value else 1)
         apart = safety * np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
+        apart = np.maximum(apart, SAFETY.value * _defects([scenes[i] for i in who], times, axes, rates)[:, None])
         errors = np.maximum.accumulate(np.maximum(apart, LEAST.value * local) + rounding[who], axis=1)
         before[who] = axes
         if not np.isnan(apart).any():  # of the first there is nothing to compare
@@ -116,7 +148,7 @@ def _by_minimal(
                 np.minimum(errors[at], UNKNOWN),
             )
             chunk.models[here] = MODELS.index("minimal")
-            who = who[(errors[:, -1] > tol) & (local > TIGHTEST)]
+            who = who[(errors[:, -1] > tol) & (local > tightest)]
         local, companion = local / APART.value, not companion
 
 
