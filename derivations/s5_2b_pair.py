@@ -17,13 +17,10 @@ from lagrotor.pair import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper import Formula, Remark, prove, verdict
 from lagrotor.paper.form import form
-from lagrotor.paper.letters import norm
 from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.rotor_pair.shared_premises import (
     ABOUT_JOINT,
-    BAR_AS_LONG_AS_ROTORS,
     MASSLESS_BAR,
-    UNIT_LENGTH,
     in_parameters,
 )
 from lagrotor.theory import paired_series
@@ -166,11 +163,10 @@ freedoms = degrees_of_freedom(system, somewhere)
 verdict(
     "5.09",
     {
-        r"\|\vec r_2 - \vec r_1\|": norm(bar_upright),
         r"\text{degrees of freedom}": freedoms,
         r"\text{degrees of freedom without the bar}": len(PAIR.q),
     },
-    premises=[BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
+    evidence=["The length R = 1 is chosen: that ℓ = R is what the line says, and no premise of it."],
 )
 
 # %% [markdown]

@@ -47,7 +47,7 @@ small = Premise("the inclinations are small, θᵢ = εϑᵢ", {theta_1: epsilon
 units = [BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH]
 verdict(
     "5.17",
-    {r"\|\vec r_2 - \vec r_1\|": ell, r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": norm(bar)},
+    {r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": norm(bar)},
     premises=[*units, small],
     uses=["5.09"],
     written={

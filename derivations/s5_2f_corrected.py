@@ -18,7 +18,7 @@ from lagrotor import Scene, corrected_trajectories, natural_rate, paired_frequen
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import ANSATZ, A, B, J, Phi, R, ell, k, r0, sigma, theta_0
-from lagrotor.paper import Formula, prove, verdict
+from lagrotor.paper import Formula, Series, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.rotor_pair.claims.precession_runs import PAPER_R0
 from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
@@ -101,7 +101,7 @@ sines_written = {
 }
 verdict(
     "5.20",
-    {r"\sin\theta_1": sines[0], r"\sin\theta_2": sines[1]},
+    {rf"\sin\theta_{i}": Series(series, theta_0, 2) for i, series in enumerate(sines, 1)},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=sines_written,
     wrong="The correction keeps the bar's length nearly constant, but longer than the bar by 2r₀².",
@@ -203,7 +203,7 @@ rates_written = {
 }
 verdict(
     "5.21",
-    {r"\dot\phi": varied, r"\Omega/\Omega_0": frequency},
+    {r"\dot\phi": varied, r"\Omega/\Omega_0": Series(frequency, r0, 3)},
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=rates_written,
     wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
@@ -248,7 +248,7 @@ short = {"k": ell / R, "A_x": R * r0, "A_y": R * width * r0}
 in_words = "; ".join(f"{name}: {x:.2f} in x, {y:.2f} in y" for name, (x, y) in slopes.items())
 verdict(
     "5.22",
-    {"x_1": tips[0], "x_2": tips[1], "y_1": R * y_1, "y_2": R * y_2},
+    {name: Series(e, r0, 3) for name, e in {"x_1": tips[0], "x_2": tips[1], "y_1": R * y_1, "y_2": R * y_2}.items()},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
     correction={name: form(text + ")", rest="r_0^3", **short) for name, text in through_second.items()},
     written={name: form(text + third[name] + ")", **short) for name, text in through_second.items()},

@@ -17,11 +17,10 @@ from lagrotor import paired_frequency
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair, pair_with_bar
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
-from lagrotor.paper import Formula, Remark, prove, verdict
+from lagrotor.paper import Formula, Remark, Series, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.rotor_pair.shared_premises import (
     HEAVY_BAR,
-    LIGHT_BAR_PREMISE,
     PAPERS_ROTOR,
     RESTING_COUNTS,
     TURNING_COUNTS,
@@ -188,11 +187,11 @@ verdict(
     "6.02",
     {
         r"\dot\phi\text{ (equal spins)}": equal_rate / sp.cos(theta),
-        r"\dot\phi\text{ (opposite spins)}": opposite_rate * at_theta,
+        r"\dot\phi\text{ (opposite spins)}": Series(opposite_rate * at_theta, theta, 3),
         r"\Omega_0^2\text{ (opposite spins)}": opposite_rate**2,
-        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": ratio,
+        r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": Series(ratio, r0, 3),
     },
-    premises=[PAPERS_ROTOR, HEAVY_BAR, LIGHT_BAR_PREMISE],
+    premises=[PAPERS_ROTOR, HEAVY_BAR],
     correction={
         r"\dot\phi\text{ (equal spins)}": cone_written,
         r"\Omega_0^2\text{ (opposite spins)}": square_written,

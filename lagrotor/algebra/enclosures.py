@@ -361,3 +361,32 @@ def _eliminated(rows: list[list[Any]]) -> list[Any]:
         rest = sum((a * x for a, x in zip(done, reversed(found), strict=True)), iv.mpf(0))
         found.append((row[n] - rest) / row[n - len(found) - 1])
     return found[::-1]
+
+
+Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # a value lies between the two
+
+
+def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
+    """Rationals between which e lies where its symbols have these values: rationals, or pairs of them between which they lie.
+
+    None where no real enclosure is known there.
+    """
+    with digits(_DIGITS):
+        try:
+            ends = {s: value if isinstance(value, tuple) else (value, value) for s, value in point.items()}
+            found = Enclosure({})
+            found.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in ends.items()}
+            value = found.value(e)
+            return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
+        except (NotExactError, AttributeError):
+            return None
+
+
+def _quotient(value: sp.Rational) -> Any:
+    return iv.mpf(value.p) / value.q
+
+
+def _rational(end: Any) -> sp.Rational:
+    """An end of an interval, which is a rational with a power of two below."""
+    sign, mantissa, exponent, _ = end._mpi_[0]
+    return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)

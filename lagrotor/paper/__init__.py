@@ -28,7 +28,9 @@ if TYPE_CHECKING:
     from lagrotor.paper.stating import verdict as verdict
     from lagrotor.paper.tables import FigureLink as FigureLink
     from lagrotor.paper.tables import Table as Table
+    from lagrotor.paper.verdicts import LineVerdict as LineVerdict
     from lagrotor.paper.verdicts import Relation as Relation
+    from lagrotor.paper.verdicts import Series as Series
     from lagrotor.paper.verdicts import Statement as Statement
     from lagrotor.paper.verdicts import Verdict as Verdict
     from lagrotor.paper.verdicts import chain as chain

@@ -1,155 +1,341 @@
 """The ledger: it holds what the paper prints, is given what was derived and what was assumed, and decides.
 
-A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. `decide` tries the
-premises, fewest first, on both sides at once, and decides by exact identity or by the order of the first term that differs;
-nothing else can. `judge` does the same for a printed expression by itself.
+A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. Every member of every
+printed line is decided by itself, under all premises at once (`hypotheses`), by exact identity, by the ideal of the premises'
+equations, or by the order of the first term that differs; premises that are not needed are then left out. What is refuted has a
+certified point, or an order at which the two part; what is neither is undecided. `judge` does the same without a paper.
 """
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import Decision, agreement_order, decide_equal
+from lagrotor.algebra import agreement_order, decide_equal, leading_term, truncated_series
+from lagrotor.algebra.evidence import points
 from lagrotor.errors import NotExactError
 from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper.hypotheses import Hypotheses, hypotheses
+from lagrotor.paper.ideal import vanishes_on
 from lagrotor.paper.letters import read
-from lagrotor.paper.premises import Given, Premise, premises_of, subsets
-from lagrotor.paper.verdicts import Answer, Relation, Statement, Verdict
+from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
+from lagrotor.paper.readable import readable
+from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
+from lagrotor.paper.witness import witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
-
-
-@dataclass(frozen=True)
-class _Finding:
-    answer: Answer
-    order: int | None = None
-    small: sp.Symbol | None = None
-    domain: tuple[sp.Expr, ...] = ()
-    reasons: tuple[str, ...] = ()
-
-
-_AGREES = ("holds", "holds-to-order")
+_SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
+_RANK: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
 
 def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
     """One printed expression held against a derived one: `judge("m*g*l*sin(theta)", derived).verdict`.
 
     printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`. given: what may be
-    assumed, as premises or as a substitution {J: I_3}. small, order: where equality is claimed through small**order only.
-    Raises InputError for text that cannot be read.
+    assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several of these. small, order:
+    where equality is claimed through small**order only. Raises InputError for text that cannot be read.
     """
-    right, premises = sp.sympify(derived), premises_of(given)
+    right, premises = derived if isinstance(derived, Series) else sp.sympify(derived), premises_of(given)
+    side = right.expression if isinstance(right, Series) else right
     if isinstance(printed, str):
-        sides = [sp.sympify(side) for premise in premises for pair in premise.put.items() for side in pair]
-        letters = {s.name: s for side in (right, *sides, *filter(None, [small])) for s in side.free_symbols}
+        sides = [sp.sympify(s) for p in premises for pair in p.equations for s in pair]
+        sides += [side for p in premises for r in p.conditions for side in r.args]
+        letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
-    return decide(Statement("", (Relation(sp.sympify(printed), right, small, order),), premises))
+    known = (right.small, right.order) if isinstance(right, Series) else None
+    return decide(Statement("", (Relation(sp.sympify(printed), side, small, order, known=known),), premises))
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
     """Decide a statement; the correction, where there is one, by the same rules. glossary: what its letters mean."""
     began = time.perf_counter()
     meanings = Glossary() if glossary is None else glossary
-    answer, finding, used = _decided(statement.relations, statement, meanings)
-    if statement.measured and finding.answer in _AGREES:
+    lines = tuple(_line(relation, statement.premises, meanings) for relation in statement.relations)
+    right = tuple(_line(relation, statement.premises, meanings) for relation in statement.correction)
+    worst = _weakest(lines)
+    answer: Answer = "definition" if statement.names else worst.verdict
+    corrected = _weakest(right).verdict if right else None
+    if statement.measured and answer in AGREES:
         answer = "measured"
-    corrected: Answer | None = None
-    if statement.correction:
-        corrected, _, granted = _decided(statement.correction, statement, meanings)
-        used = granted if answer == "refuted" else used
+    used = right if answer == "refuted" else lines if answer in (*AGREES, "measured") else ()
     return Verdict(
         statement=statement,
         verdict=answer,
-        premises=used,
-        order=finding.order,
-        small=finding.small,
-        domain=finding.domain,
+        premises=_united(used, statement.premises),
+        order=worst.order,
+        small=worst.small,
+        domain=tuple(dict.fromkeys(factor for line in lines for factor in line.domain)),
         correction_verdict=corrected,
-        evidence=(*statement.evidence, *finding.reasons),
+        evidence=(
+            *statement.evidence,
+            *dict.fromkeys(line.reason for line in lines if line.reason and line.verdict == answer),
+        ),
         seconds=time.perf_counter() - began,
+        lines=lines,
+        correction_lines=right,
     )
 
 
-def _decided(
-    relations: tuple[Relation, ...], statement: Statement, glossary: Glossary
-) -> tuple[Answer, _Finding, tuple[Premise, ...]]:
-    """What is decided of relations under the statement's premises, and the fewest of these that it needs."""
-    if statement.names:
-        return "definition", _Finding("definition"), ()
-    finding, used = _fewest_premises(relations, statement.premises)
-    if finding.answer not in _AGREES:
-        return finding.answer, finding, ()
-    if finding.small is not None and all(premise.small != finding.small for premise in used):
-        used = (*used, Premise(f"small {glossary.meaning(finding.small)} {finding.small}", small=finding.small))
-    return ("holds-if" if finding.answer == "holds" and used else finding.answer), finding, used
+def _weakest(lines: Sequence[LineVerdict]) -> LineVerdict:
+    nothing = LineVerdict(Relation(sp.S.Zero, sp.S.Zero), "holds")
+    return max(lines, key=lambda line: (_RANK.index(line.verdict), -(line.order or 0)), default=nothing)
 
 
-def _fewest_premises(
-    relations: tuple[Relation, ...], assumed: tuple[Premise, ...]
-) -> tuple[_Finding, tuple[Premise, ...]]:
-    """The finding under the fewest premises that suffice.
+def _united(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
+    """The premises of all lines, each once, those that were offered first and in their order."""
+    needed = [premise for line in lines for premise in line.premises]
+    found: list[Premise] = [premise for premise in offered if premise in needed]
+    for premise in needed:
+        if premise not in found:
+            found.append(premise)
+    return tuple(found)
 
-    Where none do: what is wrong in a special case is wrong in general, and the case with the most premises granted shows
-    most about what is wrong. Where the premises do not contradict each other, that case is looked at first, since no choice
-    of them can mend what it refutes.
+
+def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
+    """One member of a printed line under the fewest premises that it needs."""
+    assumed = (*offered, *relation.scene_premises)
+    alone = _under(relation, ())
+    if alone.answer == "holds":
+        return _verdict(relation, alone, (), glossary)
+    whole = _under(relation, assumed)
+    if whole.answer in AGREES:
+        used, finding = _needed(relation, assumed, whole)
+        if circular := next((p for p in used if _is_conclusion(relation, p)), None):
+            reason = f"circular: the premise is the conclusion, {circular.with_formula}"
+            return _verdict(relation, replace(finding, answer="undecided", reasons=(reason,)), (), glossary)
+        if finding.trivial:
+            reason = f"trivial: under the premises ({'; '.join(p.with_formula for p in used)}) both sides are 0"
+            return _verdict(relation, replace(finding, answer="undecided", reasons=(reason,)), (), glossary)
+        return _verdict(relation, finding, used, glossary)
+    if whole.may_branch and (branch := _branch(relation, assumed, whole)):
+        used, finding = _needed(relation, (*assumed, *branch), _under(relation, (*assumed, *branch)))
+        return _verdict(relation, finding, used, glossary)
+    return _verdict(relation, whole, (), glossary)
+
+
+def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
+    answer: Answer = finding.answer
+    small = finding.small
+    if answer == "holds-to-order" and small is not None and all(premise.small != small for premise in used):
+        used = (*used, Premise(f"small {glossary.meaning(small)} {small}", small=small))
+    if answer == "holds" and used:
+        answer = "holds-if"
+    return LineVerdict(
+        relation,
+        answer,
+        used,
+        finding.order,
+        small,
+        finding.domain,
+        finding.difference,
+        finding.place,
+        finding.seen.point if finding.seen else None,
+        finding.seen.enclosure if finding.seen else None,
+        "; ".join(finding.reasons),
+    )
+
+
+@dataclass(frozen=True)
+class _Finding:
+    """What is decided under some premises; trivial: both sides become 0; may_branch: the sign of a root decides."""
+
+    answer: Answer
+    order: int | None = None
+    small: sp.Symbol | None = None
+    domain: tuple[sp.Expr, ...] = ()
+    reasons: tuple[str, ...] = ()
+    difference: sp.Expr | None = None
+    place: tuple[int, int] | None = None
+    seen: Any = None
+    trivial: bool = False
+    may_branch: bool = False
+
+
+def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[tuple[Premise, ...], _Finding]:
+    """A set of premises of which none can be left out: each is tried once, in an order that does not depend on theirs.
+
+    Of two such sets, from both ends, the smaller one; one under which both sides are 0 only if no other is found.
     """
-    failed: tuple[Premise, ...] = ()
-    put = [letter for premise in assumed for letter in premise.put]
-    if assumed and len(put) == len(set(put)):
-        granted = _find(relation.under(assumed) for relation in relations)
-        if granted.answer == "refuted":
-            return granted, ()
-    for premises in subsets(assumed):
-        found: list[_Finding] = []
-        for relation in relations:
-            found.append(_single(relation.under(premises)))
-            if found[-1].answer == "refuted":
-                break
-        if all(finding.answer in _AGREES for finding in found):
-            return _weakest(found), premises
-        if found[-1].answer == "refuted":
-            failed = premises
-    return _find(relation.under(failed) for relation in relations), ()
+    ordered = sorted(assumed, key=lambda p: (len(p.equations), p.says, p.formula))
+    found: list[tuple[tuple[Premise, ...], _Finding]] = []
+    for row in (ordered, ordered[::-1]):
+        kept, finding = list(assumed), whole
+        for premise in row:
+            rest = [p for p in kept if p is not premise]
+            without = _under(relation, rest)
+            if without.answer in AGREES and _RANK.index(without.answer) <= _RANK.index(finding.answer):
+                if without.trivial and not finding.trivial:
+                    continue
+                kept, finding = rest, without
+        found.append((tuple(kept), finding))
+    return min(found, key=lambda each: (each[1].trivial, len(each[0]), each[1].answer != "holds"))
 
 
-def _find(relations: Iterable[Relation]) -> _Finding:
-    """The weakest of the findings of all relations."""
-    return _weakest([_single(relation) for relation in relations])
+def _is_conclusion(relation: Relation, premise: Premise) -> bool:
+    """Whether an equation of the premise is what the line says: their differences are multiples of each other."""
+    gap = relation.printed - relation.derived
+    entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
+    equations = [e for a, b in premise.equations if sp.expand(e := sp.sympify(a) - sp.sympify(b)) != 0]
+    return (
+        premise.small is None
+        and bool(entries)
+        and all(any(_are_multiples(entry, e) for e in equations) for entry in entries)
+    )
 
 
-def _weakest(found: list[_Finding]) -> _Finding:
-    rank = ("holds", "holds-to-order", "undecided", "refuted")
-    worst = max(found, key=lambda f: (rank.index(f.answer), -(f.order or 0)), default=_Finding("holds"))
-    domain = tuple(dict.fromkeys(factor for f in found for factor in f.domain))
-    reasons = tuple(dict.fromkeys(reason for f in found for reason in f.reasons))
-    return replace(worst, domain=domain, reasons=reasons)
+def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
+    """Whether a is a rational number times b, neither being zero."""
+    if a.free_symbols != b.free_symbols:
+        return False
+    at = next(points(a.free_symbols), {})
+    ratio = a.xreplace(at) / b.xreplace(at) if b.xreplace(at) != 0 else sp.S.Zero
+    return bool(ratio.is_Rational and ratio != 0) and decide_equal(a, ratio * b).answer == "zero"
 
 
-def _single(relation: Relation) -> _Finding:
-    if relation.scene:
-        there = {side: getattr(relation, side).xreplace(relation.scene) for side in ("printed", "derived")}
-        return _single(replace(relation, scene={}, **there))
-    if relation.within is not None:
-        ratio = _constant(relation.printed / relation.derived)
-        near = ratio is not None and bool(abs(ratio - 1) <= relation.within)
-        return _Finding("holds" if near else "refuted")
+def _branch(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[Premise, ...]:
+    """A condition on the sign of a letter, or of what stands between bars, under which a line holds."""
+    under = hypotheses(assumed)
+    gap = under.on(relation.printed) - under.on(relation.derived)
+    sides = list(gap) if isinstance(gap, sp.MatrixBase) else [gap]
+    bars = {node.args[0] for side in sides for node in side.atoms(sp.Abs)}
+    bars |= {node.base.base for side in sides for node in side.atoms(sp.Pow) if _root_of_square(node)}
+    letters = {s for side in sides for s in side.free_symbols}
+    for e in sorted(bars | letters, key=lambda e: (e.is_Symbol, sp.default_sort_key(e))):
+        for condition in (e >= 0, e <= 0):
+            if condition in (sp.true, sp.false):
+                continue
+            premise = Premise(relation_text(condition), where=(condition,))
+            found = _under(relation, (*assumed, premise))
+            if found.answer in AGREES and not found.trivial:
+                return (premise,)
+    return ()
+
+
+def _root_of_square(node: sp.Pow) -> bool:
+    return bool(node.exp.is_Rational and node.exp.q == 2 and node.base.is_Pow and node.base.exp == 2)
+
+
+def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
+    """What is decided of a relation under all of these premises."""
+    under = hypotheses(premises, relation.small)
+    if under.contradiction:
+        return _Finding(
+            "undecided", reasons=(f"the premises contradict each other or their letters: {under.contradiction}",)
+        )
     if isinstance(relation.printed, sp.MatrixBase) != isinstance(relation.derived, sp.MatrixBase):
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
-    exact: Decision = decide_equal(relation.printed, relation.derived)
+    printed, derived = (under.signed.refined(under.refined(side)) for side in (relation.printed, relation.derived))
+    if printed.has(*_SINGULAR) or derived.has(*_SINGULAR):
+        return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
+    if relation.within is not None and relation.known is not None:
+        return _read_off_series(relation, printed / derived, *relation.known)
+    if relation.within is not None:
+        return _read_off(relation, printed, derived, under)
+    return _compared(relation, printed, derived, under)
+
+
+def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
+    exact = decide_equal(printed, derived)
     domain = tuple(f for f in exact.domain if not (f.is_positive or f.is_number))
-    if exact.answer == "zero":
-        return _Finding("holds", domain=domain)
-    if relation.small is None or relation.small not in relation.printed.free_symbols | relation.derived.free_symbols:
-        if exact.answer == "undecided":
-            seen = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
-            return _Finding("undecided", reasons=(f"{exact.reason} ({seen})",))
-        return _Finding("refuted", domain=domain)
-    return _to_order(relation, relation.small, domain)
+    small = _small(relation, printed, derived, under)
+    on_equations = _in_ideal(printed, derived, under)
+    if on_equations == "nowhere":
+        return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
+    if exact.answer == "zero" or on_equations == "zero":
+        trivial = _is_zero(derived) and _is_zero(printed) and not _is_zero(relation.printed)
+        if relation.known is not None and small is None:
+            small = relation.known[0]
+        if relation.known is not None:
+            return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
+        return _Finding("holds", domain=domain, trivial=trivial)
+    if "denominator vanishes" in exact.reason:
+        return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
+    if small is not None:
+        return _to_order(relation, printed, derived, small, domain)
+    place, gap = _where_apart(relation, under)
+    seen = witness(gap, under) if gap is not None else None
+    if seen is not None:
+        return _Finding("refuted", None, None, domain, (), gap, place, seen, may_branch=exact.partly)
+    value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
+    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no certified point keeps the sides apart"
+    return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
+
+
+def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
+    """The small quantity that the comparison is about: the premise's, or the line's own."""
+    letters = printed.free_symbols | derived.free_symbols
+    return next((s for s in (*under.small, relation.small) if s is not None and s in letters), None)
+
+
+def _is_zero(side: Any) -> bool:
+    return all(sp.expand(e) == 0 for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+
+
+def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
+    """Whether the difference vanishes wherever the equations that were not solved hold."""
+    signed = under.signed
+    if not signed.left:
+        return "undecided"
+    gap = printed - derived
+    apart = [r.lhs - r.rhs for r in signed.region if isinstance(r, sp.Ne | sp.StrictGreaterThan | sp.StrictLessThan)]
+    answers = {vanishes_on(e, signed.left, apart) for e in (gap if isinstance(gap, sp.MatrixBase) else [gap])}
+    return next((answer for answer in ("nowhere", "nonzero", "undecided") if answer in answers), "zero")
+
+
+def _where_apart(relation: Relation, under: Hypotheses) -> tuple[tuple[int, int] | None, sp.Expr | None]:
+    """The first entry that is not decided to be equal, and the difference there, in the letters of the statement."""
+    gap = under.on(relation.printed) - under.on(relation.derived)
+    if not isinstance(gap, sp.MatrixBase):
+        return None, gap
+    for answer in ("nonzero", "undecided"):
+        for i, entry in enumerate(gap):
+            if decide_equal(entry, sp.S.Zero).answer == answer:
+                return divmod(i, gap.cols), entry
+    return None, None
+
+
+def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
+    """A number read off a run, within what its digits allow."""
+    within = relation.within if relation.within is not None else sp.S.Zero
+    ratio = _constant(printed / derived)
+    if ratio is not None:
+        off = abs(ratio - 1)
+        near = bool(off <= within)
+        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one"
+        gap = None if near else printed - derived
+        return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
+    gap = under.on(relation.printed) / under.on(relation.derived) - 1
+    seen = witness(gap, under, within)
+    if seen is None:
+        return _Finding(
+            "undecided", reasons=("the ratio of the sides depends on letters, and no certified point was found",)
+        )
+    return _Finding("refuted", reasons=("the ratio of the sides is no constant",), difference=gap, seen=seen)
+
+
+def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order: int) -> _Finding:
+    """The same, of a rate that is known as a series: as far as that goes the ratio must not change."""
+    within = relation.within if relation.within is not None else sp.S.Zero
+    try:
+        terms = truncated_series(ratio, small, order)
+    except NotExactError as refusal:
+        return _Finding("undecided", reasons=(str(refusal),))
+    first = leading_term(terms - terms.xreplace({small: sp.S.Zero}), small, order)
+    constant = _constant(terms.xreplace({small: sp.S.Zero}))
+    if first.order is not None:
+        reason = (
+            f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {first.coefficient}"
+        )
+        return _Finding("refuted", first.order - 1, small, reasons=(reason,), difference=first.coefficient)
+    if constant is None:
+        return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
+    near = bool(abs(constant - 1) <= within)
+    reason = f"the printed value is {sp.N(constant, 6)} of the derived one"
+    return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
 def _constant(ratio: sp.Expr) -> sp.Expr | None:
@@ -160,17 +346,39 @@ def _constant(ratio: sp.Expr) -> sp.Expr | None:
     return sp.sqrt(square) * sp.sign(ratio.subs(dict.fromkeys(ratio.free_symbols, sp.Rational(3, 7))))
 
 
-def _to_order(relation: Relation, small: sp.Symbol, domain: tuple[sp.Expr, ...]) -> _Finding:
-    """How far two series agree; of vectors, the first component that differs decides."""
-    matrices = isinstance(relation.printed, sp.MatrixBase)
-    pairs = zip(relation.printed, relation.derived, strict=True) if matrices else [(relation.printed, relation.derived)]
+def _to_order(
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[sp.Expr, ...]
+) -> _Finding:
+    """How far two series agree: at least between their leading terms; of vectors, the first component that differs decides."""
+    pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]
+    name, known = readable(str(small)), relation.known[1] if relation.known else None
+    furthest = relation.claimed + BEYOND if known is None else min(relation.claimed + BEYOND, known)
     try:
-        terms = [agreement_order(p, d, small, relation.claimed + BEYOND) for p, d in pairs]
+        terms = [agreement_order(p, d, small, furthest) for p, d in pairs]
+        place, first = min(enumerate(terms), key=lambda t: t[1].through + 1 if t[1].order is None else t[1].order)
+        reached = furthest if first.order is None else first.order - 1
+        lead = _leading_order(pairs, small, furthest)
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
-    first = min(terms, key=lambda term: term.through + 1 if term.order is None else term.order)
-    reached = first.through if first.order is None else first.order - 1
-    if reached >= relation.claimed:
+    if lead is None:
+        reason = f"both sides vanish through order {furthest} in {name}: nothing was compared"
+        return _Finding("undecided", None, small, domain, (reason,))
+    if reached >= max(relation.claimed, lead):
         return _Finding("holds-to-order", reached, small, domain)
-    reason = f"first differs at order {first.order} in {small}, by {first.coefficient}"
-    return _Finding("refuted", reached, small, domain, (reason,))
+    if first.order is None:
+        reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
+        return _Finding("undecided", reached, small, domain, (reason,))
+    reason = f"first differs at order {first.order} in {name}, by {first.coefficient}"
+    if lead > relation.claimed:
+        reason = f"both sides vanish through order {lead - 1} in {name}; {reason}"
+    at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
+    return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
+
+
+def _leading_order(pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int) -> int | None:
+    """The lowest order at which any of the sides has a term; None where there is none."""
+    for most in (0, through):
+        orders = [leading_term(side, small, most).order for pair in pairs for side in pair]
+        if found := [order for order in orders if order is not None]:
+            return min(found)
+    return None

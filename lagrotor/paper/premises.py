@@ -1,20 +1,24 @@
-"""Premises: what is assumed when an equation is judged, in words, as a substitution, and whether the paper's scene keeps it."""
+"""Premises: what is assumed when an equation is judged, in words and as relations, and whether the paper's scene keeps it."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from itertools import combinations
 from typing import Any, TypeAlias
 
 import sympy as sp
+from sympy.core.relational import Relational
 
+from lagrotor.errors import InputError
 from lagrotor.paper.readable import readable
+
+_SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.Lt: "<"}
 
 
 @dataclass(frozen=True)
 class Premise:
-    """What is assumed. says: in a physicist's words. put: the substitution that states it, made on both sides at once.
+    """What is assumed. says: in a physicist's words. put: the equations that state it, old = new, as a substitution.
 
-    small: for an approximation, the quantity in which only the leading terms are kept; `put` then brings it in.
+    where: further relations, Eq, Ne, Ge, Gt, Le, Lt. small: for an approximation, the quantity in which only the leading terms
+    are kept; `put` then brings it in, and a letter on both sides of a row stands on the right for its scaled value.
     broken: how far the paper's own scene is from it, in words; empty where the scene keeps it.
     """
 
@@ -22,17 +26,54 @@ class Premise:
     put: Mapping[sp.Basic, Any] = field(default_factory=dict)
     small: sp.Symbol | None = None
     broken: str = ""
+    where: tuple[Relational, ...] = ()
+
+    def __post_init__(self) -> None:
+        for relation in self.where:
+            if not isinstance(relation, Relational):
+                raise InputError(
+                    f"premise {self.says!r}: {relation!r} is no relation: write Eq(a, b), Ne(a, b) or a >= b"
+                )
 
     @property
     def sentence(self) -> str:
         """What is assumed, and by how much the paper's own scene breaks it."""
         return f"{self.says} (broken by the paper's own scene: {self.broken})" if self.broken else self.says
 
+    @property
+    def equations(self) -> tuple[tuple[sp.Basic, Any], ...]:
+        """Its equations, (left, right) of each."""
+        return (*self.put.items(), *((r.lhs, r.rhs) for r in self.where if isinstance(r, sp.Eq)))
+
+    @property
+    def conditions(self) -> tuple[Relational, ...]:
+        """Its inequalities."""
+        return tuple(r for r in self.where if not isinstance(r, sp.Eq))
+
+    @property
+    def formula(self) -> str:
+        """Its equations and conditions as text: J = I₃, x ≥ 0; empty where it only names what is small."""
+        return ", ".join((*(_equated(a, b) for a, b in self.put.items()), *map(relation_text, self.where)))
+
+    @property
+    def with_formula(self) -> str:
+        """In words, and then as a formula where the words are not that already."""
+        return self.says if self.formula in ("", self.says) else f"{self.says}: {self.formula}"
+
     def on(self, side: Any) -> Any:
-        """A side with the premise put in."""
+        """A side with the substitution made, all rows at once."""
         if all(isinstance(old, sp.Symbol) for old in self.put):
             return side.xreplace({old: sp.sympify(new) for old, new in self.put.items()})
         return side.subs(list(self.put.items()), simultaneous=True)
+
+
+def _equated(left: Any, right: Any) -> str:
+    return f"{readable(str(left))} = {readable(str(right))}"
+
+
+def relation_text(relation: Relational) -> str:
+    """A relation as plain text."""
+    return f"{readable(str(relation.lhs))} {_SIGNS[relation.func]} {readable(str(relation.rhs))}"
 
 
 def parameter_premise(
@@ -61,17 +102,47 @@ def written_out(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
     return expression
 
 
-Given: TypeAlias = "Mapping[sp.Basic, Any] | Iterable[Premise]"
+Given: TypeAlias = (
+    "Mapping[sp.Basic, Any] | Relational | Premise | Iterable[Premise | Relational | Mapping[sp.Basic, Any]]"
+)
 
 
 def premises_of(given: Given) -> tuple[Premise, ...]:
-    """Premises as they are, or one for each row of a substitution, old → new."""
+    """Premises as they are; one for each relation and for each row of a substitution, old → new.
+
+    Raises InputError for what is none of these. A relation that sympy finds true by itself is left out; of one that it finds
+    false only that is kept.
+    """
+    if isinstance(given, Premise):
+        return (given,)
     if isinstance(given, Mapping):
-        return tuple(Premise(f"{readable(str(old))} = {readable(str(new))}", {old: new}) for old, new in given.items())
-    return tuple(given)
+        return tuple(premise for row in given.items() for premise in _of_row(*row))
+    if isinstance(given, Relational | bool) or given in (sp.true, sp.false):
+        return _of_relation(given)
+    if isinstance(given, sp.Basic | str) or not isinstance(given, Iterable):
+        raise InputError(f"given: {given!r} is no premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise")
+    return tuple(premise for each in given for premise in premises_of(each))
 
 
-def subsets(premises: tuple[Premise, ...]) -> Iterator[tuple[Premise, ...]]:
-    """Every choice of premises, fewest first: the first under which an equation holds is what it needs."""
-    for size in range(len(premises) + 1):
-        yield from combinations(premises, size)
+def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
+    if isinstance(old, Relational) and new in (True, False, sp.true, sp.false):
+        return _of_relation(old if new in (True, sp.true) else sp.Not(old))
+    if isinstance(old, sp.MatrixBase):
+        right = sp.sympify(new)
+        if getattr(right, "shape", None) != old.shape:
+            raise InputError(f"given: {old} and {new} differ in shape: nothing says which entries are equal")
+        return (Premise(_equated(old, right), dict(zip(old, right, strict=True))),)
+    left, right = (sp.sympify(side, strict=True) for side in (old, new))
+    return (Premise(_equated(left, right), {left: right}),)
+
+
+def _of_relation(relation: Any) -> tuple[Premise, ...]:
+    if relation in (True, sp.true):
+        return ()
+    if relation in (False, sp.false):
+        return (Premise("a relation that the assumptions of its letters exclude", {sp.S.Zero: sp.S.One}),)
+    if isinstance(relation, sp.And):
+        return tuple(premise for part in relation.args for premise in _of_relation(part))
+    if not isinstance(relation, Relational):
+        raise InputError(f"given: {relation} is no single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
+    return (Premise(relation_text(relation), where=(relation,)),)

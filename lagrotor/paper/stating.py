@@ -11,12 +11,14 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, ProofError
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.form import Form
+from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.letters import Letters, Line, components
 from lagrotor.paper.premises import Premise, written_out
 from lagrotor.paper.proof import Formula
-from lagrotor.paper.verdicts import Relation, Side, Statement
+from lagrotor.paper.verdicts import Relation, Series, Side, Statement
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,18 @@ class Stated:
 
     def _repr_latex_(self) -> str:
         rows = self.derived.items() if isinstance(self.derived, Mapping) else [("", self.derived)]
-        lines = [Formula(sp.sympify(right), name).tex for name, right in rows if right is not None]
+        lines = [Formula(_expression(right), name).tex + _rest(right) for name, right in rows if right is not None]
         return r"$\displaystyle " + r" \quad ".join([rf"\text{{{self.id}, as derived:}}", *lines]) + "$"
+
+
+def _rest(side: Side) -> str:
+    """What is left out of a series, in LaTeX."""
+    return left_out(side.small, side.order) if isinstance(side, Series) else ""
+
+
+def left_out(small: sp.Symbol, order: int) -> str:
+    """+ O(small**(order + 1)), in LaTeX."""
+    return rf" + O\left({latex(small ** (order + 1))}\right)"
 
 
 def verdict(
@@ -56,10 +68,11 @@ def verdict(
     """What the paper prints as `identifier` is to be judged against what was derived under no premise.
 
     derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is
-    given without any premise put in. correction: likewise, what should be printed; it is judged against `derived`, which
-    may hold quantities besides the printed ones. uses: ids of equations that this one rests on, or what was stated of them,
-    which gives the letters that are defined there their derived meaning. written: what was derived, as a physicist writes
-    it; a correction may be given as a form too. It is checked against the paper when it is judged.
+    given without any premise put in, as a `Series` where it is known through some order only. correction: likewise, what
+    should be printed; it is judged against `derived`, which may hold quantities besides the printed ones. uses: ids of
+    equations that this one rests on, or what was stated of them, which gives the letters that are defined there their derived
+    meaning. written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked
+    against the paper when it is judged.
     """
     return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written)
 
@@ -82,9 +95,10 @@ def statement(stated: Stated, catalogue: Catalogue) -> Statement:
     if not lines:
         raise InputError(f"verdict: {stated.id} has no printed line to be judged: write it as an [[equation.line]]")
     meanings = _defined_elsewhere(entry, stated, catalogue)
+    known = _known(stated.derived, entry)
     forms = _forms(entry, lines, derived, stated, letters)
     relations = [
-        replace(relation, **forms.get(line.quantity, {}))
+        replace(relation, known=known.get(line.quantity), **forms.get(line.quantity, {}))
         for line in lines
         if not line.names
         for relation in _relations(stated.id, line, derived, meanings, catalogue.written_out)
@@ -93,7 +107,7 @@ def statement(stated: Stated, catalogue: Catalogue) -> Statement:
         stated.id,
         tuple(relations),
         stated.premises,
-        tuple(_corrected(entry, lines, derived, _named(stated.correction, entry), letters)),
+        tuple(_corrected(entry, lines, derived, known, _named(stated.correction, entry), letters)),
         stated.wrong,
         names,
         entry.measured,
@@ -121,7 +135,17 @@ def _defined_elsewhere(entry: Equation, stated: Stated, catalogue: Catalogue) ->
 
 
 def _by_quantity(given: Side | Mapping[str, Side], entry: Equation) -> dict[str, Side]:
-    return {name: sp.sympify(value) for name, value in _named(given, entry).items()}
+    return {name: _expression(value) for name, value in _named(given, entry).items()}
+
+
+def _expression(side: Side) -> Side:
+    return sp.sympify(side.expression if isinstance(side, Series) else side)
+
+
+def _known(given: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
+    """Quantities that were derived as series → what is small, and through which order they are known."""
+    sides = _named(given, entry).items()
+    return {name: (side.small, side.order) for name, side in sides if isinstance(side, Series)}
 
 
 def _named(given: Any, entry: Equation) -> dict[str, Any]:
@@ -155,6 +179,7 @@ def _corrected(
     entry: Equation,
     lines: tuple[Line, ...],
     quantities: Mapping[str, Side],
+    known: Mapping[str, tuple[sp.Symbol, int]],
     correction: dict[str, Any],
     letters: Letters,
 ) -> Iterator[Relation]:
@@ -164,8 +189,14 @@ def _corrected(
             raise InputError(f"verdict: {entry.id}: the correction gives {name}, which was not derived")
         line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
         small, order = (line.small, line.order) if line else (None, 0)
-        right, tex = (given.value(letters), given.tex(letters)) if isinstance(given, Form) else (given, "")
-        yield Relation(sp.sympify(right), quantities[name], small, order, None, name, written=tex)
+        if name in known and small is None:
+            small, order = known[name]
+        right, tex = (
+            (given.value(letters), _tex(given, name, known, letters)) if isinstance(given, Form) else (given, "")
+        )
+        yield Relation(
+            _expression(right), quantities[name], small, order, None, name, written=tex, known=known.get(name)
+        )
 
 
 def _forms(
@@ -180,8 +211,14 @@ def _forms(
         granted = needs_premises(sp.sympify(given.value(letters)), quantities[name], stated.premises, scene)
         if granted is None:
             raise ProofError(f"verdict: {entry.id}: {name} = {given.text} is not what was derived")
-        found[name] = {"written": given.tex(letters), "granted": granted}
+        tex = _tex(given, name, _known(stated.derived, entry), letters)
+        found[name] = {"written": tex, "granted": granted}
     return found
+
+
+def _tex(given: Form, name: str, known: Mapping[str, tuple[sp.Symbol, int]], letters: Letters) -> str:
+    """A form as LaTeX, with what is left out where what was derived is a series."""
+    return given.tex(letters) + (left_out(*known[name]) if name in known and not given.rest else "")
 
 
 def needs_premises(
@@ -190,6 +227,5 @@ def needs_premises(
     """Whether a form equals what was derived under the premises only; None where it does not even then."""
     if decide_equal(value, derived).answer == "zero":
         return False
-    for premise in premises:
-        value, derived = premise.on(value), premise.on(derived)
-    return True if decide_equal(value.subs(scene), derived.subs(scene)).answer == "zero" else None
+    under = hypotheses((*premises, Premise("the values that the text gives", scene)) if scene else premises)
+    return True if decide_equal(under.on(value), under.on(derived)).answer == "zero" else None

@@ -8,12 +8,23 @@ import sympy as sp
 
 from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
+from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Table
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
+AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order")
+
+
+@dataclass(frozen=True)
+class Series:
+    """A side of which only the terms through small**order are known: what is compared with it holds to that order at most."""
+
+    expression: Side
+    small: sp.Symbol
+    order: int
 
 
 @dataclass(frozen=True)
@@ -21,8 +32,9 @@ class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
     within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
-    scene: values that the text gives for this line; they are put in last, after the premises. written: LaTeX of the derived
-    side, in a correction of what should be printed, as a physicist writes it; granted: it is equal under the premises only.
+    scene: values that the text gives for this line, a premise of their own. known: the small quantity and the order through
+    which the derived side is known, where it is a series. written: LaTeX of the derived side, in a correction of what should
+    be printed, as a physicist writes it; granted: it is equal under the premises only.
     """
 
     printed: Side
@@ -34,14 +46,18 @@ class Relation:
     scene: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     written: str = ""
     granted: bool = False
+    known: tuple[sp.Symbol, int] | None = None
+
+    @property
+    def scene_premises(self) -> tuple[Premise, ...]:
+        """The values that the text gives for this line, as a premise."""
+        return (Premise("the values that the text gives", self.scene),) if self.scene else ()
 
     def under(self, premises: Iterable[Premise]) -> "Relation":
         """The relation with premises put into both sides; an approximation makes it one between leading terms."""
-        held = self
-        for premise in premises:
-            small = premise.small if premise.small is not None else held.small
-            held = replace(held, printed=premise.on(held.printed), derived=premise.on(held.derived), small=small)
-        return held
+        under = hypotheses(premises)
+        small = under.small[0] if under.small else self.small
+        return replace(self, printed=under.on(self.printed), derived=under.on(self.derived), small=small)
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
@@ -79,9 +95,32 @@ class Statement:
 
 
 @dataclass(frozen=True)
+class LineVerdict:
+    """What was decided of one member of one printed line, or of one line of a correction.
+
+    premises: those that it needs; `order`, `small`: of a series; `domain`: factors that must not vanish. Of what is refuted:
+    `difference`, printed less derived under the premises (of matrices the entry `place`, of series the first coefficient),
+    `witness`, letter → value, a point that satisfies the premises, and `enclosure`, two rationals of one sign between which
+    the difference lies there. reason: why it does not hold, in words.
+    """
+
+    relation: Relation
+    verdict: Answer
+    premises: tuple[Premise, ...] = ()
+    order: int | None = None
+    small: sp.Symbol | None = None
+    domain: tuple[sp.Expr, ...] = ()
+    difference: sp.Expr | None = None
+    place: tuple[int, int] | None = None
+    witness: Mapping[sp.Symbol, Any] | None = None
+    enclosure: tuple[sp.Rational, sp.Rational] | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True)
 class Verdict:
-    """What was decided of one equation. premises: the fewest under which it holds, or, of a refuted one, under which its
-    correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
+    """What was decided of one equation: the weakest of its lines. premises: those under which it holds, or, of a refuted one,
+    under which its correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
 
     `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: not refuted).
     """
@@ -96,6 +135,8 @@ class Verdict:
     evidence: tuple[str, ...]
     seconds: float
     reaches_result: bool | None = None
+    lines: tuple[LineVerdict, ...] = ()
+    correction_lines: tuple[LineVerdict, ...] = ()
 
     @property
     def id(self) -> str:

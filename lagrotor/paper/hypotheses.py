@@ -1,0 +1,356 @@
+"""Premises as one set of hypotheses: their equations solved for letters as far as they are linear, the rest kept as an ideal.
+
+What is decided under a set does not depend on the order or the form of its premises: of all letters that could be eliminated
+the same one is taken first each time, one that a premise replaces before others. Every step is an equivalence, where the
+letters are real and what is divided by is known not to vanish; so a set is contradictory exactly if what is left of it is, and
+a point of what is left satisfies all of it.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError
+from lagrotor.paper.premises import Premise, relation_text
+from lagrotor.paper.readable import readable
+
+_KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
+# Where an inverse function is given, its argument is solved for: its values, and between which numbers they lie.
+_INVERSES: dict[Any, tuple[Any, Any, Any]] = {
+    sp.acos: (sp.cos, sp.S.Zero, sp.pi),
+    sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
+    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2),
+    sp.log: (sp.exp, None, None),
+    sp.asinh: (sp.sinh, None, None),
+    sp.acosh: (sp.cosh, sp.S.Zero, None),
+}
+
+
+@dataclass(frozen=True)
+class Hypotheses:
+    """put: letter → what it is, in the letters that are left. left: expressions that are zero. region: conditions that hold.
+
+    small: the small quantities. contradiction: why no values of the letters satisfy all of it; empty where none was found.
+    """
+
+    put: Mapping[sp.Symbol, sp.Expr]
+    left: tuple[sp.Expr, ...] = ()
+    region: tuple[Relational, ...] = ()
+    small: tuple[sp.Symbol, ...] = ()
+    contradiction: str = ""
+
+    def on(self, side: Any) -> Any:
+        """A side in the letters that are left."""
+        return sp.sympify(side).xreplace(self.put) if self.put else sp.sympify(side)
+
+    @cached_property
+    def signed(self) -> "Hypotheses":
+        """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
+        put, left = dict(self.put), self.left
+        for relation in self.region:
+            step = _as_assumption(relation.xreplace(put), self.small)
+            if step is not None:
+                letter, value = step
+                put = {old: new.xreplace({letter: value}) for old, new in put.items()} | {letter: value}
+                left = tuple(e.xreplace({letter: value}) for e in left)
+        region = (relation.xreplace(put) for relation in self.region)
+        return Hypotheses(put, left, tuple(r for r in region if isinstance(r, Relational)), self.small)
+
+    def refined(self, side: Any) -> Any:
+        """A side in which |e| is e, or −e, where a condition gives the sign of e."""
+        side = self.on(side)
+        for relation in self.region:
+            e = relation.gts - relation.lts if isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt) else None
+            if e is not None:
+                side = side.replace(
+                    lambda node, e=e: isinstance(node, sp.Abs) and (node.args[0] - e == 0 or node.args[0] + e == 0),
+                    lambda node, e=e: e,
+                )
+        return side
+
+
+def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hypotheses:
+    """The premises as one set; `kept` is a letter that is eliminated only where no other can be.
+
+    Its `contradiction` says where two of them, or one and a letter's assumptions, exclude each other.
+    """
+    listed = list(premises)
+    small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
+    equations, region = _collected(listed, small)
+    replaced = frozenset(old for p in listed for old in p.put if isinstance(old, sp.Symbol))
+    return _solved(equations, region, small, _Wishes(replaced, kept))
+
+
+class _ContradictionError(Exception):
+    """No values of the letters satisfy the premises."""
+
+
+def _collected(
+    premises: list[Premise], small: tuple[sp.Symbol, ...]
+) -> tuple[frozenset[sp.Expr], frozenset[Relational]]:
+    """Every equation as an expression that is zero, and every condition."""
+    equations: set[sp.Expr] = set()
+    region: set[Relational] = set()
+    for premise in premises:
+        for left, right in premise.equations:
+            a, b = sp.sympify(left), sp.sympify(right)
+            if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
+                raise InputError(f"premise {premise.says!r}: {left!r} = {right!r} is no equation of two expressions")
+            if premise.small is not None and a.is_Symbol and a in b.free_symbols:
+                b = b.xreplace({a: scaled(a, premise.small)})
+            e, conditions = _without_inverse(a - b)
+            equations.add(e)
+            region.update(conditions)
+        region.update(premise.conditions)
+    return frozenset(equations), frozenset(region)
+
+
+def scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
+    """What a letter that is small is of the small quantity."""
+    return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
+
+
+def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, list[Relational]]:
+    """s − acos(g) as g − cos(s) with 0 ≤ s ≤ π; other equations as they are."""
+    for sign in (1, -1):
+        terms = sp.Add.make_args(sp.expand(sign * e))
+        inverse = [t for t in terms if (-t).func in _INVERSES]
+        rest = sp.Add(*(t for t in terms if t not in inverse))
+        if len(inverse) == 1 and rest.is_Symbol:
+            call = -inverse[0]
+            function, low, high = _INVERSES[call.func]
+            between = [
+                r
+                for r in (low is not None and rest >= low, high is not None and rest <= high)
+                if isinstance(r, Relational)
+            ]
+            return call.args[0] - function(rest), between
+    return e, []
+
+
+class _Wishes(NamedTuple):
+    """Which letters are eliminated first where several can be, and which last: for reading only."""
+
+    first: frozenset[sp.Symbol] = frozenset()
+    last: sp.Symbol | None = None
+
+    def __call__(self, step: "_Step") -> tuple[Any, ...]:
+        number, lossy, *rest = step.rank
+        return step.letter == self.last, number, lossy, step.letter not in self.first, *rest
+
+
+# A set is looked at again for each premise that may be left out of it, and for each line.
+@lru_cache(maxsize=512)
+def _solved(
+    equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
+) -> Hypotheses:
+    try:
+        return _solved_or_not(equations, region, small, wishes)
+    except _ContradictionError as found:
+        return Hypotheses({}, small=small, contradiction=str(found))
+
+
+def _solved_or_not(
+    equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
+) -> Hypotheses:
+    put: dict[sp.Symbol, sp.Expr] = {}
+    conditions = sorted(region, key=sp.default_sort_key)
+    strict = sp.Ne | sp.StrictGreaterThan | sp.StrictLessThan
+    units = {*small, *(r.lhs - r.rhs for r in conditions if isinstance(r, strict))}
+    for e in equations:
+        units.update(factor for factor, _ in _factor_list(_denominator(e)))
+    waiting = sorted(equations, key=sp.default_sort_key)
+    while True:
+        steps = [step for e in waiting for step in _plain_steps(e, small)]
+        if not steps:
+            known = _with_signs(u.xreplace(put) for u in units)
+            waiting = list(dict.fromkeys(e for each in waiting if (e := _reduced(each, known)) is not None))
+            steps = [step for e in waiting for step in _steps(e, small, known)]
+        if not steps:
+            break
+        letter, value = min(steps, key=wishes)[1:]
+        conditions += _own_conditions(letter, value)
+        put = {old: new.xreplace({letter: value}) for old, new in put.items()} | {letter: value}
+        waiting = [e for each in waiting if (e := each.xreplace({letter: value})) != 0]
+    return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put)), small)
+
+
+def _denominator(e: sp.Expr) -> sp.Expr:
+    return sp.Mul(*(term.as_numer_denom()[1] for term in sp.Add.make_args(e)))
+
+
+def _with_signs(expressions: Iterable[sp.Expr]) -> frozenset[sp.Expr]:
+    """Each expression and its opposite, expanded; what is not a number."""
+    return frozenset(sp.expand(sign * e) for e in expressions if not e.is_number for sign in (1, -1))
+
+
+@lru_cache(maxsize=2048)
+def _reduced(e: sp.Expr, units: frozenset[sp.Expr]) -> sp.Expr | None:
+    """An equation without factors that do not vanish; None where it holds by itself."""
+    if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+        raise _ContradictionError("a denominator becomes 0")
+    factors: dict[sp.Expr, None] = {}
+    for factor, _ in _factor_list(sp.together(e).as_numer_denom()[0]):
+        if not _does_not_vanish(factor, units):
+            factors[factor] = None
+    kept = sp.expand(sp.Mul(*factors))
+    if kept.is_number or decide_zero(kept).answer == "zero":
+        if not factors or (kept != 0 and decide_zero(kept).answer != "zero"):
+            raise _ContradictionError(f"{readable(str(e))} is not 0")
+        return None
+    return min(kept, sp.expand(-kept), key=sp.default_sort_key)
+
+
+def _does_not_vanish(e: sp.Expr, units: frozenset[sp.Expr]) -> bool:
+    return bool(e in units or e.is_nonzero or e.is_positive or e.is_negative or sp.expand(e) in units)
+
+
+def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
+    try:
+        number, factors = sp.factor_list(e)
+        return factors or [(number, 1)]
+    except sp.PolynomialError:
+        return [(e, 1)]
+
+
+class _Step(NamedTuple):
+    """A letter that an equation gives, and its value; of all steps that of the lowest rank is taken."""
+
+    rank: tuple[Any, ...]
+    letter: sp.Symbol
+    value: sp.Expr
+
+
+@lru_cache(maxsize=2048)
+def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
+    """Those of letters that stand in a term by themselves, with a number before them, and nowhere else in the equation."""
+    terms, found = sp.Add.make_args(e), []
+    for term in terms:
+        number, letter = term.as_coeff_Mul()
+        if letter.is_Symbol and letter not in small and all(t is term or letter not in t.free_symbols for t in terms):
+            found.append(_step(letter, -(e - term) / number))
+    return tuple(found)
+
+
+@lru_cache(maxsize=2048)
+def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], units: frozenset[sp.Expr]) -> tuple[_Step, ...]:
+    """Those of letters that an equation is linear in, their coefficient known not to vanish."""
+    found = []
+    for letter in e.free_symbols - set(small):
+        coefficient = sp.expand(e.diff(letter))
+        if coefficient.has(letter, sp.Derivative, sp.Subs):
+            continue
+        if not (coefficient.is_number or all(_does_not_vanish(f, units) for f, _ in _factor_list(coefficient))):
+            continue
+        rest = sp.expand(e.xreplace({letter: sp.S.Zero}))
+        if not rest.has(sp.nan, sp.zoo, sp.oo) and (rest == 0 or not coefficient.free_symbols & set(small)):
+            found.append(_step(letter, sp.cancel(-rest / coefficient)))
+    return tuple(found)
+
+
+def _step(letter: sp.Symbol, value: sp.Expr) -> _Step:
+    """Numbers first, then values that have the signs that the letter was declared with, then short ones."""
+    lossy = len(_own_conditions(letter, value))
+    return _Step((not value.is_number, lossy, sp.count_ops(value), letter.name, str(value)), letter, value)
+
+
+def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
+    """What the letter's assumptions say of its value, where the value's own do not say it. Raises where they exclude it."""
+    found: list[Relational] = []
+    tests = {
+        "positive": (letter.is_positive, value.is_positive, lambda v: v > 0),
+        "negative": (letter.is_negative, value.is_negative, lambda v: v < 0),
+        "nonnegative": (letter.is_nonnegative, value.is_nonnegative, lambda v: v >= 0),
+        "nonpositive": (letter.is_nonpositive, value.is_nonpositive, lambda v: v <= 0),
+        "nonzero": (letter.is_nonzero, value.is_nonzero, lambda v: sp.Ne(v, 0)),
+        "real": (letter.is_real, value.is_real, None),
+        "integer": (letter.is_integer, value.is_integer, None),
+    }
+    for name, (declared, known, condition) in tests.items():
+        if declared and known is False:
+            raise _ContradictionError(f"{letter} = {value}, and {letter} is declared {name}")
+        if declared and known is None and condition is not None and not found:
+            relation = condition(value)
+            if isinstance(relation, Relational):
+                found.append(relation)
+    return found
+
+
+def _checked(region: list[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> Iterator[Relational]:
+    """The conditions in the letters that are left, each once; raises where they exclude each other."""
+    found: dict[Relational, None] = {}
+    for relation in region:
+        try:
+            there = relation.xreplace(put)
+        except TypeError:
+            raise _ContradictionError(f"{relation_text(relation)} is not real") from None
+        if there == sp.false:
+            raise _ContradictionError(f"{relation_text(relation)} is false")
+        if isinstance(there, Relational):
+            if isinstance(there, sp.Ne) and decide_zero(there.lhs - there.rhs).answer == "zero":
+                raise _ContradictionError(f"{relation_text(relation)} is false")
+            found[there] = None
+    if _is_empty(list(found)):
+        raise _ContradictionError("no values of the letters satisfy " + " and ".join(map(relation_text, found)))
+    yield from found
+
+
+def _is_empty(region: list[Relational]) -> bool:
+    """Whether linear conditions, and the letters' own, exclude each other: Fourier–Motzkin elimination."""
+    rows: list[tuple[sp.Expr, bool]] = []  # expressions that are positive (True) or nonnegative (False)
+    for relation in region:
+        if isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
+            rows.append(
+                (sp.expand(relation.gts - relation.lts), isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan))
+            )
+    letters = set().union(*(e.free_symbols for e, _ in rows)) if rows else set()
+    for letter in letters:
+        sign = 1 if letter.is_nonnegative else -1 if letter.is_nonpositive else 0
+        if sign:
+            rows.append((sign * letter, bool(letter.is_nonzero)))
+    for letter in sorted(letters, key=sp.default_sort_key):
+        with_it = [row for row in rows if row[0].has(letter)]
+        slopes = [sp.expand(e.diff(letter)) for e, _ in with_it]
+        rest = [row for row in rows if not row[0].has(letter)]
+        if not all(slope.is_Rational for slope in slopes):
+            rows = rest  # not linear: what it says is left out, so that less is found empty
+            continue
+        above = [(e / slope, strict) for (e, strict), slope in zip(with_it, slopes, strict=True) if slope > 0]
+        below = [(e / -slope, strict) for (e, strict), slope in zip(with_it, slopes, strict=True) if slope < 0]
+        rows = rest + [(sp.expand(a + b), s or z) for a, s in above for b, z in below]
+        if len(rows) > 200:
+            return False
+    return any(e.is_Rational and (e < 0 or (e == 0 and strict)) for e, strict in rows)
+
+
+def _as_assumption(relation: Any, small: tuple[sp.Symbol, ...]) -> tuple[sp.Symbol, sp.Expr] | None:
+    """A letter and its value by a new letter whose assumption is the condition: x ≥ 1 is x = 1 + u, u nonnegative."""
+    if not isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
+        return None
+    e = sp.expand(relation.gts - relation.lts)
+    strict = isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan)
+    for letter in sorted(e.free_symbols - set(small), key=lambda s: (len(_KINDS) - _declared(s), s.name), reverse=True):
+        slope = sp.expand(e.diff(letter))
+        if not slope.is_Rational or slope == 0 or letter.is_integer:
+            continue
+        kind = {"positive": True} if strict else {"nonnegative": True}
+        rest = sp.expand(e - slope * letter)
+        new = sp.Symbol(letter.name if rest == 0 and slope > 0 else f"({e})", **kind)
+        value = (new - rest) / slope
+        try:
+            if _own_conditions(letter, value):
+                continue
+        except _ContradictionError:
+            continue
+        return letter, sp.expand(value)
+    return None
+
+
+def _declared(s: sp.Symbol) -> int:
+    """How many signs the letter was declared with: those with none are taken first."""
+    return sum(bool(getattr(s, f"is_{kind}")) for kind in _KINDS)

@@ -1,0 +1,98 @@
+"""What refutes under hypotheses: a point that satisfies them, at which an enclosure keeps the two sides apart."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, TypeAlias
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from lagrotor.algebra.enclosed_roots import enclosed_root
+from lagrotor.algebra.enclosures import Enclosure, enclosure
+from lagrotor.algebra.evidence import points
+from lagrotor.paper.hypotheses import Hypotheses
+
+Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
+_POINTS = 40
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A point, and two rationals of one sign between which the difference of the two sides lies there."""
+
+    point: Values
+    enclosure: Enclosure
+
+
+def witness(difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero) -> Witness | None:
+    """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found."""
+    signed = under.signed
+    e = signed.on(difference)
+    for values in _points(e, signed):
+        between = enclosure(e, values)
+        if between is not None and (between[0] > beyond or between[1] < -beyond):
+            return Witness(_of_letters(difference, under, signed, values), between)
+    return None
+
+
+def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
+    """Points of the letters that are left which satisfy all that the hypotheses say."""
+    letters = e.free_symbols.union(*(x.free_symbols for x in (*signed.left, *signed.region)))
+    for at in islice(points(letters, _POINTS), _POINTS):
+        values: Values = dict(at)
+        if signed.left:
+            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed)) else None
+            if box is None:
+                continue
+            values |= box
+        if _as_declared(values) and all(_satisfied(relation, values) for relation in signed.region):
+            yield values
+
+
+def _unknowns(signed: Hypotheses) -> list[sp.Symbol]:
+    """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
+    found: list[sp.Symbol] = []
+    for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
+        free = sorted(e.free_symbols - set(found) - set(signed.small), key=sp.default_sort_key)
+        if not free:
+            return []
+        found.append(free[0])
+    return found
+
+
+def _as_declared(values: Values) -> bool:
+    """Whether the letters that an equation fixes have the signs that they were declared with."""
+    return all(
+        not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
+        for s, v in values.items()
+        if isinstance(v, tuple)
+    )
+
+
+def _satisfied(relation: Relational, values: Values) -> bool:
+    """Whether a condition certainly holds at a point."""
+    between = enclosure(sp.sympify(relation.lhs - relation.rhs), values)
+    if between is None:
+        return False
+    low, high = between
+    if isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan):
+        return bool(low > 0 if isinstance(relation, sp.StrictGreaterThan) else high < 0)
+    if isinstance(relation, sp.GreaterThan | sp.LessThan):
+        return bool(low >= 0 if isinstance(relation, sp.GreaterThan) else high <= 0)
+    return bool(low > 0 or high < 0)
+
+
+def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
+    """The point in the letters of the statement: what was eliminated has its value, too."""
+    exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
+    found: Values = {}
+    for letter in sorted(difference.free_symbols | set(under.put), key=sp.default_sort_key):
+        value = signed.on(letter)
+        if value in values:
+            found[letter] = values[value]
+        elif value.free_symbols <= set(exact):
+            found[letter] = value.xreplace(exact)
+        elif (between := enclosure(value, values)) is not None:
+            found[letter] = between
+    return found
