@@ -22,10 +22,10 @@ from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
 # $x_1 : x_2 = 1 : 1$ and $y_1 : y_2 = 1 : -1$. What is left of the largest motion must be below 10⁻³. Equal spins have neither:
 # their axes precess together, and it is the twist that turns steadily.
 #
-# Equation 6.01 prints the same sentence and is judged under the same condition:
+# Two modes are counted under a condition; of modes of oscillation, which equation 6.01 prints, there is one:
 
 # %%
-Remark("Condition", TWO_MODES.says)
+Remark("Condition", TWO_MODES)
 
 # %%
 C24

@@ -104,9 +104,10 @@ prove(
 # These are the premises of the paper's lines. The exact pair does not keep the first for any but equal spins.
 
 # %%
-parallel = Premise(
-    "the axes are parallel at all times, r̂₁ = r̂₂",
-    {**dict(zip(f, f_parallel, strict=True)), **together},
+parallel = Premise("the axes are parallel, r̂₁ = r̂₂, and so are their accelerations", together)
+turning_alike = Premise(
+    "they stay parallel: f has the value with which both axes turn alike, but for a part along r",
+    dict(zip(f, f_parallel, strict=True)),
     broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
 )
 slow = Premise(
@@ -114,7 +115,7 @@ slow = Premise(
     dict.fromkeys(a_1, sp.S.Zero),
     broken=rotors["slow_force"](omega_1).broken,
 )
-premises = [parallel, slow, massless_link]
+premises = [parallel, turning_alike, slow, massless_link]
 
 # %%
 verdict(

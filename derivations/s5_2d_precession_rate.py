@@ -18,7 +18,7 @@ from lagrotor.pair.notation import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b,
 from lagrotor.paper import Premise, Remark, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.letters import rate as moving
-from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.ansatz_premises import no_bar_force, opposite_azimuths, opposite_spin_angles
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS
 from lagrotor.theory.natural_frequency import natural_frequency
@@ -48,10 +48,11 @@ prove(rate, (2 * A - B * S) / (2 * tilting - I3 * S**2), "the rate from the two 
 on_pair = {s.id: s for s in PAPER.stated("s5_2c_first_integrals")}
 massless = natural_rate(Scene(spins=(10, -10)))
 heavy = natural_rate(Scene(spins=(10, -10), link=Link(mass=1, inertia=1)))
+kept_rates = {name: on_pair[i].derived[name] for i, name in (("5.12", r"\dot A"), ("5.13", r"\dot B"))}
 verdict(
     "5.15",
-    phi_v,
-    premises=[MASSLESS_BAR, EQUAL_INERTIAS, opposite_azimuths(), opposite_spin_angles()],
+    {r"\dot\phi": phi_v, **kept_rates},
+    premises=[MASSLESS_BAR, EQUAL_INERTIAS, opposite_azimuths(), opposite_spin_angles(), no_bar_force()],
     uses=[on_pair["5.12"], on_pair["5.13"], "5.14"],
     evidence=[
         "The rest state θ₁ = θ₂ = 0 is a singular point of the formula, where its numerator vanishes too.",
@@ -60,11 +61,15 @@ verdict(
         f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
         "with the bar of section 4.1.",
     ],
-    written=form(
-        "(2*A - B*(cos(theta_1) + cos(theta_2)))/(I_3*(4 - (cos(theta_1) + cos(theta_2))**2))",
-        A=on_pair["5.12"].derived["A"],
-        B=on_pair["5.13"].derived["B"],
-    ),
+    written={
+        r"\dot\phi": form(
+            "(2*A - B*(cos(theta_1) + cos(theta_2)))/(I_3*(4 - (cos(theta_1) + cos(theta_2))**2))",
+            A=on_pair["5.12"].derived["A"],
+            B=on_pair["5.13"].derived["B"],
+        ),
+        r"\dot A": form("0"),
+        r"\dot B": form("0"),
+    },
 )
 
 # %% [markdown]

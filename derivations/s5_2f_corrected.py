@@ -206,11 +206,11 @@ verdict(
     {r"\dot\phi": varied, r"\Omega/\Omega_0": Series(frequency, r0, 3)},
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=rates_written,
-    wrong="The derivatives are multiplied where they should be subtracted, and the rate does depend on the amplitude.",
+    wrong="The derivatives are multiplied where they should be subtracted.",
     uses=["5.15", "5.20"],
     evidence=[
         "The printed product of derivatives should be their difference, which is zero: the last line follows by two errors "
-        "that cancel. What it varies is an identity, not the rate.",
+        "that cancel. What it varies is an identity, not the rate; the rate of the orbit does change with the amplitude.",
         f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
         f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
     ],

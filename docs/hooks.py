@@ -38,8 +38,8 @@ def heavy_top() -> str:
     """The second paper: what it is, its equations as printed with the verdicts on record, and a derivation."""
     folder = ROOT / "papers/heavy_top"
     rows = tomllib.loads((folder / "equations.toml").read_text(encoding="utf-8"))["equation"]
-    recorded = json.loads((folder / "recorded.json").read_text(encoding="utf-8"))
-    verdicts = {i: row if isinstance(row, str) else row["verdict"] for i, row in recorded.items()}
+    recorded = tomllib.loads((folder / "recorded.toml").read_text(encoding="utf-8"))
+    verdicts = {i: row["verdict"] for i, row in recorded.items()}
     lines = [f"| {row['id']} | {row['title']} | `{row['latex']}` | {verdicts[row['id']]} |" for row in rows]
     table = "\n".join(["| | equation | as printed | verdict |", "|---|---|---|---|", *lines])
     script = (folder / "derivations/s2_precession.py").read_text(encoding="utf-8")

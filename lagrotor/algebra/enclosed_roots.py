@@ -11,11 +11,11 @@ import sympy as sp
 from mpmath import mp
 
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.enclosures import Enclosure, enclosure
+from lagrotor.algebra.enclosures import Bounds, enclosure
 from lagrotor.algebra.evidence import Point
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
-Box = dict[sp.Symbol, Enclosure]
+Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
@@ -74,12 +74,12 @@ def _near(
     return None
 
 
-def _times(a: Enclosure, b: Enclosure) -> Enclosure:
+def _times(a: Bounds, b: Bounds) -> Bounds:
     ends = [x * y for x in a for y in b]
     return min(ends), max(ends)
 
 
-def _sum(parts: Iterable[Enclosure]) -> Enclosure:
+def _sum(parts: Iterable[Bounds]) -> Bounds:
     low, high = sp.S.Zero, sp.S.Zero
     for a, b in parts:
         low, high = low + a, high + b

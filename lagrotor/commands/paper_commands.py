@@ -266,7 +266,7 @@ def audit_command(given: argparse.Namespace) -> int:
         say(f"{_some(files, 'certificate')} in {given.certify}; to check: lagrotor certify {given.certify}", 0)
     if given.record:
         return say(f"put on record in {paper.renew_record(shown)}", 0)
-    changes = paper.changes({v.id: v.verdict for v in shown}, identifiers or paper.equations)
+    changes = paper.changes(shown, identifiers or paper.equations)
     return _say_changes(changes, bool(paper.recorded))
 
 
@@ -327,7 +327,7 @@ def claims_command(given: argparse.Namespace) -> int:
         say(f"not yet tested: {', '.join(untested)}", 0)
     if given.record:
         return say(f"put on record in {paper.renew_record(results)}", 0)
-    changes = paper.changes({r.test.id: r.finding.outcome for r in results}, [i for i in paper.claims if i in wanted])
+    changes = paper.changes(results, [i for i in paper.claims if i in wanted])
     return _say_changes(changes, bool(paper.recorded))
 
 

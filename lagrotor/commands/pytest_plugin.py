@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
+    from lagrotor.paper.claim_tests import Result
     from lagrotor.paper.papers import Paper
+    from lagrotor.paper.verdicts import Verdict
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -47,23 +49,24 @@ class RecordedAnswer(pytest.Item):
 
     def runtest(self) -> None:
         """Judge the equation, or test the claim."""
-        row = self.paper.recorded.get(self.name)
-        before = row.verdict if row else "nothing"
-        answer, why = self._answer_now()
-        if answer != before:
-            raise ChangedError(f"{self.name}: recorded {before}, found {answer}\n{why}")
+        found, why = self._found()
+        changes = self.paper.changes([found] if found else [], [self.name])
+        if not self.paper.recorded:
+            changes = [f"{self.name}: nothing is on record: lagrotor audit --record and lagrotor claims --record"]
+        if changes:
+            raise ChangedError("\n".join([*changes, why]))
 
-    def _answer_now(self) -> tuple[str, str]:
-        """The verdict as it is now, and why."""
+    def _found(self) -> "tuple[Verdict | Result | None, str]":
+        """What is found now, and why."""
         from lagrotor.paper.verdict_text import in_words
 
         if self.name in self.paper.scripts.stating:
             verdict = self.paper.audit(self.name)
-            return verdict.verdict, "\n".join((in_words(verdict, self.paper), *verdict.evidence))
+            return verdict, "\n".join((in_words(verdict, self.paper), *verdict.evidence))
         if self.name in self.paper.claim_tests:
-            finding = self.paper.measured(self.name).finding
-            return finding.outcome, finding.explanation
-        return "nothing", "no derivation states it and no claim's test shows it"
+            result = self.paper.measured(self.name)
+            return result, result.finding.explanation
+        return None, "no derivation states it and no claim's test shows it"
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
         """The reason alone; of an error of the package its message."""

@@ -168,7 +168,8 @@ class Catalogue:
     @property
     def data(self) -> list[Path]:
         """The files that every verdict rests on: the TOML files and the letters."""
-        return sorted(file for file in self.folder.iterdir() if file.suffix == ".toml" or file.name == "symbols.py")
+        names = (*(f"{name}.toml" for name in ("paper", "equations", "claims", "figures")), "symbols.py")
+        return sorted(file for name in names if (file := self.folder / name).is_file())
 
     @cached_property
     def _equations_toml(self) -> dict[str, Any]:

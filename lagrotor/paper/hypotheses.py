@@ -139,7 +139,8 @@ class _Wishes(NamedTuple):
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
 
-    def __call__(self, step: "_Step") -> tuple[Any, ...]:
+    def rank(self, step: "_Step") -> tuple[Any, ...]:
+        """The lowest is taken."""
         number, lossy, *rest = step.rank
         return step.letter == self.last, number, lossy, step.letter not in self.first, *rest
 
@@ -173,7 +174,7 @@ def _solved_or_not(
             steps = [step for e in waiting for step in _steps(e, small, known)]
         if not steps:
             break
-        letter, value = min(steps, key=wishes)[1:]
+        letter, value = min(steps, key=wishes.rank)[1:]
         conditions += _own_conditions(letter, value)
         put = {old: new.xreplace({letter: value}) for old, new in put.items()} | {letter: value}
         waiting = [e for each in waiting if (e := each.xreplace({letter: value})) != 0]
@@ -275,7 +276,7 @@ def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
         if declared and known is False:
             raise _ContradictionError(f"{letter} = {value}, and {letter} is declared {name}")
         if declared and known is None and condition is not None and not found:
-            relation = condition(value)
+            relation = condition(value)  # type: ignore[no-untyped-call]
             if isinstance(relation, Relational):
                 found.append(relation)
     return found

@@ -247,8 +247,6 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
         return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
     if exact.answer == "zero" or on_equations == "zero":
         trivial = _is_zero(derived) and _is_zero(printed) and not _is_zero(relation.printed)
-        if relation.known is not None and small is None:
-            small = relation.known[0]
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
         return _Finding("holds", domain=domain, trivial=trivial)
@@ -268,7 +266,8 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
     """The small quantity that the comparison is about: the premise's, or the line's own."""
     letters = printed.free_symbols | derived.free_symbols
-    return next((s for s in (*under.small, relation.small) if s is not None and s in letters), None)
+    known = relation.known[0] if relation.known else None
+    return next((s for s in (*under.small, relation.small, known) if s is not None and s in letters), None)
 
 
 def _is_zero(side: Any) -> bool:
@@ -327,9 +326,8 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     first = leading_term(terms - terms.xreplace({small: sp.S.Zero}), small, order)
     constant = _constant(terms.xreplace({small: sp.S.Zero}))
     if first.order is not None:
-        reason = (
-            f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {first.coefficient}"
-        )
+        by = readable(str(first.coefficient))
+        reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.order - 1, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
         return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
@@ -368,7 +366,7 @@ def _to_order(
     if first.order is None:
         reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
-    reason = f"first differs at order {first.order} in {name}, by {first.coefficient}"
+    reason = f"first differs at order {first.order} in {name}, by {readable(str(first.coefficient))}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {lead - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None

@@ -10,7 +10,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, overload
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, ProofError
 from lagrotor.files import write_text
 from lagrotor.paper import record
 from lagrotor.paper.audit import Audit
@@ -27,7 +27,7 @@ Progress = Callable[[str], None]
 @dataclass(frozen=True)
 class Paper(Catalogue):
     """A folder with `paper.toml`, `equations.toml`, and, where there are any, `claims.toml`, `figures.toml`, `symbols.py`,
-    `derivations/`, `figures/`, and the record of verdicts, `recorded.json`.
+    `derivations/`, `figures/`, and the record of verdicts, `recorded.toml`.
 
     scripts_in: the folder that holds `derivations/` and `figures/`, where it is another. Raises InputError for a folder
     whose parts do not fit together; the message names the file.
@@ -46,7 +46,7 @@ class Paper(Catalogue):
     @property
     def record_file(self) -> Path:
         """The file of the verdicts on record."""
-        return self.folder / "recorded.json"
+        return self.folder / "recorded.toml"
 
     @property
     def recorded(self) -> dict[str, record.OnRecord]:
@@ -123,8 +123,20 @@ class Paper(Catalogue):
         began = time.perf_counter()
         found = self.statements(stem)
         share = (time.perf_counter() - began) / max(len(found), 1)
-        verdicts = [self._would_be(decide(each, self.glossary)) for each in found]
+        verdicts = [self._would_be(self._decided(each)) for each in found]
         return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
+
+    def _decided(self, statement: Statement) -> Verdict:
+        """The verdict on a statement. Raises ProofError, with file and line, where its correction does not hold."""
+        verdict = decide(statement, self.glossary)
+        if verdict.correction_verdict in ("refuted", "undecided"):
+            stem, line = self.scripts.stating.get(statement.id, ("", 1))
+            wrong = next(each for each in verdict.correction_lines if each.verdict == verdict.correction_verdict)
+            raise ProofError(
+                f"{self.scripts.path('derivations', stem)}:{line}: {statement.id}: its correction is "
+                f"{verdict.correction_verdict}: {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
+            )
+        return verdict
 
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
         """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
@@ -147,10 +159,10 @@ class Paper(Catalogue):
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
-        verdict = self._would_be(decide(next(s for s in self.statements(stem) if s.id == identifier), self.glossary))
+        verdict = self._would_be(self._decided(next(s for s in self.statements(stem) if s.id == identifier)))
         on_record = self.recorded
         answers = {i: row.verdict for i, row in on_record.items()} | {identifier: verdict.verdict}
-        return self._followed(verdict, answers, {i: row.uses for i, row in on_record.items()})
+        return self._followed(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
 
     def _would_be(self, verdict: Verdict) -> Verdict:
         """The verdict; of a reading that its author has not confirmed, what it would be, as evidence only."""
@@ -201,19 +213,17 @@ class Paper(Catalogue):
                 results.append(self.measured(identifier))
         return results
 
-    def changes(self, found: Mapping[str, str], only: Iterable[str] = ()) -> list[str]:
-        """A sentence for each verdict that differs from the one on record, of all ids or of those in `only`."""
+    def changes(self, found: Iterable[Verdict | Result], only: Iterable[str] = ()) -> list[str]:
+        """A sentence for each difference from what is on record, of all ids or of those in `only`."""
         ids = tuple(only) or (*self.equations, *self.claims)
-        return record.changes(found, self.recorded, ids)
+        return record.changes(self._rows_of(found), self.recorded, ids)
+
+    def _rows_of(self, found: Iterable[Verdict | Result]) -> dict[str, record.OnRecord]:
+        return {(r.test.id if isinstance(r, Result) else r.id): record.row_of(r, self.equations) for r in found}
 
     def renew_record(self, found: Iterable[Verdict | Result]) -> Path:
         """Write what was found into the record; what else is on record, of ids that the paper still has, stays."""
-        rows = self.recorded
-        for each in found:
-            if isinstance(each, Result):
-                rows[each.test.id] = record.OnRecord(each.finding.outcome)
-            else:
-                rows[each.id] = record.OnRecord(each.verdict, each.statement.depends_on)
+        rows = self.recorded | self._rows_of(found)
         kept = {i: rows[i] for i in (*self.equations, *self.claims) if i in rows}
         return write_text(self.record_file, record.as_text(kept))
 

@@ -8,8 +8,10 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
 
+_LONGEST = 160  # characters of a formula beyond which it is shown as data only
 _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.Lt: "<"}
 
 
@@ -38,7 +40,11 @@ class Premise:
     @property
     def sentence(self) -> str:
         """What is assumed, and by how much the paper's own scene breaks it."""
-        return f"{self.says} (broken by the paper's own scene: {self.broken})" if self.broken else self.says
+        return self.says + self._breach
+
+    @property
+    def _breach(self) -> str:
+        return f" (broken by the paper's own scene: {self.broken})" if self.broken else ""
 
     @property
     def equations(self) -> tuple[tuple[sp.Basic, Any], ...]:
@@ -57,14 +63,28 @@ class Premise:
 
     @property
     def with_formula(self) -> str:
-        """In words, and then as a formula where the words are not that already."""
-        return self.says if self.formula in ("", self.says) else f"{self.says}: {self.formula}"
+        """In words, then as a formula where the words are not that already, and by how much the paper's own scene breaks it."""
+        formula = self.formula if len(self.formula) <= _LONGEST else f"{len(self.equations)} equations"
+        shown = formula and _letters_of(self.formula) not in _letters_of(self.says)
+        return self.says + (f": {formula}" if shown else "") + self._breach
+
+    @property
+    def tex(self) -> tuple[str, ...]:
+        """Its equations and conditions in LaTeX, where they are few enough to be read."""
+        if len(self.formula) > _LONGEST:
+            return ()
+        sides = [f"{latex(sp.sympify(a))} = {latex(sp.sympify(b))}" for a, b in self.put.items()]
+        return (*sides, *map(latex, self.where))
 
     def on(self, side: Any) -> Any:
         """A side with the substitution made, all rows at once."""
         if all(isinstance(old, sp.Symbol) for old in self.put):
             return side.xreplace({old: sp.sympify(new) for old, new in self.put.items()})
         return side.subs(list(self.put.items()), simultaneous=True)
+
+
+def _letters_of(text: str) -> str:
+    return "".join(text.split())
 
 
 def _equated(left: Any, right: Any) -> str:

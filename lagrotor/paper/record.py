@@ -1,51 +1,145 @@
-"""The verdicts on record: what each equation and claim came out as, and which equations each of them uses."""
+"""The verdicts on record, `recorded.toml`: for each equation and claim a block of all that was found, a line or a row an item.
 
+Blocks stand in the order of their ids, so that two authors who judge different equations change different places of the file.
+"""
+
+import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from lagrotor.errors import LagrotorError
+from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.verdicts import LineVerdict, Verdict
 
 
 @dataclass(frozen=True)
 class OnRecord:
-    """The verdict or outcome on record, and the ids of the equations that the equation uses."""
+    """What is on record of an equation or a claim; None where it is not.
+
+    printed: a digest of the print. uses: ids of the equations that the equation uses. premises: in words and as formulas.
+    lines, correction: verdict, order and premises of each member of each line. parts: of a claim, each part and its outcome.
+    """
 
     verdict: str
-    uses: Sequence[str] = ()
+    printed: str | None = None
+    uses: tuple[str, ...] | None = None
+    premises: tuple[str, ...] | None = None
+    domain: tuple[str, ...] | None = None
+    lines: tuple[str, ...] | None = None
+    correction: tuple[str, ...] | None = None
+    parts: tuple[str, ...] | None = None
+
+
+def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
+    """The record of a verdict, or of a claim after its test."""
+    if isinstance(found, Result):
+        return OnRecord(found.finding.outcome, parts=tuple(f"{p.says}: {p.outcome}" for p in found.finding.parts))
+    entry = equations.get(found.id)
+    return OnRecord(
+        found.verdict,
+        digest(entry) if entry else None,
+        tuple(found.statement.depends_on),
+        tuple(f"{premise.says}: {premise.formula}" for premise in found.premises),
+        tuple(sorted(f"{factor} != 0" for factor in found.domain)),
+        tuple(map(_line, found.lines)),
+        tuple(map(_line, found.correction_lines)),
+    )
+
+
+def digest(entry: Equation) -> str:
+    """A digest of what the catalogue says is printed."""
+    rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
+    said = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
+    return hashlib.sha256(said.encode()).hexdigest()[:16]
+
+
+def _line(line: LineVerdict) -> str:
+    order = f" through order {line.order} in {line.small}" if line.verdict == "holds-to-order" else ""
+    needs = f" if {'; '.join(premise.says for premise in line.premises)}" if line.premises else ""
+    return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
 
 
 def recorded(file: Path) -> dict[str, OnRecord]:
     """The record by id; empty when there is none yet. Raises LagrotorError for a broken file."""
+    known = {field.name for field in fields(OnRecord)}
     try:
-        rows = json.loads(file.read_text(encoding="utf-8"))
-        return {i: OnRecord(**({"verdict": row} if isinstance(row, str) else row)) for i, row in rows.items()}
+        rows = tomllib.loads(file.read_text(encoding="utf-8"))
+        found = {}
+        for identifier, row in rows.items():
+            if unknown := row.keys() - known:
+                raise ValueError(f"{identifier}: {min(unknown)!r} means nothing here")
+            read: dict[str, Any] = {k: tuple(map(str, v)) if isinstance(v, list) else str(v) for k, v in row.items()}
+            found[identifier] = OnRecord(**read)
+        return found
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise LagrotorError(f"{file} cannot be read ({error!r}): restore it") from None
+        raise LagrotorError(f"{file} cannot be read ({error}): restore it") from None
 
 
-def as_text(found: Mapping[str, OnRecord]) -> str:
-    """A record as JSON, a line for each id: its verdict, with what it uses where it uses something."""
-    rows = (
-        f"{json.dumps(i)}: {json.dumps({'verdict': row.verdict, 'uses': list(row.uses)} if row.uses else row.verdict)}"
-        for i, row in found.items()
-    )
-    return "{\n " + ",\n ".join(rows) + "\n}\n"
+def as_text(rows: Mapping[str, OnRecord]) -> str:
+    """A record as TOML: a block for each id, in their order, and in it a line for each item."""
+    blocks = []
+    for identifier in sorted(rows, key=_in_order):
+        row, lines = rows[identifier], [f"[{_quoted(identifier)}]"]
+        for field in fields(row):
+            value = getattr(row, field.name)
+            if isinstance(value, str):
+                lines.append(f"{field.name} = {_quoted(value)}")
+            elif value:
+                lines += [f"{field.name} = [", *(f"  {_quoted(item)}," for item in value), "]"]
+            elif value is not None:
+                lines.append(f"{field.name} = []")
+        blocks.append("\n".join(lines) + "\n")
+    return "\n".join(blocks)
 
 
-def changes(found: Mapping[str, str], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
-    """A sentence for each of the ids whose verdict differs from the one on record; none where there is no record."""
+def _in_order(identifier: str) -> list[tuple[int, str]]:
+    return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", identifier)]
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def changes(found: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
+    """A sentence for each difference from what is on record of these ids; none where there is no record."""
     if not on_record:
         return []
-    before = {i: row.verdict for i, row in on_record.items()}
-    return [
-        f"{i}: recorded {before.get(i, 'nothing')}, found {found.get(i, 'nothing')}"
-        for i in ids
-        if before.get(i) != found.get(i)
-    ]
+    return [sentence for i in ids for sentence in _changes_of(i, found.get(i), on_record.get(i))]
+
+
+def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) -> list[str]:
+    if now is None or before is None or now.verdict != before.verdict:
+        said = [row.verdict if row else "nothing" for row in (before, now)]
+        return [] if now is before else [f"{identifier}: recorded {said[0]}, found {said[1]}"]
+    different: list[str] = []
+    for field in fields(OnRecord):
+        old, new = getattr(before, field.name), getattr(now, field.name)
+        if old is not None and old != new:
+            different.append(f"{identifier}: {_WORDS[field.name]}: recorded {_said(old)}, found {_said(new)}")
+    return different
+
+
+_WORDS = {
+    "printed": "the print has changed (its digest)",
+    "uses": "the equations that it uses",
+    "premises": "premises",
+    "domain": "domain",
+    "lines": "lines",
+    "correction": "correction",
+    "parts": "parts",
+}
+
+
+def _said(value: Any) -> str:
+    return value if isinstance(value, str) else "; ".join(value or ()) or "nothing"
 
 
 def reaches_result(

@@ -8,8 +8,9 @@ from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.papers import Paper
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.readable import from_latex, readable
-from lagrotor.paper.verdicts import Relation, Verdict
+from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict
 
 
 def in_words(verdict: Verdict, paper: Paper) -> str:
@@ -23,9 +24,12 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows: list[tuple[str, str]] = []
     rows += [("printed", line) for line in _printed(entry)]
     rows += [("wrong", readable(statement.wrong))] if statement.wrong and verdict.verdict == "refuted" else []
+    wrong = [line for line in verdict.lines if line.verdict in ("refuted", "undecided")]
+    rows += [("line", ": ".join(filter(None, (line_text(line), point_text(line))))) for line in wrong]
     rows += [("right", line) for line in _lines(statement.correction)]
+    rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
-    rows += [("if", readable(premise.sentence)) for premise in verdict.premises]
+    rows += [("if", readable(premise.with_formula)) for premise in verdict.premises]
     rows += [("domain", f"{readable(str(factor))} ≠ 0") for factor in verdict.domain]
     if verdict.reaches_result is not None:
         reach = (
@@ -43,12 +47,62 @@ def _printed(entry: Equation) -> list[str]:
     return [" = ".join([from_latex(row["quantity"]), *map(readable, row.get("members", ()))]) for row in entry.line]
 
 
-def _lines(relations: Iterable[Relation]) -> list[str]:
+def line_text(line: LineVerdict) -> str:
+    """What was decided of one member of a line, in plain text, and why."""
+    text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
+    return f"{text}: {line.reason}" if line.reason else text
+
+
+def point_text(line: LineVerdict) -> str:
+    """Where a line was seen to be wrong, in plain text; empty where it is refuted by its order, or not at all."""
+    at = _point(line)
+    shown = [f"{readable(str(s))} = {_signed(value)}" for s, value in at.items()]
+    place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
+    return f"printed − derived{place} is {_signed(_number(line.enclosure))} at {', '.join(shown)}" if at else ""
+
+
+def _signed(number: str) -> str:
+    return from_latex(number).replace("-", "−")
+
+
+def point_tex(line: LineVerdict) -> str:
+    """The same in LaTeX."""
+    at = _point(line)
+    place = rf"_{{{line.place[0] + 1},{line.place[1] + 1}}}" if line.place else ""
+    shown = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
+    gap = rf"\left(\text{{printed}} - \text{{derived}}\right){place}"
+    return rf"{gap} = {_number(line.enclosure)}\quad\text{{at}}\quad {shown}" if at else ""
+
+
+def _point(line: LineVerdict) -> dict[Any, str]:
+    """The letters of the difference with their values, in five digits."""
+    if line.witness is None or line.difference is None or line.relation.within is not None:
+        return {}
+    free = line.difference.free_symbols
+    return {s: _number(value) for s, value in line.witness.items() if s in free}
+
+
+def _number(value: Any) -> str:
+    """A number, or two between which it lies, in five digits."""
+    middle = (value[0] + value[1]) / 2 if isinstance(value, tuple) else value
+    mantissa, _, power = f"{float(middle):.5g}".partition("e")
+    return rf"{mantissa}\times 10^{{{int(power)}}}" if power else mantissa
+
+
+def uncorrected(verdict: Verdict) -> list[Relation]:
+    """The refuted lines of which no correction is given: what was derived of them is shown instead."""
+    right = {relation.quantity for relation in verdict.statement.correction}
+    refuted = (line.relation for line in verdict.lines if line.verdict == "refuted")
+    return [relation for relation in refuted if relation.quantity not in right]
+
+
+def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
     """quantity = expression for each relation, in plain text."""
     found = []
     for relation in relations:
-        rest = f" + O({relation.small}**{relation.claimed + 1})" if relation.small is not None else ""
-        right = from_latex(relation.written) if relation.written else readable(str(relation.printed) + rest)
+        small, order = relation.known or (relation.small, relation.claimed)
+        rest = f" + O({small}**{order + 1})" if small is not None else ""
+        right = from_latex(relation.written) if relation.written else readable(str(getattr(relation, side)) + rest)
         found.append(f"{from_latex(relation.quantity)} = {right}")
     return list(dict.fromkeys(found))
 
@@ -71,18 +125,54 @@ def as_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
         "derived": _sides(statement.relations, "derived"),
         "derived_in": paper.derived_in(entry.id),
         "verdict": verdict.verdict,
-        "premises": [premise.sentence for premise in verdict.premises],
+        "premises": [premise_data(premise) for premise in verdict.premises],
+        "lines": [line_data(line) for line in verdict.lines],
         "order": verdict.order,
         "small": latex(verdict.small) if verdict.small else None,
         "domain": [latex(factor) + r" \neq 0" for factor in verdict.domain],
         "wrong": statement.wrong,
         "correction": _sides(statement.correction, "printed"),
         "correction_verdict": verdict.correction_verdict,
+        "correction_lines": [line_data(line) for line in verdict.correction_lines],
         "depends_on": list(statement.depends_on),
         "reaches_result": verdict.reaches_result,
         "evidence": list(verdict.evidence),
         "seconds": round(verdict.seconds, 4),
     }
+
+
+def premise_data(premise: Premise) -> dict[str, Any]:
+    """A premise as an object: in words; its equations and conditions; what is small; how far the paper's scene breaks it."""
+    put = [f"{left} = {right}" for left, right in premise.equations] + [str(r) for r in premise.conditions]
+    return {
+        "says": premise.says,
+        "put": put,
+        "small": str(premise.small) if premise.small else None,
+        "broken": premise.broken,
+    }
+
+
+def line_data(line: LineVerdict) -> dict[str, Any]:
+    """The verdict on one member of a line as an object; a witness gives each letter's exact value, or two bounds."""
+    ends = line.enclosure
+    return {
+        "quantity": line.relation.quantity,
+        "printed": str(line.relation.printed),
+        "verdict": line.verdict,
+        "premises": [premise.says for premise in line.premises],
+        "order": line.order,
+        "small": str(line.small) if line.small else None,
+        "domain": [f"{factor} != 0" for factor in line.domain],
+        "difference": None if line.difference is None else str(line.difference),
+        "entry": line.place,
+        "witness": None if line.witness is None else {str(s): _exact(value) for s, value in line.witness.items()},
+        "enclosure": None if ends is None else [float(end) for end in ends],
+        "reason": line.reason,
+    }
+
+
+def _exact(value: Any) -> Any:
+    return [str(end) for end in value] if isinstance(value, tuple) else str(value)
 
 
 def waiting(entry: Equation) -> dict[str, Any]:

@@ -164,6 +164,6 @@ def verdict_table(verdicts: Iterable[Verdict]) -> Table:
 def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
-    decided = (v.verdict, *(p.sentence for p in v.premises), order, corrected)
+    decided = (v.verdict, *(p.with_formula for p in v.premises), order, corrected)
     named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
     return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence)))

@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra.enclosed_roots import enclosed_root
-from lagrotor.algebra.enclosures import Enclosure, enclosure
+from lagrotor.algebra.enclosures import Bounds, enclosure
 from lagrotor.algebra.evidence import points
 from lagrotor.paper.hypotheses import Hypotheses
 
@@ -22,7 +22,7 @@ class Witness:
     """A point, and two rationals of one sign between which the difference of the two sides lies there."""
 
     point: Values
-    enclosure: Enclosure
+    enclosure: Bounds
 
 
 def witness(difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero) -> Witness | None:

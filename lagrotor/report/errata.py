@@ -2,16 +2,21 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
-from lagrotor.paper.verdicts import Relation, Statement, Verdict
+from lagrotor.paper.verdict_text import uncorrected
+from lagrotor.paper.verdicts import AGREES, Relation, Verdict
 from lagrotor.report.latex import END, displayed_formula, head, prose, tidy
 
 
 @dataclass(frozen=True)
 class Erratum:
-    """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it."""
+    """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it.
+
+    premises: those under which the correction holds, in words; put: the same in LaTeX.
+    """
 
     id: str
     cited: str
@@ -23,6 +28,8 @@ class Erratum:
     used_by: tuple[str, ...]
     survives: bool
     letters: frozenset[str] = frozenset()
+    premises: tuple[str, ...] = ()
+    put: tuple[str, ...] = ()
 
     @property
     def reach(self) -> str:
@@ -43,7 +50,9 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 cited=entry.cited,
                 title=entry.title,
                 printed=entry.latex,
-                corrected=correction_lines(statement) or tuple(_as_derived(r) for r in statement.relations),
+                corrected=correction_lines(verdict),
+                premises=tuple(premise.sentence for premise in verdict.premises),
+                put=tuple(r",\quad ".join(premise.tex) for premise in verdict.premises if premise.tex),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
@@ -52,22 +61,20 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
             )
 
 
-def correction_lines(statement: Statement) -> tuple[str, ...]:
-    """The correction of an equation in LaTeX, a line for each of its relations."""
-    return tuple(_line(relation.quantity, relation) for relation in statement.correction)
+def correction_lines(verdict: Verdict) -> tuple[str, ...]:
+    """What should be printed, in LaTeX: lines of the correction that hold; of refuted lines without one what was derived."""
+    right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)
+    lines = [_line(relation, relation.printed) for relation in right]
+    return tuple(dict.fromkeys([*lines, *(_line(relation, relation.derived) for relation in uncorrected(verdict))]))
 
 
-def _as_derived(relation: Relation) -> str:
-    """quantity = what was derived, where no correction is given."""
-    return (f"{relation.quantity} = " if relation.quantity else "") + (relation.written or latex(relation.derived))
-
-
-def _line(quantity: str, relation: Relation) -> str:
-    """quantity = expression, up to a power of what is small where the correction is a series."""
+def _line(relation: Relation, side: Any) -> str:
+    """quantity = expression, up to a power of what is small where it is a series."""
+    quantity = f"{relation.quantity} = " if relation.quantity else ""
     if relation.written:
-        return f"{quantity} = {relation.written}"
-    rest = rf" + O({latex(relation.small ** (relation.claimed + 1))})" if relation.small else ""
-    return (f"{quantity} = " if quantity else "") + f"{latex(relation.printed)}{rest}"
+        return f"{quantity}{relation.written}"
+    small, order = relation.known or (relation.small, relation.claimed)
+    return f"{quantity}{latex(side)}" + (rf" + O({latex(small ** (order + 1))})" if small is not None else "")
 
 
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
@@ -104,8 +111,10 @@ def latex_item(e: Erratum) -> str:
     """One item: where it is, what is printed, what it should read, what was wrong."""
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
+    put = " (" + ", ".join(f"${tidy(formula)}$" for formula in e.put) + ")" if e.put else ""
+    granted = f" If {prose('; '.join(e.premises))}{put}." if e.premises else ""
     return (
-        rf"\item \textbf{{{prose(e.cited.capitalize())}}}, {prose(e.title)}. {prose(e.wrong)}{reach}\\"
+        rf"\item \textbf{{{prose(e.cited.capitalize())}}}, {prose(e.title)}. {prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"
     )
 
@@ -119,6 +128,7 @@ def latex_block(e: Erratum) -> str:
             rf"\textbf{{Printed.}} {displayed_formula(e.printed)}",
             rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(displayed_formula, e.corrected)),
             rf"\textbf{{What was wrong.}} {prose(e.wrong)}",
+            *([rf"\textbf{{If:}} {prose('; '.join(e.premises))}", *map(displayed_formula, e.put)] if e.premises else []),
             rf"Used by: {used}. {prose(e.reach).capitalize()}.",
         ]
     )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.verdict_text import line_text, point_tex
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
@@ -27,14 +28,19 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     """What is said of a verdict besides the two formulas; only what applies."""
     statement = verdict.statement
     if verdict.condition:
-        yield Fact("Condition", (verdict.condition,))
+        yield Fact(
+            "Condition", (verdict.condition,), sources=tuple(r",\quad ".join(p.tex) for p in verdict.premises if p.tex)
+        )
     if verdict.order is not None and verdict.small is not None:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
         yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
+    if any(line.verdict in ("refuted", "undecided") for line in verdict.lines):
+        points = tuple(filter(None, map(point_tex, verdict.lines)))
+        yield Fact("Lines", tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines)), sources=points)
     if statement.correction:
         answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
-        yield Fact("Correction", (answer,), sources=correction_lines(statement))
+        yield Fact("Correction", (answer,), sources=correction_lines(verdict))
     if verdict.reaches_result is not None:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
     if verdict.evidence:

@@ -143,6 +143,7 @@ def errata_blocks(verdicts: Iterable[Verdict], paper: Paper) -> list[str]:
             _display(e.printed),
             f"Correct ({e.verdict_of_correction}):",
             *map(_display, e.corrected),
+            *([f"If {_prose('; '.join(e.premises))}.", *map(_display, e.put)] if e.premises else []),
             f"Used by: {used}; {e.reach}.",
         ]
     return blocks

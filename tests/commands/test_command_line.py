@@ -25,6 +25,7 @@ from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
 from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
 from lagrotor.paper.readable import readable
+from lagrotor.paper.record import OnRecord, as_text
 from lagrotor.paper.rotor_pair import own_paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
@@ -51,7 +52,7 @@ def paper_in(folder: Path) -> Paper:
     """A paper with one derivation, one figure and nothing on record."""
     for made in (folder, folder / "derivations", folder / "figures"):
         made.mkdir()
-    for file in (*PAPER.folder.glob("*.toml"), PAPER.folder / "symbols.py"):
+    for file in PAPER.data:
         (folder / file.name).write_text(file.read_text(encoding="utf-8"), encoding="utf-8")
     about = (folder / "paper.toml").read_text(encoding="utf-8")
     (folder / "paper.toml").write_text(about.replace(f'"{PAPER.about.model}"', '"stub_model"'), encoding="utf-8")
@@ -102,7 +103,8 @@ def last_report(made_once: Path, work: Path) -> Path:
 
 
 def record(verdicts: dict[str, str]) -> None:
-    own_paper.PAPER.record_file.write_text(json.dumps(verdicts), encoding="utf-8")
+    rows = {identifier: OnRecord(verdict) for identifier, verdict in verdicts.items()}
+    own_paper.PAPER.record_file.write_text(as_text(rows), encoding="utf-8")
 
 
 def found() -> dict[str, str]:
@@ -355,7 +357,8 @@ def test_audit_table_and_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["audit", "5.02", "--json"]) == 0
     (row,) = json.loads(capsys.readouterr().out)
     assert (row["id"], row["verdict"], row["domain"]) == ("5.02", "holds-if", [r"\sin \theta \neq 0"])
-    assert row["premises"][0].startswith("I₁ is read as")
+    assert row["premises"][0]["says"].startswith("I₁ is read as") and row["premises"][0]["put"] == ["I_1 = J"]
+    assert [line["verdict"] for line in row["lines"]] == ["holds-if"]
 
 
 def test_one_equation_is_put_into_words(capsys: pytest.CaptureFixture[str]) -> None:
@@ -370,11 +373,15 @@ def test_what_is_wrong_and_right_is_said(monkeypatch: pytest.MonkeyPatch, capsys
     wrong = Statement("5.02", (Relation(M, R, quantity=r"\dot\phi"),), correction=(line,), wrong="It is another.")
     right = replace(wrong, correction=(replace(line, printed=R + M),))
     assert decide(wrong).correction_verdict == "refuted"
+    monkeypatch.setattr(Paper, "statements", lambda paper, stem: [wrong])
+    assert main(["audit", "5.02"]) == 2
+    assert "5.02: its correction is refuted" in capsys.readouterr().err
     monkeypatch.setattr(Paper, "statements", lambda paper, stem: [right])
     assert main(["audit", "5.02"]) == 0
     out = capsys.readouterr().out
     assert "refuted" in out
     assert "wrong      It is another." in out
+    assert "line       φ̇: refuted: printed − derived is" in out
     assert "right      φ̇ = M + R" in out
     assert "correction holds" in out
 

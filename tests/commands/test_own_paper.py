@@ -118,13 +118,15 @@ def test_each_verdict_on_record_is_a_test_with_the_reason_when_it_changes(
     status, out = plugged_in("--lagrotor", "my-paper")
     assert status == 1 and "1 failed, 1 passed" in out
     assert "1.1: recorded holds-to-order, found refuted" in out
-    assert "first differs at order 1 in theta" in out and "Traceback" not in out
+    assert "first differs at order 1 in θ" in out and "Traceback" not in out
     assert plugged_in("--lagrotor", "nowhere")[0] == 4
 
 
 def test_what_is_on_record_and_no_longer_there_fails(work: Path, plugged_in: Callable[..., tuple[int, str]]) -> None:
     assert main(["init", "my-paper"]) == 0
-    (work / "my-paper" / "recorded.json").write_text('{"1.1": "holds-to-order", "1.2": "holds"}')
+    (work / "my-paper" / "recorded.toml").write_text(
+        '["1.1"]\nverdict = "holds-to-order"\n["1.2"]\nverdict = "holds"\n'
+    )
     _, out = plugged_in("--lagrotor", "my-paper")
     assert "2 failed, 1 passed" in out
     assert "1.2: recorded holds, found nothing" in out

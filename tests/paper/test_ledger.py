@@ -212,18 +212,28 @@ def test_errors_are_followed_to_the_results() -> None:
 
 
 def test_the_record_is_written_and_read_alike(tmp_path) -> None:
-    before, file = PAPER.recorded, tmp_path / "record.json"
+    before, file = PAPER.recorded, tmp_path / "recorded.toml"
     assert recorded(file) == {}
     file.write_text(as_text(before), encoding="utf-8")
-    assert {i: (row.verdict, list(row.uses)) for i, row in recorded(file).items()} == {
-        i: (row.verdict, list(row.uses)) for i, row in before.items()
-    }
-    assert changes({"5.01": "refuted"}, before, ["5.01"]) == [f"5.01: recorded {before['5.01'].verdict}, found refuted"]
+    assert recorded(file) == before
+    assert file.read_text() == PAPER.record_file.read_text()
+    refuted = {"5.01": replace(before["5.01"], verdict="refuted")}
+    assert changes(refuted, before, ["5.01"]) == [f"5.01: recorded {before['5.01'].verdict}, found refuted"]
+
+
+@pytest.mark.parametrize("field", ["printed", "uses", "premises", "domain", "lines", "correction"])
+def test_a_change_of_any_part_of_a_verdict_is_named(field: str) -> None:
+    before = PAPER.recorded
+    assert changes(before, before, before) == []
+    identifier = next(i for i, row in before.items() if getattr(row, field))
+    other = "x" if field == "printed" else (*getattr(before[identifier], field), "x")
+    (said,) = changes(before | {identifier: replace(before[identifier], **{field: other})}, before, before)
+    assert said.startswith(f"{identifier}: ") and "recorded" in said and said.endswith("x")
 
 
 def test_a_record_has_the_promised_keys() -> None:
     row = as_data(verdict_of(x * n, x, premises=(ONE,)), PAPER)
-    assert row["premises"] == ["one of them"]
+    assert row["premises"] == [{"says": "one of them", "put": ["n = 1"], "small": None, "broken": ""}]
     assert as_data(verdict_of(x, x), PAPER)["premises"] == []
     assert {"id", "printed", "derived", "verdict", "premises", "domain", "correction", "reaches_result"} <= row.keys()
 
@@ -231,7 +241,7 @@ def test_a_record_has_the_promised_keys() -> None:
 def test_a_verdict_is_shown_with_what_it_rests_on() -> None:
     held = verdict_of(x * n, x, premises=(Premise("a < b", {n: sp.Integer(1)}),), evidence=("c & <d>",))._repr_html_()
     assert "5.01: " in held
-    assert "holds-if<br>a &lt; b" in held
+    assert "holds-if<br>a &lt; b: n = 1" in held
     assert "c &amp; &lt;d&gt;" in held
     assert "the correction" not in held
     near = decide(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))._repr_html_()

@@ -42,10 +42,8 @@ HEAVY_BAR = about_parameters("the bar is that of section 4.1, m = K = 1", {m: 1,
 LIGHT_BAR_PREMISE = Premise("the bar is that of section 5.2.1, m = 0.01, K = 0.1", LIGHT_BAR)
 EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
 OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
-# What sections 5.2 and 6 call a mode (6.01 and claim C24): 1 where a motion of this kind counts as one, 0 where not.
-TURNING_COUNTS, RESTING_COUNTS = sp.symbols("turning_counts resting_counts", real=True)
-TWO_MODES = Premise(
+# What section 5.2 counts as a mode (claim C24); the conclusion speaks of oscillations, of which there is one (6.01).
+TWO_MODES = (
     "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
-    "displacement of the precession centre, which rests, does not",
-    {TURNING_COUNTS: 1, RESTING_COUNTS: 0},
+    "displacement of the precession centre, which rests, does not"
 )

@@ -19,7 +19,7 @@ _PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
-_NO_DATA = {"recorded.json"}
+_NO_DATA = {"recorded.toml"}
 # Read off the text, since parsing takes ten times as long; what looks like an import or a string and is none does no harm.
 _IMPORT = re.compile(r"^[ ]*(?:from ([\w.]+) import (\([^)]*\)|.*)|import (.*))$", re.MULTILINE)
 _NAME = re.compile(r"[\w.]+")

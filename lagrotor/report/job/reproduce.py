@@ -134,7 +134,6 @@ def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
     derived = [product for product in products.values() if isinstance(product, Derived)]
     verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
     tested = _claim_results(paper, products)
-    answers = {v.id: v.verdict for v in verdicts} | {r.test.id: r.finding.outcome for r in tested}
     drawn = [product for name, product in products.items() if name.startswith("figure ")]
     pictures = [replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in drawn]
     parts = [_part(each, derived, pictures) for each in paper.about.part]
@@ -142,7 +141,7 @@ def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
         paper=paper,
         verdicts=tuple(verdicts),
         pictures=tuple(pictures),
-        changes=tuple(paper.changes(answers)),
+        changes=tuple(paper.changes([*verdicts, *tested])),
         claims=tuple(tested),
         parts=tuple(part for part in parts if part.tables or part.remarks or part.pictures),
         derivations=tuple((each.stem, each.title, each.html) for each in derived),

@@ -52,7 +52,7 @@ def test_a_derivation_reaches_its_modules_and_their_data() -> None:
         "algebra/identity.py",
     } <= found
     assert "paper/rotor_pair/equations.toml" in found
-    assert "paper/rotor_pair/recorded.json" not in found, "the record is compared with, nothing is made from it"
+    assert "paper/rotor_pair/recorded.toml" not in found, "the record is compared with, nothing is made from it"
     assert not any(place.startswith(("models/", "report/", "commands/")) for place in found)
 
 

@@ -108,8 +108,8 @@ def every_formula() -> Iterator[str]:
     for entry in PAPER.equations.values():
         yield from filter(None, [mathml(entry.latex)])
     for stem in PAPER.scripts.names("derivations", "s"):
-        for statement in PAPER.statements(stem):
-            lines = (*derived_lines(statement.relations), *correction_lines(statement))
+        for verdict in PAPER.judged(stem):
+            lines = (*derived_lines(verdict.statement.relations), *correction_lines(verdict))
             yield from filter(None, map(mathml, lines))
 
 

@@ -123,8 +123,8 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         (
             Part(TOPPLING, m["steady_turnings"] == 1 and max(map(abs, slopes)) < DIRECTION),
             Part(PRECESSION, m["oscillations"] == 1 and max(map(abs, waves)) < DIRECTION),
-            # One sentence, one outcome: the condition of equation 6.01.
-            Part(TWO, complete and m["oscillations"] == 2, TWO_MODES.says if complete else ""),
+            # Without the word oscillations, which 6.01 prints, two modes may be counted: section 5.2 does.
+            Part(TWO, complete and m["oscillations"] == 2, TWO_MODES if complete else ""),
         ),
         f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
         f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}, and {m['zero_roots']:.0f} zero "

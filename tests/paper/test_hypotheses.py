@@ -1,0 +1,231 @@
+"""Premises are one set: no order and no form changes what is decided; what decides nothing is named; a refutation has a point."""
+
+from itertools import pairwise, permutations
+
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrotor.errors import InputError
+from lagrotor.paper import Premise, Series, Verdict, judge
+from lagrotor.paper.hypotheses import hypotheses
+from lagrotor.paper.ideal import vanishes_on
+
+I1, I3, J, w, M, m1, m2 = sp.symbols("I_1 I_3 J omega M m_1 m_2", positive=True)
+x, y, z, a, b, c, theta = sp.symbols("x y z a b c theta", real=True)
+
+
+def apart(verdict: Verdict) -> bool:
+    """Whether every refuted line has a point at which an enclosure, or an order at which a coefficient, excludes zero."""
+    for line in verdict.lines:
+        if line.verdict == "refuted" and line.enclosure is not None:
+            low, high = line.enclosure
+            if not (low > 0 or high < 0) or line.witness is None:
+                return False
+    return True
+
+
+@pytest.mark.parametrize("premises", permutations([sp.Eq(J, I3), sp.Eq(I1, J)]))
+def test_two_premises_in_both_orders(premises: tuple[sp.Eq, ...]) -> None:
+    decided = judge(I1 * w, I3 * w, given=premises)
+    assert decided.verdict == "holds-if" and len(decided.premises) == 2
+    assert judge(I1 * w, 2 * I3 * w, given=premises).verdict == "refuted"
+
+
+HOLD = [
+    ((m1 + m2) * x, M * x, {m1 + m2: M}),
+    (a**4 - b**4, a**2 - b**2, {a**2 + b**2: 1}),
+    (sp.cos(2 * x), 2 * c**2 - 1, {sp.cos(x): c}),
+    (sp.sqrt(x**2), x, {x >= 0: True}),
+    (sp.sqrt(x**2), -x, [x < 0]),
+    (sp.sqrt((a - b) ** 2), a - b, [a >= b]),
+    (x, y, [sp.Eq(a * x, a * y), sp.Ne(a, 0)]),
+    (x**2 + y**2, 1, [sp.Eq(x, sp.cos(theta)), sp.Eq(y, sp.sin(theta))]),
+    (sp.sin(theta) ** 2, 1 - c**2, [sp.Eq(c, sp.cos(theta))]),
+    ((a * z - b * c) ** 2 + (a * c + b * z) ** 2, 1, [sp.Eq(a**2 + b**2, 1), sp.Eq(c**2 + z**2, 1)]),
+]
+
+
+@pytest.mark.parametrize(("printed", "derived", "premises"), HOLD)
+def test_a_true_line_holds_under_its_premises_and_a_false_twin_is_refuted(printed, derived, premises) -> None:
+    held = judge(printed, derived, given=premises)
+    assert held.verdict == "holds-if", held.evidence
+    for twin in (printed + sp.Rational(1, 1000), 2 * printed, printed * (1 + a**2)):
+        wrong = judge(twin, derived, given=premises)
+        assert wrong.verdict in ("refuted", "undecided") and apart(wrong)
+    assert judge(printed + sp.Rational(1, 10**20) * (1 + x**2), derived, given=premises).verdict != "holds-if"
+
+
+@pytest.mark.parametrize(("printed", "derived", "premises"), HOLD)
+def test_without_its_premises_it_does_not_hold(printed, derived, premises) -> None:
+    alone = judge(printed, derived)
+    assert alone.verdict != "holds" and apart(alone)
+
+
+def test_a_refuting_point_satisfies_the_premises() -> None:
+    wrong = judge(a**4 - b**4, a**2 - 2 * b**2, given=sp.Eq(a**2 + b**2, 1))
+    point = {s: (v[0] + v[1]) / 2 if isinstance(v, tuple) else v for s, v in wrong.lines[0].witness.items()}
+    assert abs(float((a**2 + b**2 - 1).xreplace(point))) < 1e-15
+    assert abs(float((a**4 - b**4 - a**2 + 2 * b**2).xreplace(point)) - float(wrong.lines[0].enclosure[0])) < 1e-12
+
+
+def forms(left: sp.Expr, right: sp.Expr) -> list[object]:
+    return [
+        sp.Eq(left, right),
+        sp.Eq(right, left),
+        sp.Eq(3 * left - 3 * right, 0),
+        {left: right},
+        Premise("in words", {left: right}),
+        Premise("in words", where=(sp.Eq(left, right),)),
+        [sp.Eq(left, right), sp.Eq(right, left)],
+    ]
+
+
+p, q, r, s, t = letters = sp.symbols("p q r s t", positive=True)
+EQUATIONS = [(p, q), (q, r + s), (s, 2 * t), (r, t), (p + q, 6 * t)]
+LINES = [
+    (p * x, 3 * t * x),
+    (q * x, 3 * t * x),
+    (p * x, q * x + 1),
+    (sp.sqrt(p**2) * x, (r + s) * x),
+    (p * x, 3 * s * x),
+]
+
+
+@settings(max_examples=60)
+@given(st.data())
+def test_order_and_form_of_premises_do_not_change_the_verdict(data: st.DataObject) -> None:
+    chosen = data.draw(st.lists(st.sampled_from(EQUATIONS), unique=True, max_size=5))
+    line = data.draw(st.sampled_from(LINES))
+    plain = judge(*line, given=[sp.Eq(*pair) for pair in chosen])
+    shuffled = data.draw(st.permutations(chosen))
+    other = judge(*line, given=[data.draw(st.sampled_from(forms(*pair))) for pair in shuffled])
+    assert plain.verdict == other.verdict
+    assert apart(plain) and apart(other)
+
+
+@settings(max_examples=40)
+@given(st.lists(st.sampled_from(EQUATIONS), unique=True, max_size=5), st.sampled_from(LINES))
+def test_of_the_premises_that_are_named_none_can_be_left_out(chosen: list, line: tuple) -> None:
+    found = judge(*line, given=[sp.Eq(*pair) for pair in chosen])
+    if found.verdict == "holds-if":
+        assert judge(*line, given=found.premises).verdict == "holds-if"
+        for left_out in found.premises:
+            rest = [premise for premise in found.premises if premise is not left_out]
+            assert judge(*line, given=rest).verdict not in ("holds", "holds-if")
+
+
+@pytest.mark.parametrize(
+    "premises",
+    [
+        [sp.Eq(a, 1), sp.Eq(a, 2)],
+        [sp.Eq(a, 1), sp.Eq(b, a), sp.Eq(b, 2)],
+        [x >= 1, x <= 0],
+        [x > y, y > z, z > x],
+        {w: -1},
+        {m1: -m2},
+        [sp.Eq(m1, -m2)],
+        [sp.Eq(a**2 + b**2, -1)],
+        [sp.Eq(a**2, 1), sp.Eq(a**2, 2)],
+        [sp.Eq(m1, m2), sp.Ne(m1, m2)],
+    ],
+)
+def test_contradictory_premises_are_named_and_decide_nothing(premises: object) -> None:
+    for line in ((x, y), (a * x, a * y), (x, x + 1)):
+        decided = judge(*line, given=premises)
+        assert decided.verdict == "undecided" and "contradict" in decided.evidence[0]
+    assert judge(x, x, given=premises).verdict == "holds"
+
+
+def test_premises_that_leave_no_domain_are_named() -> None:
+    decided = judge(1 / sp.sin(theta), x, given={sp.sin(theta): 0})
+    assert decided.verdict == "undecided" and "contradict" in decided.evidence[0]
+    assert judge(1 / a, x, given={a: 0}).verdict == "undecided"
+
+
+def test_trivial_and_circular_premises_are_named_and_decide_nothing() -> None:
+    for decided, word in (
+        (judge(x * y, 2 * x * y, given={x: 0}), "trivial"),
+        (judge(a, b, given=sp.Eq(b, a)), "circular"),
+    ):
+        assert decided.verdict == "undecided" and decided.evidence[0].startswith(word) and decided.premises == ()
+    assert judge(2 * a, 2 * b, given={a: b}).verdict == "undecided"
+    assert judge(x * a, x * b, given={a: b}).verdict == "holds-if", "x may be anything"
+    both = judge(x * w, x, given=[sp.Eq(x, 0), sp.Eq(w, 1)])
+    assert [premise.says for premise in both.premises] == ["ω = 1"], "not the one under which both sides are 0"
+
+
+@pytest.mark.parametrize(
+    ("printed", "derived", "branch"),
+    [
+        (sp.sqrt(x**2), x, "x ≥ 0"),
+        (sp.sqrt(x**2), -x, "x ≤ 0"),
+        (abs(a - b), b - a, "a − b ≤ 0"),
+        (sp.sqrt(x**2) * y, x * y, "x ≥ 0"),
+    ],
+)
+def test_what_is_true_on_a_branch_holds_if_with_the_branch(printed: sp.Expr, derived: sp.Expr, branch: str) -> None:
+    decided = judge(printed, derived)
+    assert (decided.verdict, decided.condition) == ("holds-if", branch)
+    assert judge(printed, derived + 1).verdict in ("refuted", "undecided")
+
+
+def test_many_premises_take_no_longer_for_being_many() -> None:
+    chain = sp.symbols("s0:17", positive=True)
+    links = [sp.Eq(*pair) for pair in pairwise(chain)]
+    assert len(judge(chain[0] * x, chain[16] * x, given=links).premises) == 16
+    idle = [sp.Eq(s_, 1) for s_ in sp.symbols("u0:12")]
+    assert len(judge(I1 * w, I3 * w, given=[*idle, sp.Eq(I1, J), sp.Eq(J, I3)]).premises) == 2
+
+
+def test_holds_to_order_is_never_vacuous() -> None:
+    wrong = judge(1000 * y * sp.sin(b), a * y, small=y)
+    assert wrong.verdict == "refuted" and "both sides vanish through order 0" in wrong.evidence[0]
+    assert judge(y**9, 2 * y**9, small=y).verdict == "undecided"
+    near = judge(y, sp.sin(y), small=y)
+    assert (near.verdict, near.order) == ("holds-to-order", 2)
+
+
+def test_a_series_holds_to_its_order_at_most() -> None:
+    known = Series(x - x**3 / 6, x, 3)
+    exact = judge(x - x**3 / 6, known)
+    assert (exact.verdict, exact.order) == ("holds-to-order", 3)
+    assert judge(sp.sin(x), known).order == 3
+    assert judge(sp.sin(x), known, small=x, order=5).verdict == "undecided", "what was derived ends before"
+    assert judge(x - x**3 / 5, known, small=x, order=3).verdict == "refuted"
+
+
+def test_each_line_has_its_verdict_and_the_weakest_is_the_equations() -> None:
+    wrong = judge(sp.Matrix([x, y]), sp.Matrix([x, 2 * y]))
+    (line,) = wrong.lines
+    assert (line.verdict, line.place, line.difference) == ("refuted", (1, 0), -y)
+    assert set(line.witness) == {y} and apart(wrong)
+
+
+@pytest.mark.parametrize(
+    "given_", ["x >= 0", x, 3, [sp.Or(x > 0, y > 0)], {sp.ImmutableMatrix([x, y]): sp.Matrix([1, 2, 3])}]
+)
+def test_what_is_no_premise_is_refused(given_: object) -> None:
+    with pytest.raises(InputError, match="given"):
+        judge(x, y, given=given_)
+
+
+def test_an_undecided_line_is_not_refuted_by_leaving_its_premises_out() -> None:
+    half = judge(sp.cos(z / 2), sp.sqrt((1 + x) / 2), given=sp.Eq(z, sp.acos(x)))
+    assert half.verdict in ("holds-if", "undecided")
+
+
+def test_the_set_is_solved_in_one_way() -> None:
+    ways = {
+        tuple(sorted(map(str, hypotheses([Premise("", where=(sp.Eq(*pair),)) for pair in order]).put.items())))
+        for order in permutations(EQUATIONS[:4])
+    }
+    assert len(ways) == 1
+
+
+def test_membership_in_an_ideal_and_its_radical() -> None:
+    assert vanishes_on(a - b, [(a - b) ** 2]) == "zero"
+    assert vanishes_on(a - 1, [x * a - x], [x]) == "zero"
+    assert vanishes_on(a - 1, [x * a - x]) == "nonzero"
+    assert vanishes_on(x, [a**2 - 1, a**2 - 2]) == "nowhere"
