@@ -11,8 +11,7 @@ import sympy as sp
 from mpmath import mp
 
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.enclosures import Bounds, enclosure
-from lagrotor.algebra.evidence import Point
+from lagrotor.algebra.enclosures import Bounds, Point, enclosure
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
 Box = dict[sp.Symbol, Bounds]

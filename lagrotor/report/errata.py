@@ -128,7 +128,11 @@ def latex_block(e: Erratum) -> str:
             rf"\textbf{{Printed.}} {displayed_formula(e.printed)}",
             rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(displayed_formula, e.corrected)),
             rf"\textbf{{What was wrong.}} {prose(e.wrong)}",
-            *([rf"\textbf{{If:}} {prose('; '.join(e.premises))}", *map(displayed_formula, e.put)] if e.premises else []),
+            *(
+                [rf"\textbf{{If:}} {prose('; '.join(e.premises))}", *map(displayed_formula, e.put)]
+                if e.premises
+                else []
+            ),
             rf"Used by: {used}. {prose(e.reach).capitalize()}.",
         ]
     )

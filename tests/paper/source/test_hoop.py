@@ -41,7 +41,7 @@ def test_the_two_misprints_are_found_and_no_other() -> None:
     paper = Paper(HOOP)
     audit = paper.audit()
     assert {v.id for v in audit if v.verdict == "refuted"} == {"4", "7"} and not audit.waiting
-    assert paper.changes({v.id: v.verdict for v in audit}, paper.equations) == []
+    assert paper.changes(audit, paper.equations) == []
 
 
 MISPRINTS = {
