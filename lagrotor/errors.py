@@ -49,6 +49,10 @@ class IntegrationError(LagrotorError, ArithmeticError):
     evaluations: int = 0
 
 
+class NotProved(LagrotorError):  # noqa: N818
+    """A theorem that could not be proved, which does not make it false; the message says how far the proof came."""
+
+
 class LagrotorWarning(UserWarning):
     """A result whose error may exceed the tolerance; the message says what it keeps."""
 

@@ -30,6 +30,7 @@ FLOORS = (
         "models",
         "structures",
         "benchmark",
+        "proved",
     ),
     *("paper", "pictures", "", "report", "commands"),  # "": the face of the package, which hands names on
 )

@@ -62,7 +62,7 @@ def motion_program(system: Equations) -> Generated:
 
     Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
     """
-    stages, a, _ = _accelerations(system)
+    stages, a, _ = constrained_motion(system)
     states = state_symbols(system)
     return generated(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
 
@@ -117,7 +117,7 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     states = (*system.c.q, *system.c.v, t)
     if not set().union(*(e.free_symbols for e in expressions)) & {*system.c.a, *system.multipliers}:
         return generated(states, (), expressions)
-    stages, a, lam = _accelerations(system)
+    stages, a, lam = constrained_motion(system)
     made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
     return generated(states, stages, [e.xreplace(made) for e in expressions])
 
@@ -146,7 +146,7 @@ def depends_on_time(system: Equations) -> bool:
     return any(t in e.free_symbols for e in expressions)
 
 
-def _accelerations(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
+def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """Stages, accelerations and multipliers made of them: of a tree of bodies by its recursion, else from the mass matrix."""
     G = system.rows
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None

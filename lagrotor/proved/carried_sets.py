@@ -1,0 +1,244 @@
+"""Sets carried along a motion without wrapping: Lohner's frames.
+
+A node holds every x(t) that starts in x_0 + L w as
+
+    m + Q s + V w,   V in C + Q S,
+
+m, Q, C exact, s and S balls: m + Q s encloses the motion of the start's middle x_0, V the derivative by w over the whole
+set, so that the mean-value theorem gives the rest. A step with image y of m and derivative D of the set gives
+
+    m₁ + Q₁ s₁ ∋ y + D Q s,   C₁ + Q₁ S₁ ∋ D (C + Q S),
+
+where Q₁ is orthogonal nearly and its inverse is enclosed. Lohner 1992; Zgliczyński, C¹-Lohner algorithm, 2002.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil, log10
+from typing import Any
+
+import numpy as np
+
+from lagrotor.errors import NotProved
+from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, radius, upper
+from lagrotor.proved.stepping import SLACK, Motion, derivative_of_step, scaled, taylor, with_rest
+from lagrotor.proved.tails import TailError, max_of
+
+SHORTEST = 1e-2  # of the step that the middle's Taylor terms allow: a set that needs a shorter one is too wide
+MOST = 20_000  # steps
+_SHORTER, _LONGER = 0.7, 1.2
+_WIDER = 2**-9  # of a set's size, added at each node
+_WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
+_SLOPE_TERMS = 0.85  # of the series' terms, for derivatives: they multiply what is small already
+
+
+@dataclass(frozen=True)
+class Node:
+    """The set at one time: m + Q s + (C + Q S) w; t, m, Q, C exact."""
+
+    t: Ball
+    m: Balls
+    Q: Matrix
+    s: Balls
+    C: Matrix
+    S: Matrix
+
+    @property
+    def middle(self) -> Balls:
+        """Where the motion of the start's middle is."""
+        return column(self.Q * vector(self.s) + vector(self.m))
+
+    @property
+    def derivative(self) -> Matrix:
+        """The derivative by the start, over the whole set."""
+        return self.C + self.Q * self.S
+
+    def box(self, w: Balls) -> Balls:
+        """Where every motion is that starts in x_0 + w."""
+        return [a + b for a, b in zip(self.middle, column(self.derivative * vector(w)), strict=True)]
+
+
+@dataclass(frozen=True)
+class Step:
+    """From `node` over the time h by n Taylor terms, of which the derivative takes `slope_terms`, to `end`."""
+
+    node: Node
+    h: Ball
+    n: int
+    slope_terms: int
+    end: Node
+
+
+def vector(values: Balls) -> Matrix:
+    """A column."""
+    return arb_mat(len(values), 1, values)
+
+
+def column(matrix: Matrix) -> Balls:
+    """A column's entries."""
+    return matrix.entries()
+
+
+def identity(size: int) -> Matrix:
+    """The unit matrix."""
+    return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+
+
+@dataclass(frozen=True)
+class Start:
+    """Every x_0 + L w: middle x_0, of which rounding may leave a ball; spread w; L exact, the unit matrix unless given."""
+
+    middle: Balls
+    spread: Balls
+    skew: Matrix | None = None
+
+    @property
+    def node(self) -> Node:
+        """The set at the time 0."""
+        size = len(self.middle)
+        m = [exact(x) for x in self.middle]
+        off = [x - y for x, y in zip(self.middle, m, strict=True)]
+        L = identity(size) if self.skew is None else self.skew
+        return Node(arb(0), m, identity(size), off, L, arb_mat(size, size))
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """tol: what one step may leave out, relative to the state's size; it sets the series' length and Arb's precision."""
+
+    tol: float
+
+    @property
+    def terms(self) -> int:
+        """Of the Taylor series."""
+        return max(8, ceil(-1.15 * log10(self.tol)) + 4)
+
+    @property
+    def slope_terms(self) -> int:
+        """Of the derivative's series."""
+        return max(8, ceil(_SLOPE_TERMS * self.terms))
+
+    @property
+    def bits(self) -> int:
+        """Arb's precision."""
+        return ceil(-log10(self.tol) * 3.33) + 40
+
+
+def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: int, rows: Any = None) -> Step:
+    """The step of length h. Raises TailError where its rest is not bounded."""
+    rows = taylor(motion, node.m, n) if rows is None else rows
+    rests, _ = with_rest(motion, at := scaled(rows, h, n), node.m, h, n)
+    image = [
+        sum(row, arb(0)) + arb(0, (SLACK * rest).abs_upper()) for row, rest in zip(at, rests, strict=True)
+    ] + node.m[motion.moving :]
+    D = derivative_over(motion, node.m, node.box(w), at, h, slope_terms)
+    return Step(node, h, n, slope_terms, carried(node, h, image, D, frame(D * node.Q, node)))
+
+
+def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ball, n: int) -> Matrix:
+    """The derivative of the step over a box around m, of which `at` are the scaled Taylor terms.
+
+    Over a wide box the terms are taken a second time by the mean-value theorem, from those of m and their derivatives.
+    """
+    wide = scaled(taylor(motion, box, n), h, n)
+    off = [x - y for x, y in zip(box, m, strict=True)]
+    _, evaluation = with_rest(motion, wide, box, h, n)
+    D, slopes = derivative_of_step(motion, evaluation, h, n)
+    if max_of(off) > _WIDE:
+        moved = [column(slope * vector(off)) for slope in slopes]
+        wide = [
+            [narrower(c, a + moved[k][i]) for k, (c, a) in enumerate(zip(row, exactly, strict=False))]
+            for i, (row, exactly) in enumerate(zip(wide, at, strict=True))
+        ]
+        _, evaluation = with_rest(motion, wide, box, h, n)
+        D, _ = derivative_of_step(motion, evaluation, h, n)
+        # Another program's order of operations gives other widths.
+        D = arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 2).upper()) for x in D.entries()])
+    return D
+
+
+def narrower(x: Ball, y: Ball) -> Ball:
+    """The narrower of two balls that hold the same number."""
+    return x if x.rad() < y.rad() else y
+
+
+def frame(image: Matrix, node: Node) -> Matrix:
+    """An orthogonal matrix nearly: the directions of the image's columns, the widest first. Exact as it stands."""
+    size = image.nrows()
+    columns = np.array([[float(x.mid()) for x in row] for row in image.tolist()])
+    spread = [
+        max(map(float, [radius_of(node.s[j]), *(radius_of(node.S[j, k]) for k in range(size))])) for j in range(size)
+    ]
+    lengths = np.linalg.norm(columns, axis=0)
+    order = np.argsort(-lengths * (np.array(spread) + 1e-300), kind="stable")
+    unit = columns[:, order] / np.where(lengths[order] > 0, lengths[order], 1.0)
+    Q = np.linalg.qr(unit)[0]
+    if not np.isfinite(Q).all():
+        raise TailError("the frame is not finite")
+    return arb_mat(size, size, Q.ravel().tolist())
+
+
+def radius_of(x: Ball) -> Any:
+    """The size of a ball about zero, as a number."""
+    return float(upper(x))
+
+
+def carried(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
+    """The node at the end of a step, in the frame Q."""
+    m = [exact(x) for x in image]
+    off = vector([x - y for x, y in zip(image, m, strict=True)])
+    back = Q.inv()
+    turned = back * (D * node.Q)
+    s = column(turned * vector(node.s) + back * off)
+    moved = D * node.C
+    C = arb_mat(moved.nrows(), moved.ncols(), [exact(x) for x in moved.entries()])
+    S = turned * node.S + back * (moved - C)
+    return Node(node.t + h, m, Q, [*map(widened, s)], C, arb_mat(C.nrows(), C.ncols(), [*map(widened, S.entries())]))
+
+
+def widened(x: Ball) -> Ball:
+    """A ball a little wider than what is needed, so that another program's rounding stays within."""
+    return x if x.is_zero() else x + arb(0, (abs(x) * _WIDER).upper())
+
+
+def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Iterator[Step]:
+    """Steps from the start to the time t, as long as their rests allow; within `precision`.
+
+    Raises NotProved where no step is short enough.
+    """
+    node, w, n, slope_terms = start.node, start.spread, accuracy.terms, accuracy.slope_terms
+    limit = float(exact(t))
+    for _ in range(MOST):
+        left = t - node.t
+        rows = taylor(motion, node.m, n)
+        natural = step_length(rows, accuracy.tol)
+        h = min(natural, limit * _LONGER)
+        while True:
+            last = not (left > h * 1.0001)
+            try:
+                made = step_of(motion, node, w, left if last else arb(h), n, slope_terms, rows)
+                break
+            except (TailError, ZeroDivisionError, ValueError) as reason:
+                h = min(h, float(left)) * _SHORTER
+                if h < SHORTEST * natural:
+                    raise NotProved(
+                        f"the enclosure ends at t = {float(node.t):.6g}: {reason}; shorten the time, or narrow the start"
+                    ) from None
+        yield made
+        if last:
+            return
+        node, limit = made.end, h
+    raise NotProved(f"the enclosure ends at t = {float(node.t):.6g} after {MOST} steps; shorten the time")
+
+
+def step_length(rows: list[Balls], tol: float) -> float:
+    """The step at which the last Taylor terms are tol of the state's size, to a few bits."""
+    n = len(rows[0])
+    size = max(1.0, *(abs(float(row[0])) for row in rows))
+    found = 1e6
+    for k in (n - 2, n - 1):
+        most = max(abs(float(exact(row[k]))) for row in rows)
+        if most > 0:
+            found = min(found, (tol * size / most) ** (1 / k))
+    mantissa, exponent = np.frexp(found)
+    return float(np.ldexp(np.floor(mantissa * 64) / 64, exponent))

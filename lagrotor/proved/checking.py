@@ -1,0 +1,767 @@
+"""`check`: a small second program that verifies a certificate. It shares no arithmetic of series with the search.
+
+It looks for no step, frame, order or orbit: all are in the certificate. At each node the set is carried through the step by
+this program's own Taylor terms, found by recurrences, and must lie within the certificate's next set. Derivatives by the start
+are carried along as dual numbers, and what they leave out is bounded together with the motion's own rest.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly, ctx, fmpz
+
+from lagrotor.errors import InputError, NotProved
+
+Ball = Any
+ZERO = arb(0)
+_MORE_BITS = 64
+_WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
+_POINTS = (
+    "0.137",
+    "-0.219",
+    "0.083",
+    "0.311",
+    "-0.171",
+    "0.059",
+    "0.263",
+    "-0.097",
+    "0.149",
+    "-0.043",
+    "0.201",
+    "0.117",
+)
+
+
+class Rest:
+    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further ones, which is None
+    where only the terms are sought, and no number where the series may not converge."""
+
+    def __init__(self, terms: list[Ball], rest: Ball | None, n: int) -> None:
+        self.terms, self.rest, self.n = terms[:n], rest, n
+
+    @property
+    def bound(self) -> Ball:
+        """The rest, where it was sought."""
+        return self.rest if self.rest is not None else arb("nan")
+
+    def size(self) -> Ball:
+        """Bound of the sum of all absolute values."""
+        return total(self.terms) + self.bound
+
+    def __add__(self, other: "Rest") -> "Rest":
+        return Rest(longer(self.terms, other.terms, 1), both(self.rest, other.rest), self.n)
+
+    def __sub__(self, other: "Rest") -> "Rest":
+        return Rest(longer(self.terms, other.terms, -1), both(self.rest, other.rest), self.n)
+
+    def __mul__(self, other: "Rest") -> "Rest":
+        product = (arb_poly(self.terms) * arb_poly(other.terms)).coeffs()
+        if self.rest is None or other.rest is None:
+            return Rest(product, None, self.n)
+        a, b = total(self.terms), total(other.terms)
+        rest = total(product[self.n :]) + a * other.rest + b * self.rest + self.rest * other.rest
+        return Rest(product, rest, self.n)
+
+    def at_start(self) -> Ball:
+        """The value at s = 0."""
+        return self.terms[0] if self.terms else ZERO
+
+
+def both(a: Ball | None, b: Ball | None) -> Ball | None:
+    """The sum of two rests."""
+    return None if a is None or b is None else a + b
+
+
+def total(terms: Sequence[Ball]) -> Ball:
+    """The sum of the absolute values, rounded up."""
+    found = ZERO
+    for term in terms:
+        found += abs(term)
+    return arb(found.upper())
+
+
+def longer(a: list[Ball], b: list[Ball], sign: int) -> list[Ball]:
+    """a ± b, term by term."""
+    width = max(len(a), len(b))
+    first, second = a + [ZERO] * (width - len(a)), b + [ZERO] * (width - len(b))
+    return [x + y if sign > 0 else x - y for x, y in zip(first, second, strict=True)]
+
+
+def demand(holds: bool, what: str) -> None:
+    """Raises NotProved where something does not hold."""
+    if not holds:
+        raise NotProved(f"check: {what}")
+
+
+def inverse_terms(a: list[Ball]) -> list[Ball]:
+    """Of 1/a."""
+    found = [1 / a[0]]
+    for k in range(1, len(a)):
+        found.append(-sum((a[j] * found[k - j] for j in range(1, k + 1)), ZERO) / a[0])
+    return found
+
+
+def root_terms(a: list[Ball]) -> list[Ball]:
+    """Of the root of a."""
+    found = [a[0].sqrt()]
+    for k in range(1, len(a)):
+        found.append((a[k] - sum((found[j] * found[k - j] for j in range(1, k)), ZERO)) / (2 * found[0]))
+    return found
+
+
+def exp_terms(a: list[Ball]) -> list[Ball]:
+    """Of exp(a)."""
+    found = [a[0].exp()]
+    for k in range(1, len(a)):
+        found.append(sum((j * a[j] * found[k - j] for j in range(1, k + 1)), ZERO) / k)
+    return found
+
+
+def log_terms(a: list[Ball]) -> list[Ball]:
+    """Of log(a)."""
+    found = [a[0].log()]
+    for k in range(1, len(a)):
+        found.append((a[k] - sum((j * found[j] * a[k - j] for j in range(1, k)), ZERO) / k) / a[0])
+    return found
+
+
+def turning_terms(a: list[Ball], which: int) -> list[Ball]:
+    """Of sin(a) or cos(a)."""
+    s, c = [a[0].sin()], [a[0].cos()]
+    for k in range(1, len(a)):
+        s.append(sum((j * a[j] * c[k - j] for j in range(1, k + 1)), ZERO) / k)
+        c.append(-sum((j * a[j] * s[k - j] for j in range(1, k + 1)), ZERO) / k)
+    return (s, c)[which]
+
+
+def high(a: list[Ball], b: list[Ball], n: int) -> Ball:
+    """What the product of two polynomials has from s^n on."""
+    return total((arb_poly(a) * arb_poly(b)).coeffs()[n:])
+
+
+def slopes_of(a: list[Ball]) -> list[Ball]:
+    """The derivative's terms."""
+    return [k * x for k, x in enumerate(a)][1:]
+
+
+def padded(a: Rest) -> list[Ball]:
+    """All n terms."""
+    return a.terms + [ZERO] * (a.n - len(a.terms))
+
+
+def below_one(x: Ball) -> Ball:
+    """1 − x where that is positive; else no number, with which nothing compares."""
+    return 1 - x if x < 1 else arb("nan")
+
+
+def inverse(a: Rest) -> Rest:
+    """1/a = q/(1 − r), r = 1 − a q."""
+    demand(a.at_start() > 0 or a.at_start() < 0, "a denominator is not shown to be other than zero")
+    q = inverse_terms(padded(a))
+    if a.rest is None:
+        return Rest(q, None, a.n)
+    size = total(q)
+    r = high(a.terms, q, a.n) + size * a.rest
+    return Rest(q, size * r / below_one(r), a.n)
+
+
+def root(a: Rest) -> Rest:
+    """q + e with e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
+    demand(a.at_start() > 0, "a root's argument is not shown to be positive")
+    q = root_terms(padded(a))
+    if a.rest is None:
+        return Rest(q, None, a.n)
+    k = inverse(Rest(q, ZERO, a.n)).size()
+    d = high(q, q, a.n) + a.rest
+    return Rest(q, k * d / (1 + below_one(k * k * d).sqrt()), a.n)
+
+
+def logarithm(a: Rest) -> Rest:
+    """log a_0 + ∫ a'/a."""
+    demand(a.at_start() > 0, "a logarithm's argument is not shown to be positive")
+    return integral_of(a, inverse(a), a.at_start().log())
+
+
+def exponential(a: Rest) -> Rest:
+    """q + e with e' = a' e + (a' q − q')."""
+    q, rate = exp_terms(padded(a)), slopes_of(a.terms)
+    if a.rest is None:
+        return Rest(q, None, a.n)
+    e = high(rate, q, a.n - 1) / a.n / below_one(total(rate) / (a.n + 1))
+    return Rest(q, e + (total(q) + e) * (a.rest.exp() - 1), a.n)
+
+
+def turning(a: Rest, which: int) -> Rest:
+    """sin(a) or cos(a): the errors of both solve a linear equation with the coefficient a'."""
+    rate = slopes_of(a.terms)
+    pair = [turning_terms(padded(a), i) for i in (0, 1)]
+    if a.rest is None:
+        return Rest(pair[which], None, a.n)
+    e = sum((high(rate, q, a.n - 1) for q in pair), ZERO) / a.n / below_one(total(rate) / (a.n + 1))
+    size = sum(map(total, pair), ZERO) + 2 * e
+    return Rest(pair[which], e + size * (a.rest.exp() - 1), a.n)
+
+
+def integral_of(a: Rest, slope: Rest, value: Ball) -> Rest:
+    """g(a) from g' (a): g(a_0) + ∫ a' g'(a) ds, and the rest of a times g'."""
+    rate = [k * x for k, x in enumerate(a.terms)][1:]
+    product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
+    terms = [value, *(x / (k + 1) for k, x in enumerate(product[: a.n - 1]))]
+    if a.rest is None or slope.rest is None:
+        return Rest(terms, None, a.n)
+    left = total(product[a.n - 1 :]) + total(rate) * slope.rest
+    return Rest(terms, left / a.n + a.rest * slope.size(), a.n)
+
+
+class Dual:
+    """A series and its derivatives by the start's coordinates; none where it does not depend on them."""
+
+    def __init__(self, value: Rest, by: list[Rest] | None = None) -> None:
+        self.value, self.by = value, by
+
+    def linear(self, factor: Rest, other: "Dual | None" = None, second: Rest | None = None) -> list[Rest] | None:
+        """factor · self' + second · other'."""
+        first = None if self.by is None else [factor * x for x in self.by]
+        if other is None or other.by is None or second is None:
+            return first
+        moved = [second * x for x in other.by]
+        return moved if first is None else [x + y for x, y in zip(first, moved, strict=True)]
+
+
+def evaluated(tape: Any, arguments: list[Dual], n: int) -> list[Dual]:
+    """The tape's outputs."""
+    none = None if arguments[0].value.rest is None else ZERO
+    one, minus = Rest([arb(1)], none, n), Rest([arb(-1)], none, n)
+    found: list[Dual] = []
+    for name, *on in tape["operations"]:
+        if name == "argument":
+            found.append(arguments[on[0]])
+            continue
+        if name == "number":
+            found.append(Dual(Rest([constant(on[0])], none, n)))
+            continue
+        a = found[on[0]]
+        b = found[on[1]] if len(on) > 1 else a
+        if name == "add":
+            found.append(Dual(a.value + b.value, a.linear(one, b, one)))
+        elif name == "subtract":
+            found.append(Dual(a.value - b.value, a.linear(one, b, minus)))
+        elif name == "multiply":
+            found.append(Dual(a.value * b.value, a.linear(b.value, b, a.value)))
+        elif name == "divide":
+            over = inverse(b.value)
+            quotient = a.value * over
+            found.append(Dual(quotient, a.linear(over, b, minus * quotient * over)))
+        else:
+            found.append(function(name, a, one, n))
+    return [found[place] for place in tape["outputs"]]
+
+
+def function(name: str, a: Dual, one: Rest, n: int) -> Dual:
+    """A function of one variable with its derivative."""
+    x = a.value
+    if name == "exp":
+        value = slope = exponential(x)
+    elif name == "sqrt":
+        value = root(x)
+        slope = inverse(value + value)
+    elif name == "log":
+        value, slope = logarithm(x), inverse(x)
+    elif name in ("sin", "cos"):
+        value = turning(x, int(name == "cos"))
+        slope = turning(x, 1) if name == "sin" else Rest([arb(-1)], one.rest, n) * turning(x, 0)
+    elif name == "asin":
+        slope = inverse(root(one - x * x))
+        value = integral_of(x, slope, x.at_start().asin())
+    elif name == "atan":
+        slope = inverse(one + x * x)
+        value = integral_of(x, slope, x.at_start().atan())
+    else:
+        raise InputError(f"check: the operation {name!r} is unknown")
+    return Dual(value, a.linear(slope))
+
+
+def constant(text: str) -> Ball:
+    """A number of a tape."""
+    if text == "pi":
+        return arb.pi()
+    above, _, below = text.partition("/")
+    return arb(fmpz(int(above))) / arb(fmpz(int(below or 1)))
+
+
+def number(text: str) -> Ball:
+    """An exact number, mantissa in base 16 and power of two."""
+    mantissa, _, power = text.partition("p")
+    before, ctx.prec = ctx.prec, max(ctx.prec, 4 * len(mantissa) + 8)
+    found = arb(fmpz(int(mantissa, 16))) * arb(2) ** int(power)
+    ctx.prec = before
+    demand(found.is_exact(), f"{text} is not an exact number")
+    return found
+
+
+def read_ball(data: Any) -> Ball:
+    """[midpoint, radius]."""
+    middle, wide = (number(text) for text in data)
+    demand(wide >= 0, "a radius is negative")
+    return middle + arb(0, wide.upper())
+
+
+def balls(data: Any) -> list[Ball]:
+    """A list of balls."""
+    return [read_ball(x) for x in data]
+
+
+def matrix(data: Any, entry: Callable[[Any], Ball] = number) -> Any:
+    """A matrix."""
+    return arb_mat([[entry(x) for x in row] for row in data])
+
+
+def column(values: Sequence[Ball]) -> Any:
+    """A column."""
+    return arb_mat(len(values), 1, list(values))
+
+
+def unit(size: int) -> Any:
+    """The unit matrix."""
+    return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+
+
+class Flow:
+    """x' = f(x) of a certificate: what moves, what stands still."""
+
+    def __init__(self, data: Any) -> None:
+        self.tape = data
+        self.parameters = balls(data["parameters"])
+        self.moving = len(data["outputs"])
+        self.size = len(data["arguments"]) - len(self.parameters)
+        demand(0 < self.moving <= self.size, "the motion has no states")
+
+    def arguments(self, rows: list[Rest], still: Sequence[Ball], by: list[list[Rest]] | None, n: int) -> list[Dual]:
+        """Series of all arguments; with derivatives by the start where `by` has those of what moves."""
+        flat = [Rest([c], ZERO if rows[0].rest is not None else None, n) for c in (*still, *self.parameters)]
+        if by is None:
+            return [Dual(x) for x in (*rows, *flat)]
+        unit_rows = [
+            [Rest([arb(int(i == j))], rows[0].rest if rows[0].rest is None else ZERO, n) for j in range(self.size)]
+            for i in range(self.moving, self.size)
+        ]
+        found = [Dual(x, row) for x, row in zip(rows, by, strict=True)]
+        found += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
+        return found + [Dual(x) for x in flat[len(still) :]]
+
+    def step(
+        self, start: list[Ball], h: Ball, n: int, derivatives: bool, known: list[list[Ball]] | None = None
+    ) -> tuple[list[Rest], list[list[Rest]]]:
+        """Series of what moves over one step, all starts within the balls, with their derivatives by the start.
+
+        known: terms of the series that are known already.
+        """
+        moving, still = start[: self.moving], start[self.moving :]
+        terms = [[x] for x in moving]
+        slopes = [[[arb(int(i == j))] for j in range(self.size)] for i in range(self.moving)] if derivatives else []
+        for k in range(1, n):
+            rates = self._rates(terms, slopes, [None] * self.moving, [], still, k)
+            for i, (row, rate) in enumerate(zip(terms, rates, strict=True)):
+                row.append(h * term(rate.value, k - 1) / k if known is None else known[i][k])
+            for i, slope in enumerate(slopes):
+                for entry, by in zip(slope, rates[i].by or [Rest([], None, k)] * self.size, strict=True):
+                    entry.append(h * term(by, k - 1) / k)
+        return self._bounded(terms, slopes, still, h, n)
+
+    def derivatives(self, box: list[Ball], m: list[Ball], image: list[Rest], h: Ball, n: int) -> list[list[Rest]]:
+        """Those of the step over a box about m. Over a wide box the terms are taken again by the mean-value theorem."""
+        rows, slopes = self.step(box, h, n, True)
+        off = [x - y for x, y in zip(box, m, strict=True)]
+        if not any(abs(x) > _WIDE for x in off):
+            return slopes
+        known = []
+        for row, exactly, by in zip(rows, image, slopes, strict=True):
+            shifts = [sum((term(d, k) * x for d, x in zip(by, off, strict=True)), ZERO) for k in range(n)]
+            again = [term(exactly, k) + shift for k, shift in enumerate(shifts)]
+            known.append([min(term(row, k), x, key=lambda y: float(y.rad())) for k, x in enumerate(again)])
+        return self.step(box, h, n, True, known)[1]
+
+    def _rates(self, terms: Any, slopes: Any, rests: Any, slope_rests: Any, still: Any, n: int) -> list[Dual]:
+        rows = [Rest(row, rest, n) for row, rest in zip(terms, rests, strict=True)]
+        by = None
+        if slopes:
+            given = slope_rests or [[None] * self.size for _ in slopes]
+            by = [
+                [Rest(e, r, n) for e, r in zip(row, rest, strict=True)] for row, rest in zip(slopes, given, strict=True)
+            ]
+        return evaluated(self.tape, self.arguments(rows, still, by, n), n)
+
+    def _bounded(self, terms: Any, slopes: Any, still: Any, h: Ball, n: int) -> tuple[list[Rest], list[list[Rest]]]:
+        """Rests that Picard's map takes into themselves."""
+        rests, wide = [ZERO] * len(terms), [[ZERO] * self.size for _ in slopes]
+        for _ in range(9):
+            rates = self._rates(terms, slopes, rests, wide, still, n)
+            new = [left_out(rate.value, h, n) for rate in rates]
+            wider = [
+                [left_out(x, h, n) for x in rate.by] if rate.by else [ZERO] * self.size for rate in rates[: len(slopes)]
+            ]
+            if within(new, rests) and all(within(x, y) for x, y in zip(wider, wide, strict=True)):
+                series = [Rest(row, rest, n) for row, rest in zip(terms, new, strict=True)]
+                return series, [
+                    [Rest(e, r, n) for e, r in zip(row, rest, strict=True)]
+                    for row, rest in zip(slopes, wider, strict=True)
+                ]
+            least = max([*new, *(x for row in wider for x in row)], key=lambda x: float(x.upper())) / 2**16
+            rests, wide = [2 * x + least for x in new], [[2 * x + least for x in row] for row in wider]
+        raise NotProved("check: the rest of the Taylor series is not bounded over a step")
+
+
+def term(a: Rest, k: int) -> Ball:
+    """The coefficient of s^k."""
+    return a.terms[k] if k < len(a.terms) else ZERO
+
+
+def left_out(rate: Rest, h: Ball, n: int) -> Ball:
+    """h ∫ of what the rate has from s^(n−1) on."""
+    return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.bound / (n + 1))).upper())
+
+
+def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
+    """Whether each is at most as large."""
+    return all(x <= y for x, y in zip(new, old, strict=True))
+
+
+def end_of(a: Rest) -> Ball:
+    """The value at s = 1."""
+    return sum(a.terms, ZERO) + arb(0, a.bound.upper())
+
+
+def read_node(data: Any) -> tuple[Any, ...]:
+    """m, Q, s, C, S."""
+    return (
+        [number(x) for x in data["m"]],
+        matrix(data["Q"]),
+        column(balls(data["s"])),
+        matrix(data["C"]),
+        matrix(data["S"], read_ball),
+    )
+
+
+class Carried:
+    """The sets of a certificate, each verified to hold the image of the one before."""
+
+    def __init__(self, certificate: Any) -> None:
+        self.flow = Flow(certificate["motion"])
+        start, size = certificate["start"], self.flow.size
+        self.middle, self.w, self.L = balls(start["middle"]), balls(start["spread"]), matrix(start["L"])
+        demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
+        m = [x.mid() for x in self.middle]
+        node = (
+            m,
+            unit(size),
+            column([x - y for x, y in zip(self.middle, m, strict=True)]),
+            self.L,
+            arb_mat(size, size),
+        )
+        self.time = ZERO
+        self.boxes: list[tuple[list[Ball], Ball, int]] = []  # of each step: its start over all w, its length, its terms
+        for k, step in enumerate(certificate["steps"]):
+            node = self._step(node, step, k)
+        m, Q, s, C, S = node
+        self.derivative = C + Q * S
+        self.point = (column(m) + Q * s).entries()
+        self.box = box_of(node, self.w)
+
+    def _step(self, node: Any, data: Any, k: int) -> Any:
+        m, Q, s, C, S = node
+        h, n, few = read_ball(data["h"]), int(data["terms"]), int(data["slope_terms"])
+        demand(h > 0 and n > 2 and few > 2, f"step {k} has no length")
+        moving = self.flow.moving
+        image, _ = self.flow.step(m, h, n, False)
+        box = box_of(node, self.w)
+        slopes = self.flow.derivatives(box, m, image, h, few)
+        D = arb_mat(
+            [[end_of(x) for x in row] for row in slopes]
+            + [[arb(int(i == j)) for j in range(self.flow.size)] for i in range(moving, self.flow.size)]
+        )
+        after = read_node(data["node"])
+        m1, Q1, s1, C1, S1 = after
+        back = Q1.inv()
+        turned = back * (D * Q)
+        y = [*map(end_of, image), *m[moving:]]
+        point = turned * s + back * (column(y) - column(m1))
+        slope = turned * S + back * (D * C - C1)
+        demand(s1.contains(point), f"node {k + 1} does not hold the motion of the middle")
+        demand(S1.contains(slope), f"node {k + 1} does not hold the derivative")
+        self.boxes.append((box, h, few))
+        self.time += h
+        return after
+
+
+def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
+    """m + Q s + (C + Q S) w."""
+    m, Q, s, C, S = node
+    return (column(m) + Q * s + (C + Q * S) * column(w)).entries()
+
+
+def check(certificate: Any) -> str:
+    """Verify a certificate; returns the theorem that it proves.
+
+    Raises InputError for what is no certificate, NotProved with the first thing that does not hold.
+    """
+    try:
+        version, kind = certificate["version"], certificate["kind"]
+        rule = _RULES[kind]
+    except (KeyError, TypeError, IndexError):
+        raise InputError(
+            "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
+        ) from None
+    if version != 1:
+        raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
+    before = ctx.prec
+    try:
+        ctx.prec = int(certificate.get("bits", 64)) + _MORE_BITS
+        rule(certificate)
+    except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError) as error:
+        raise NotProved(f"check: the certificate cannot be followed: {error!r}") from None
+    finally:
+        ctx.prec = before
+    return str(certificate["theorem"])
+
+
+def check_enclosure(certificate: Any) -> None:
+    """The last box lies within the states that are claimed, at the time that is claimed."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the time that is claimed")
+    claimed = balls(claim["states"])
+    demand(0 < len(claimed) <= len(carried.box), "no states are claimed")
+    demand(
+        all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False)),
+        "the states are not those that are claimed",
+    )
+
+
+def pieces_of(certificate: Any, carried: Carried) -> Any:
+    """Of each step: its begin, its length, the expression's series."""
+    at = ZERO
+    tape = certificate["expression"]
+    for box, h, n in carried.boxes:
+        rows, _ = carried.flow.step(box, h, n, False)
+        arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
+        yield at, h, evaluated(tape, arguments, n)[0].value
+        at += h
+
+
+def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
+    """The sign of a series between two places of a step; 0 where it has none."""
+    s = low.union(high)
+    middle = s.mid()
+    poly = arb_poly(a.terms)
+    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.bound.upper())
+    if value > 0 or value < 0:
+        return 1 if value > 0 else -1
+    if not depth or poly(middle).contains(0):
+        return 0
+    half = (low + high) / 2
+    first = sign_over(a, low, half, depth - 1)
+    return first if first and sign_over(a, half, high, depth - 1) == first else 0
+
+
+def check_crossing(certificate: Any) -> None:
+    """Opposite signs at both ends of the claimed time; up to its begin one sign, where it is the first."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    time = read_ball(claim["time"])
+    signs: list[int] = []
+    ends = []
+    for moment in (arb(time.lower()), arb(time.upper())):
+        for at, h, series in pieces_of(certificate, carried):
+            s = (moment - at) / h
+            if s >= 0 and s <= 1 + arb(2) ** -40:
+                poly = arb_poly(series.terms)
+                value = poly(s.min(arb(1))) + arb(0, series.bound.upper())
+                ends.append(1 if value > 0 else -1 if value < 0 else 0)
+                break
+    demand(len(ends) == 2 and ends[0] * ends[1] == -1, "the expression does not change its sign over the claimed time")
+    if claim["first"]:
+        for at, h, series in pieces_of(certificate, carried):
+            s = (arb(time.lower()) - at) / h
+            if s > 0:
+                signs.append(sign_over(series, ZERO, s.min(arb(1))))
+        demand(set(signs) == {ends[0]}, "the expression may pass zero before the claimed time")
+
+
+def check_no_crossing(certificate: Any) -> None:
+    """One sign over every step."""
+    carried = Carried(certificate)
+    claimed = read_ball(certificate["claim"]["time"])
+    demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
+    signs = {sign_over(series, ZERO, arb(1)) for _, _, series in pieces_of(certificate, carried)}
+    demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
+
+
+def check_orbit(certificate: Any) -> None:
+    """Krawczyk's test at the end of the steps; the reversals; the period; the multipliers."""
+    carried = Carried(certificate)
+    free, conditions, held = certificate["free"], certificate["conditions"], certificate["held"]
+    first, last = certificate["reversals"]
+    size, moving = carried.flow.size, carried.flow.moving
+    demand(
+        size == moving + 1 and len(free) == len(conditions) and moving in free, "the conditions do not fit the unknowns"
+    )
+    demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
+    check_conditions(carried, first, last, free, conditions, held)
+    A, D = matrix(certificate["A"]), carried.derivative
+    back = 0 if first else 1
+
+    def slope(columns: Sequence[int]) -> Any:
+        return arb_mat([[D[i, j] - back * (carried.L[i, j]) for j in columns] for i in conditions])
+
+    miss = column([carried.point[i] - back * carried.middle[i] for i in conditions])
+    w = column([carried.w[i] for i in free])
+    K = (unit(len(free)) - A * slope(free)) * w - A * miss
+    if held is not None:
+        K = K - (A * slope([held])) * column([carried.w[held]])
+    for x, box in zip(K.entries(), w.entries(), strict=True):
+        demand(box.contains_interior(x), "Krawczyk's test does not close")
+    inner = [x if i != held and i not in free else carried.w[i] for i, x in enumerate([ZERO] * size)]
+    for i, x in zip(free, K.entries(), strict=True):
+        inner[i] = x
+    start = [x + y for x, y in zip(carried.middle, (carried.L * column(inner)).entries(), strict=True)]
+    turns = 1 if not first else 2 if first == last else 4
+    claim = certificate["claim"]
+    demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
+    check_kind(certificate, carried, first, last)
+
+
+def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any, held: Any) -> None:
+    """The start lies in the fixed set of the first reversal; the conditions put the end into that of the last."""
+    moving = carried.flow.moving
+    if not first:
+        demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
+        return
+    demand(
+        sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
+    )
+    for i, s in enumerate(first):
+        row = [carried.L[i, j] * carried.w[j] for j in range(carried.flow.size)]
+        fixed = carried.middle[i].is_zero() and all(x.is_zero() for x in row)
+        demand(s > 0 or (fixed and i not in free and i != held), "the start is not in the fixed set of the reversal")
+    for signs in (first, last):
+        check_reversal(carried, signs)
+
+
+def check_reversal(carried: Carried, signs: Any) -> None:
+    """f(A x) = −A f(x), at points chosen beforehand, to more digits than anything else is known. The identity itself is proved
+    where the certificate is made, from the Lagrangian."""
+    moving, before = carried.flow.moving, ctx.prec
+    ctx.prec = 4 * before
+    for shift in range(3):
+        x = [arb(_POINTS[(i + 5 * shift) % len(_POINTS)]) for i in range(moving)]
+        pace = [arb(1)] * (carried.flow.size - moving)
+        values = []
+        for state in (x, [s * y for s, y in zip(signs, x, strict=True)]):
+            rows = [Rest([y], ZERO, 1) for y in state]
+            values.append(
+                [
+                    f.value.at_start()
+                    for f in evaluated(carried.flow.tape, carried.flow.arguments(rows, pace, None, 1), 1)
+                ]
+            )
+        for s, a, b in zip(signs, *values, strict=True):
+            off = s * a + b
+            demand(off.contains(0), "time reversed is no motion")
+    ctx.prec = before
+
+
+def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
+    """The trace of the monodromy less the ones, against ±2."""
+    claim, moving = certificate["claim"], carried.flow.moving
+    if claim["kind"] == "undecided" or claim["kind"] == "parabolic":
+        return
+    whole = carried.derivative * carried.L.inv()
+    D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
+    if not first:
+        values = D.eig()
+        along = [z for z in values if z.contains(1)]
+        others = [abs(z) for z in values if not z.contains(1)]
+        fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
+        demand(len(along) == 1 and fine, "the multipliers are not shown to be apart from the unit circle")
+        return
+    X = arb_mat(moving, moving, [x.mid() for x in D.entries()]).inv()
+    X = arb_mat(moving, moving, [x.mid() for x in X.entries()])
+    R = unit(moving) - D * X
+    size = max((total(row) for row in R.tolist()), key=lambda x: float(x.upper()))
+    demand(size < 1, "the derivative cannot be inverted")
+    rest = (size**2 / (1 - size)).upper()
+    back = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, rest)] * moving**2))
+    reflect = [
+        arb_mat(moving, moving, [s[i] if i == j else 0 for i in range(moving) for j in range(moving)])
+        for s in (first, last)
+    ]
+    part = reflect[0] * back * reflect[1] * D
+    M = part if first == last else part * part
+    pair = sum((M[i, i] for i in range(moving)), ZERO) - certificate["ones"]
+    demand(moving - certificate["ones"] == 2, "more than one pair of multipliers is left")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
+    fine = abs(pair) < 2 if claim["kind"] == "elliptic" else abs(pair) > 2
+    demand(bool(fine), f"the orbit is not shown to be {claim['kind']}")
+
+
+def check_family(certificate: Any) -> None:
+    """Every piece, each beginning where the one before ends."""
+    end = None
+    for piece in certificate["pieces"]:
+        demand(piece["kind"] == "periodic orbit" and piece["held"] is not None, "a piece is no family of orbits")
+        check(piece)
+        held = piece["held"]
+        low, high = read_ball(piece["start"]["middle"][held]), read_ball(piece["start"]["spread"][held])
+        begin, finish = low - abs(high), low + abs(high)
+        demand(end is None or begin.lower() <= end.upper(), "there is a gap between two pieces")
+        end = finish
+
+
+def check_equilibrium(certificate: Any) -> None:
+    """Krawczyk's test for the forces at rest; definite energy, or an eigenvalue with a positive real part."""
+    flow = Flow(certificate["motion"])
+    n = flow.moving // 2
+    middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
+    demand(len(middle) == len(box) == n, "the equilibrium has other coordinates")
+    A = matrix(certificate["A"])
+    wide = [x + y for x, y in zip(middle, box, strict=True)]
+    at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
+    J = gradients(flow.tape, flow, [*wide, *[ZERO] * n])
+    value = column([f.value.at_start() for f in at[n:]])
+    slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
+    w = column(box)
+    K = (unit(n) - A * slope) * w - A * value
+    for x, y in zip(K.entries(), box, strict=True):
+        demand(y.contains_interior(x), "Krawczyk's test does not close")
+    claim = certificate["claim"]["stability"]
+    if claim == "stable":
+        state = [Dual(Rest([x], ZERO, 1)) for x in (*wide, *[ZERO] * n, *flow.parameters)]
+        H = [f.value.at_start() for f in evaluated(certificate["energy"], state, 1)]
+        for k in range(1, 2 * n + 1):
+            minor = arb_mat([[H[2 * n * i + j] for j in range(k)] for i in range(k)])
+            demand(minor.det() > 0, "the energy is not shown to be definite")
+    elif claim != "undecided":
+        zero = Rest([ZERO], ZERO, 1)
+        rows = [[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J]
+        values = arb_mat(rows).eig()
+        if claim == "unstable":
+            demand(any(z.real > 0 for z in values), "no eigenvalue is shown to have a positive real part")
+        else:
+            apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
+            fine = certificate["conservative"] and apart and all(z.real.contains(0) for z in values)
+            demand(fine, "the eigenvalues are not shown to be imaginary")
+
+
+def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
+    """The tape's outputs with their derivatives by the states."""
+    rows = [Rest([x], ZERO, 1) for x in state]
+    by = [[Rest([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
+    return evaluated(tape, flow.arguments(rows, [], by, 1), 1)
+
+
+_RULES: dict[str, Callable[[Any], None]] = {
+    "enclosure": check_enclosure,
+    "crossing": check_crossing,
+    "no crossing": check_no_crossing,
+    "periodic orbit": check_orbit,
+    "equilibrium": check_equilibrium,
+    "family": check_family,
+}

@@ -1,0 +1,171 @@
+"""Crossings proved: that an expression of the state passes zero before a time, or that it does not up to a time."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import NotProved
+from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, exact, precision, printed
+from lagrotor.proved.carried_sets import Start, Step, steps_of
+from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
+from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
+from lagrotor.proved.fields import Field, Values, field_of
+from lagrotor.proved.stepping import Motion, scaled, taylor, with_rest
+from lagrotor.proved.tails import Evaluation, Tailed
+from lagrotor.proved.tape import Tape
+from lagrotor.shown import Shown
+
+_DEPTH = 12  # halvings of a step
+
+
+@dataclass(frozen=True)
+class Watch:
+    """An expression along one step: its series in s over all starts, 0 ≤ s ≤ 1."""
+
+    series: Tailed
+
+    def over(self, low: Ball, high: Ball) -> Ball:
+        """A ball of the values between two places of the step, by its middle and slope."""
+        s = low.union(high)
+        at = exact(s)
+        poly = self.series.poly
+        slope = poly.derivative()
+        return poly(at) + slope(s) * (s - at) + arb(0, self.series.tail.abs_upper())
+
+    def sign(self, low: Ball, high: Ball) -> int:
+        """Its sign between two places, 0 where it is not shown to have one."""
+        value = self.over(low, high)
+        return 1 if value > 0 else -1 if value < 0 else 0
+
+    def signs(self, low: Ball, high: Ball, depth: int = _DEPTH) -> Iterator[tuple[Ball, Ball, int]]:
+        """The step cut until each piece has a sign, or is too short to go on, in order."""
+        sign = self.sign(low, high)
+        if sign or not depth:
+            yield low, high, sign
+        else:
+            middle = (low + high) / 2
+            yield from self.signs(low, middle, depth - 1)
+            yield from self.signs(middle, high, depth - 1)
+
+
+def watch(motion: Motion, tape: Tape, step: Step, w: Balls) -> Watch:
+    """The tape's output along a step, over all starts."""
+    box, n = step.node.box(w), step.slope_terms
+    rows = scaled(taylor(motion, box, n), step.h, n)
+    rests, _ = with_rest(motion, rows, box, step.h, n)
+    moving = [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
+    still = [*box[motion.moving :], *motion.parameters]
+    evaluation = Evaluation(tape, [*moving, *(Tailed(arb_poly([c]), arb(0), n) for c in still)])
+    return Watch(evaluation.outputs[0])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Crossing(Shown):
+    """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
+
+    first: whether it is proved to be the first crossing, too. certificate: what `check` verifies.
+    """
+
+    expression: sp.Expr
+    crosses: bool
+    time: Ball
+    first: bool
+    field: Field
+    start: Start
+    steps: tuple[Step, ...]
+    bits: int
+
+    @property
+    def theorem(self) -> str:
+        """In words."""
+        if not self.crosses:
+            return f"{self.expression} does not pass zero from t = 0 to {printed(self.time, 15)} s."
+        first = "first passes" if self.first else "passes"
+        return f"{self.expression} {first} zero at a time t in {printed(self.time, 15)} s."
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """Plain data that `check` verifies."""
+        with precision(self.bits):
+            flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
+            return flow | {
+                "kind": "crossing" if self.crosses else "no crossing",
+                "theorem": self.theorem,
+                "expression": tape_data(self.field.function([self.expression])),
+                "claim": {"time": ball_data(loosened(self.time) if self.crosses else self.time), "first": self.first},
+            }
+
+    def summary(self) -> dict[str, str]:
+        """What is proved, name → words."""
+        return {"expression": str(self.expression), "theorem": self.theorem, "steps": str(len(self.steps))}
+
+
+def prepared(system: Any, values: Any, q0: Any, v0: Any, expression: Any) -> tuple[Field, Tape, Start]:
+    """The field, the expression as a tape of its arguments, the start."""
+    made = field_of(system, values, q0, v0)
+    return made, made.function([sp.sympify(expression)]), Start(*made.parts)
+
+
+def crossing(
+    system: Any,
+    values: Values | None = None,
+    q0: Any = None,
+    v0: Any = None,
+    event: Any = None,
+    before: Any = None,
+    tol: float = TOL,
+) -> Crossing:
+    """A proof that the expression `event` of the states passes zero before the time `before` (s), with when.
+
+    system, values, q0, v0: as in `enclose`; of a Scene the expression may have x_1 … z_2 of the axes and their rates, of a
+    Structure x_0, y_0, z_0, ….
+
+    Raises InputError for what makes no sense, NotProved where the sign is not shown to change, with how far the proof came.
+    """
+    accuracy, where = accuracy_of(tol, "crossing"), "crossing"
+    with precision(accuracy.bits, accuracy.terms):
+        end = time_ball(before, where)
+        made, tape, start = prepared(system, values, q0, v0, event)
+        known, since, pending, clear, steps = 0, arb(0), False, True, list[Step]()
+        for step in steps_of(made.motion, start, end, accuracy):
+            steps.append(step)
+            for low, high, sign in watch(made.motion, tape, step, start.spread).signs(arb(0), arb(1)):
+                if not sign:
+                    pending = True
+                    continue
+                if known and sign != known:
+                    time = since.union(step.node.t + step.h * low)
+                    return Crossing(sp.sympify(event), True, time, clear, made, start, tuple(steps), accuracy.bits)
+                clear = clear and not pending
+                known, since, pending = sign, step.node.t + step.h * high, False
+        raise NotProved(f"{where}: {event} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}")
+
+
+def no_crossing(
+    system: Any,
+    values: Values | None = None,
+    q0: Any = None,
+    v0: Any = None,
+    event: Any = None,
+    until: Any = None,
+    tol: float = TOL,
+) -> Crossing:
+    """A proof that the expression `event` of the states does not pass zero from t = 0 to the time `until` (s).
+
+    Arguments as in `crossing`. Raises NotProved with the time up to which it is proved.
+    """
+    accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
+    with precision(accuracy.bits, accuracy.terms):
+        end = time_ball(until, where)
+        made, tape, start = prepared(system, values, q0, v0, event)
+        steps = []
+        for step in steps_of(made.motion, start, end, accuracy):
+            steps.append(step)
+            for low, _, sign in watch(made.motion, tape, step, start.spread).signs(arb(0), arb(1)):
+                if not sign:
+                    at = float((step.node.t + step.h * low).mid())
+                    raise NotProved(f"{where}: {event} is not shown to stay off zero beyond t = {at:.10g}")
+        return Crossing(sp.sympify(event), False, end, False, made, start, tuple(steps), accuracy.bits)

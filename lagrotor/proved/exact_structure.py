@@ -1,0 +1,166 @@
+"""A structure's equations of motion with exact numbers: what `written_out` writes for floats, recorded as stages."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
+from lagrotor.numerics.codegen import Program, Stage
+from lagrotor.proved.balls import rational
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Coefficients, coefficients
+from lagrotor.structures.exact.written_out import accelerations
+
+Vector = list[sp.Expr]
+
+
+class Recorded:
+    """A number of a recorded calculation: each operation becomes a stage of its own."""
+
+    def __init__(self, stages: list[Stage], e: sp.Expr) -> None:
+        self.stages, self.e = stages, e
+
+    def _keep(self, e: sp.Expr) -> "Recorded":
+        if not e.is_Atom:
+            name = sp.Symbol(f"w_{len(self.stages)}", real=True)
+            self.stages.append((name, e))
+            e = name
+        return Recorded(self.stages, e)
+
+    def __add__(self, other: Any) -> "Recorded":
+        return self._keep(self.e + expression_of(other))
+
+    def __sub__(self, other: Any) -> "Recorded":
+        return self._keep(self.e - expression_of(other))
+
+    def __rsub__(self, other: Any) -> "Recorded":
+        return self._keep(expression_of(other) - self.e)
+
+    def __mul__(self, other: Any) -> "Recorded":
+        return self._keep(self.e * expression_of(other))
+
+    def __truediv__(self, other: Any) -> "Recorded":
+        return self._keep(self.e / expression_of(other))
+
+    def __rtruediv__(self, other: Any) -> "Recorded":
+        return self._keep(expression_of(other) / self.e)
+
+    def __neg__(self) -> "Recorded":
+        return Recorded(self.stages, -self.e)
+
+    def sqrt(self) -> "Recorded":
+        return self._keep(sp.sqrt(self.e))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+class Roots:
+    """The functions of recorded numbers that a structure's equations take."""
+
+    @staticmethod
+    def sqrt(x: Any) -> Any:
+        return x.sqrt() if isinstance(x, Recorded) else sp.sqrt(x)
+
+
+def expression_of(x: Any) -> sp.Expr:
+    """A recorded number, or a constant as it is meant."""
+    return x.e if isinstance(x, Recorded) else x if isinstance(x, sp.Expr) else number(x)
+
+
+def number(x: Any) -> sp.Rational:
+    """The rational that a float's decimal means."""
+    value = rational(x, "Structure")
+    return sp.Rational(value.numerator, value.denominator)
+
+
+_numbers: Callable[[Any], Any] = np.vectorize(number, otypes=[object])
+
+
+def exact_coefficients(s: Assembly) -> Coefficients:
+    """`coefficients` in rationals. A brace's length is that of its ends, as a root."""
+    c = coefficients(s)
+    if c.hinge.any():
+        raise InputError("proved: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
+    R, M, load = (
+        _numbers(x) if len(x) else c.R for x in ([r.length for r in s.rotor], [r.mass for r in s.rotor], s.load)
+    )
+    I1, I3 = (_numbers([getattr(r, name) for r in s.rotor]) for name in ("I1", "I3"))
+    A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
+    bars = [(int(i), int(j)) for i, j in zip(c.i, c.j, strict=True)]
+    coupling = []
+    for (i, j), ell, link in zip(bars, c.ell, s.link, strict=True):
+        m, K = number(link.mass), number(link.inertia) / number(ell) ** 2
+        for end in (i, j):
+            A[end] += R[end] ** 2 * (m / 4 + K)
+            S[end] += R[end] * m / 2
+        coupling.append(R[i] * R[j] * (m / 4 - K))
+    return replace(
+        c,
+        R=R,
+        A=A,
+        S=S,
+        G=I3 * _numbers(s.spins),
+        decay=_numbers(s.spin_friction) / I3,
+        friction=_numbers(s.friction),
+        gravity=number(s.gravity),
+        feet=_numbers(c.feet),
+        coupling=np.array(coupling, dtype=object),
+        brace_point=_numbers(c.brace_point) if len(c.brace_point) else c.brace_point,
+        brace_length=np.array([_length(c, k) for k in range(len(c.stiffness))], dtype=object),
+        stiffness=_numbers(c.stiffness) if len(c.stiffness) else c.stiffness,
+        damping=_numbers(c.damping) if len(c.damping) else c.damping,
+    )
+
+
+def _length(c: Coefficients, k: int) -> sp.Expr:
+    i, j = int(c.brace_tip[k]), int(c.brace_to[k])
+    start = [*map(number, c.feet[i])]
+    start[2] += number(c.R[i])
+    other = [*map(number, c.brace_point[k])] if j < 0 else [*map(number, c.feet[j])]
+    other[2] += number(c.R[j]) if j >= 0 else 0
+    return sp.sqrt(sum((x - y) ** 2 for x, y in zip(start, other, strict=True)))
+
+
+def structure_coordinates(s: Assembly) -> Coordinates:
+    """x_0 y_0 z_0 x_1 …: components of the axes' unit vectors, rotors counted from 0."""
+    return coordinates(" ".join(f"{letter}_{i}" for i in range(len(s.joints)) for letter in "xyz"))
+
+
+def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
+    """(r, r'[, t]) → (r', r''[, 1]), and the expressions that stay zero: |r_i|² − 1, |d|² − ell² and their rates, halved."""
+    c, letters = exact_coefficients(s), structure_coordinates(s)
+    stages: list[Stage] = []
+    N, timed = len(c.R), any(x != 0 for x in c.decay)
+    r, v = (
+        [[Recorded(stages, x) for x in letters_of[3 * i : 3 * i + 3]] for i in range(N)]
+        for letters_of in (letters.q, letters.v)
+    )
+    G = [Recorded(stages, G * sp.exp(-k * t)) if k else G for G, k in zip(c.G, c.decay, strict=True)]
+    found = accelerations(c, r, v, G, Roots, _total)
+    rates = [*letters.v, *(expression_of(x) for axis in found for x in axis), *((sp.S.One,) if timed else ())]
+    arguments = (*letters.q, *letters.v, *((t,) if timed else ()))
+    return Program(arguments, tuple(stages), tuple(rates), shared=True), _held(c, letters)
+
+
+def _total(terms: list[Any]) -> Any:
+    total = terms[0]
+    for term in terms[1:]:
+        total = total + term
+    return total
+
+
+def _held(c: Coefficients, letters: Coordinates) -> tuple[sp.Expr, ...]:
+    q, v = ([sp.Matrix(part[3 * i : 3 * i + 3]) for i in range(len(c.R))] for part in (letters.q, letters.v))
+    places = [(r.dot(r) - 1) / 2 for r in q]
+    rates = [r.dot(w) for r, w in zip(q, v, strict=True)]
+    for i, j in zip(c.i.tolist(), c.j.tolist(), strict=True):
+        upright = sp.Matrix(c.feet[j]) - sp.Matrix(c.feet[i]) + sp.Matrix([0, 0, c.R[j] - c.R[i]])
+        d = sp.Matrix(c.feet[j]) - sp.Matrix(c.feet[i]) + c.R[j] * q[j] - c.R[i] * q[i]
+        swing = c.R[j] * v[j] - c.R[i] * v[i]
+        places.append((d.dot(d) - upright.dot(upright)) / 2)
+        rates.append(d.dot(swing))
+    return (*places, *rates)

@@ -1,0 +1,275 @@
+"""Orbits, crossings and equilibria proved: published numbers are held, false theorems are refused, certificates are verified."""
+
+import copy
+import json
+from typing import Any
+
+import mpmath as mp
+import pytest
+import sympy as sp
+
+pytest.importorskip("flint", reason="the extra `proof` is not installed")
+
+from flint import arb
+
+from lagrotor import Link, Scene
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError
+from lagrotor.mechanics import System, coordinates
+from lagrotor.models import floquet
+from lagrotor.numerics import Program
+from lagrotor.pair.notation import AXES
+from lagrotor.proved import (
+    NotProved,
+    check,
+    crossing,
+    enclose,
+    equilibrium,
+    no_crossing,
+    paired_orbits,
+    periodic_orbit,
+    precession,
+)
+from lagrotor.proved.balls import as_text, precision
+
+C = coordinates("theta")
+(THETA,), (RATE,) = C.q, C.v
+PENDULUM = System(C, RATE**2 / 2 + sp.cos(THETA))
+PLANE = coordinates("x y")
+(X, Y), (U, V) = PLANE.q, PLANE.v
+MU = sp.Symbol("mu", positive=True)
+THREE_BODIES = System(
+    PLANE,
+    ((U - Y) ** 2 + (V + X) ** 2) / 2
+    + (1 - MU) / sp.sqrt((X + MU) ** 2 + Y**2)
+    + MU / sp.sqrt((X - 1 + MU) ** 2 + Y**2),
+)
+HENON_HEILES = System(PLANE, (U**2 + V**2 - X**2 - Y**2) / 2 - X**2 * Y + Y**3 / 3)
+
+
+def verified(theorem: Any) -> str:
+    """The certificate goes through JSON, and the second program follows it."""
+    return check(json.loads(json.dumps(theorem.certificate)))
+
+
+def near(ball: Any, number: str, within: str) -> bool:
+    """Whether a ball holds a number that is published to some digits, and is not wide."""
+    with precision(200):
+        return bool(ball.overlaps(arb(number) + arb(0, float(within))) and float(ball.rad()) < float(within))
+
+
+def test_a_pendulum_has_the_period_of_the_elliptic_integral() -> None:
+    orbit = periodic_orbit(PENDULUM, {}, [1], [0], 6.7, reversals=[(1, -1)])
+    with mp.workdps(40):
+        assert near(orbit.period, mp.nstr(4 * mp.ellipk(mp.sin(mp.mpf(1) / 2) ** 2), 35), "1e-18")
+    assert orbit.kind == "parabolic" and "periodic orbit of period [6.69997566437" in verified(orbit)
+
+
+def test_the_shortest_orbit_of_lorenz() -> None:
+    """Viswanath 2003: the orbit AB, its period to many digits."""
+    x, y, z = sp.symbols("x y z")
+    lorenz = Program((x, y, z), (), (10 * (y - x), x * (28 - z) - y, x * y - sp.Rational(8, 3) * z))
+    orbit = periodic_orbit(lorenz, {}, [-13.7636, -19.5788, 27], [], 1.5587, held=["z"])
+    assert near(orbit.period, "1.55865221071617472756787", "1e-17")
+    assert near(orbit.start[0], "-13.763610682134", "1e-12") and near(orbit.start[1], "-19.578751942452", "1e-12")
+    assert orbit.kind == "hyperbolic" and "hyperbolic" in verified(orbit)
+
+
+def test_henon_and_heiles() -> None:
+    """The straight orbit along y: y'' = −y + y², whose period is an elliptic integral; stable at small energies."""
+    orbit = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"])
+    with mp.workdps(40):
+        y = mp.mpf("0.3")
+        a, b, c = sorted(mp.polyroots([mp.mpf(2) / 3, -1, 0, y**2 - 2 * y**3 / 3]))
+        period = 2 * mp.sqrt(6) / mp.sqrt(c - a) * mp.ellipk((b - a) / (c - a))
+    assert near(orbit.period, mp.nstr(period, 35), "1e-18")
+    assert orbit.kind == "elliptic" and "elliptic" in verified(orbit)
+    assert crossing(HENON_HEILES, {}, [0, 0.3], [0, 0], event=Y, before=3).first
+
+
+@pytest.mark.slow
+def test_arenstorf_s_orbit() -> None:
+    """Hairer, Nørsett & Wanner II.0: of a satellite between earth and moon, its start and period to 30 digits."""
+    orbit = periodic_orbit(
+        THREE_BODIES, {MU: "0.012277471"}, ["0.994", 0], [0, "-2.0016"], "17.0652", reversals=[(1, -1, -1, 1)]
+    )
+    assert near(orbit.period, "17.0652165601579625588917206249", "1e-15")
+    assert near(orbit.start[3], "-2.00158510637908252240537862224", "1e-16")
+    assert orbit.kind == "hyperbolic" and verified(orbit)
+
+
+def test_lagrange_s_points() -> None:
+    triangle = equilibrium(THREE_BODIES, {MU: 0.01}, [0.49, 0.866])
+    assert triangle.stability == "stable to first order" and verified(triangle)
+    assert equilibrium(THREE_BODIES, {MU: 0.05}, [0.45, 0.866]).stability == "unstable"
+    line = equilibrium(THREE_BODIES, {MU: 0.01}, [0.85, 0])
+    assert line.stability == "unstable" and line.q[1].contains(0) and verified(line)
+    assert equilibrium(PENDULUM, {}, [0.1]).stability == "stable" and verified(equilibrium(PENDULUM, {}, [0.1]))
+    with pytest.raises(NotProved):
+        equilibrium(System(C, RATE**2 / 2 + THETA), {}, [0])
+
+
+@pytest.mark.parametrize(("r0", "link"), [(0.204, Link()), pytest.param(0.6, Link(1, 1, 1), marks=pytest.mark.slow)])
+def test_the_paired_precession_exists(r0: float, link: Link) -> None:
+    scene = Scene((10, -10), link=link)
+    orbit, numeric = precession(scene, r0), floquet(scene, r0)
+    assert abs(float(orbit.frequency.mid()) - numeric.frequency) < 1e-11
+    assert float(orbit.frequency.rad()) < 1e-15
+    assert orbit.kind == numeric.kind == "hyperbolic" and orbit.pair_sum is not None
+    assert abs(float(orbit.pair_sum.mid()) - numeric.pair_sum) < 1e-4
+    assert "paired precession, hyperbolic" in verified(orbit)
+
+
+def test_spins_that_are_not_opposite_have_none() -> None:
+    with pytest.raises(InputError):
+        precession(Scene((10, 5)), 0.2)
+
+
+def test_a_piece_of_the_family() -> None:
+    scene = Scene((10, -10))
+    family = precession(scene, (0.2, 0.2008))
+    inner = precession(scene, 0.2004)
+    assert len(family.pieces) > 1 and family.frequency.contains(inner.frequency)
+    assert "for every r0 in [0.2, 0.2008]" in verified(family)
+    gap = copy.deepcopy(family.certificate)
+    del gap["pieces"][1 if len(gap["pieces"]) > 2 else 0]
+    if len(gap["pieces"]) > 1:
+        with pytest.raises(NotProved, match="gap"):
+            check(gap)
+
+
+@pytest.mark.parametrize("row", [paired_orbits.A, paired_orbits.B])
+def test_the_pair_s_reversals_are_symmetries_of_its_lagrangian(row: tuple[int, ...]) -> None:
+    """In the axes: A is y → −y, B exchanges the rotors and mirrors x, y; with time reversed the gyroscopic force stays."""
+    from lagrotor.pair import axes_pair
+    from lagrotor.pair.notation import G_1, G_2
+
+    pair, (x1, y1, z1, x2, y2, z2), v = axes_pair(), AXES.q, AXES.v
+    if row is paired_orbits.A:
+        image = [x1, -y1, z1, x2, -y2, z2]
+        moved = [-v[0], v[1], -v[2], -v[3], v[4], -v[5]]
+    else:
+        image = [-x2, -y2, z2, -x1, -y1, z1]
+        moved = [v[3], v[4], -v[5], v[0], v[1], -v[2]]
+    put = dict(zip((*AXES.q, *AXES.v), (*image, *moved), strict=True))
+    assert decide_zero(pair.L.xreplace(put) - pair.L).answer == "zero"
+    for g in pair.constraints:
+        assert any(decide_zero(g.xreplace(put) - other).answer == "zero" for other in pair.constraints)
+    # Forces turn as accelerations do, which have the image's signs.
+    for i, force in enumerate(pair.forces):
+        source = AXES.q.index(next(iter(image[i].free_symbols)))
+        sign = 1 if image[i] == AXES.q[source] else -1
+        opposite = {G_2: -G_1} if row is paired_orbits.B else {}
+        left = force.xreplace(put) - sign * pair.forces[source]
+        assert decide_zero(left.subs(opposite)).answer == "zero"
+
+
+def test_a_crossing_is_proved_with_its_time() -> None:
+    event = crossing(PENDULUM, {}, [1], [0], event=THETA, before=3)
+    with mp.workdps(40):
+        assert near(event.time, mp.nstr(mp.ellipk(mp.sin(mp.mpf(1) / 2) ** 2), 35), "1e-3")
+    assert event.first and "first passes zero" in verified(event)
+    quiet = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), until=6)
+    assert "does not pass zero" in verified(quiet)
+
+
+def test_false_theorems_are_never_proved() -> None:
+    """A crossing that just misses, a non-crossing that just fails, an orbit that is none, a wrong period and kind."""
+    with pytest.raises(NotProved, match="keeps its sign, or is not shown to change it"):
+        crossing(PENDULUM, {}, [1], [0], event=THETA + 1 + sp.Rational("1e-13"), before=6)
+    with pytest.raises(NotProved, match=r"not shown to stay off zero beyond t = 3\.34"):
+        no_crossing(PENDULUM, {}, [1], [0], event=THETA + 1 - sp.Rational("1e-13"), until=6)
+    with pytest.raises(NotProved):
+        periodic_orbit(System(C, RATE**2 / 2 + THETA), {}, [1], [0], 6, reversals=[(1, -1)])
+    with pytest.raises(InputError, match="not shown to be a motion"):
+        periodic_orbit(System(C, RATE**2 / 2 + THETA**3, dissipation=RATE**2), {}, [1], [0], 6, reversals=[(1, -1)])
+    with pytest.raises(InputError, match="signs"):
+        periodic_orbit(PENDULUM, {}, [1], [0], 6, reversals=[(-1, -1)])
+
+
+CERTIFICATE = periodic_orbit(
+    HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"]
+).certificate
+
+
+def moved(number: list[str], by: str) -> list[str]:
+    """A ball [midpoint, radius] moved."""
+    with precision(300):
+        from lagrotor.proved.balls import of_text
+
+        return [as_text((of_text(number[0]) + arb(by)).mid()), number[1]]
+
+
+def spoil(certificate: dict[str, Any], what: str) -> None:
+    steps, claim = certificate["steps"], certificate["claim"]
+    if what == "a node is left out":
+        del steps[2]
+    elif what == "the last node is left out":
+        del steps[-1]
+    elif what == "the period is off by 1e-13":
+        claim["period"] = moved(claim["period"], "1e-13")
+    elif what == "another kind":
+        claim["kind"] = "hyperbolic"
+    elif what == "a node is moved by 1e-17":
+        steps[1]["node"]["m"][0] = moved([steps[1]["node"]["m"][0], "0p0"], "1e-17")[0]
+    elif what == "a node's error is dropped":
+        steps[1]["node"]["s"] = [[m, "0p0"] for m, _ in steps[1]["node"]["s"]]
+    elif what == "a node's derivative is narrowed":
+        steps[1]["node"]["S"] = [[[m, "0p0"] for m, _ in row] for row in steps[1]["node"]["S"]]
+    elif what == "the start is elsewhere":
+        certificate["start"]["middle"][3] = moved(certificate["start"]["middle"][3], "1e-3")
+        certificate["start"]["middle"][4] = moved(certificate["start"]["middle"][4], "1e-3")
+    elif what == "another reversal":
+        certificate["reversals"][0] = [1, 1, -1, -1]
+    elif what == "another force":
+        operation = next(o for o in certificate["motion"]["operations"] if o[0] == "subtract")
+        operation[0] = "add"
+    elif what == "another sum of multipliers":
+        claim["pair_sum"] = moved(claim["pair_sum"], "1e-3")
+    else:
+        certificate["motion"]["operations"][0] = ["__import__", 0]
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "a node is left out",
+        "the last node is left out",
+        "the period is off by 1e-13",
+        "another kind",
+        "a node is moved by 1e-17",
+        "a node's error is dropped",
+        "a node's derivative is narrowed",
+        "the start is elsewhere",
+        "another reversal",
+        "another force",
+        "another sum of multipliers",
+        "another operation",
+    ],
+)
+def test_a_spoiled_certificate_is_refused(what: str) -> None:
+    certificate = copy.deepcopy(CERTIFICATE)
+    spoil(certificate, what)
+    with pytest.raises((NotProved, InputError), match="check: "):
+        check(certificate)
+
+
+def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
+    assert "elliptic" in check(copy.deepcopy(CERTIFICATE))
+    with pytest.raises(InputError, match="a certificate is the dictionary"):
+        check({"kind": "theorem"})
+
+
+def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = enclose(PENDULUM, {}, [1], [0], 2)
+    assert verified(found)
+    from lagrotor.proved import stepping
+    from lagrotor.proved.tails import ZERO
+
+    def without_rest(*arguments: Any) -> Any:
+        rests, evaluation = stepping.with_rest(*arguments)
+        return [ZERO for _ in rests], evaluation
+
+    monkeypatch.setattr(carried_sets, "with_rest", without_rest)
+    with pytest.raises(NotProved, match="node 1 does not hold the motion of the middle"):
+        verified(enclose(PENDULUM, {}, [1], [0], 2))
