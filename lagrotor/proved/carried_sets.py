@@ -153,7 +153,7 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
         _, evaluation = with_rest(motion, wide, box, h, n)
         D, _ = derivative_of_step(motion, evaluation, h, n)
         # Another program's order of operations gives other widths.
-        D = arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 2).upper()) for x in D.entries()])
+        D = arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 4).upper()) for x in D.entries()])
     return D
 
 

@@ -1,8 +1,8 @@
 """`check`: a small second program that verifies a certificate. It shares no arithmetic of series with the search.
 
 It looks for no step, frame, order or orbit: all are in the certificate. At each node the set is carried through the step by
-this program's own Taylor terms, found by recurrences, and must lie within the certificate's next set. Derivatives by the start
-are carried along as dual numbers, and what they leave out is bounded together with the motion's own rest.
+this program's own Taylor terms, found by recurrences, and must lie within the certificate's next set. The derivative of the
+rates is found by dual numbers, forward.
 """
 
 from collections.abc import Callable, Sequence
@@ -349,66 +349,70 @@ class Flow:
         found += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
         return found + [Dual(x) for x in flat[len(still) :]]
 
-    def step(
-        self, start: list[Ball], h: Ball, n: int, derivatives: bool, known: list[list[Ball]] | None = None
-    ) -> tuple[list[Rest], list[list[Rest]]]:
-        """Series of what moves over one step, all starts within the balls, with their derivatives by the start.
-
-        known: terms of the series that are known already.
-        """
+    def step(self, start: list[Ball], h: Ball, n: int, known: list[list[Ball]] | None = None) -> list[Rest]:
+        """Series of what moves over one step, all starts within the balls. known: terms that are known already."""
         moving, still = start[: self.moving], start[self.moving :]
-        terms = [[x] for x in moving]
-        slopes = [[[arb(int(i == j))] for j in range(self.size)] for i in range(self.moving)] if derivatives else []
-        for k in range(1, n):
-            rates = self._rates(terms, slopes, [None] * self.moving, [], still, k)
-            for i, (row, rate) in enumerate(zip(terms, rates, strict=True)):
-                row.append(h * term(rate.value, k - 1) / k if known is None else known[i][k])
-            for i, slope in enumerate(slopes):
-                for entry, by in zip(slope, rates[i].by or [Rest([], None, k)] * self.size, strict=True):
-                    entry.append(h * term(by, k - 1) / k)
-        return self._bounded(terms, slopes, still, h, n)
-
-    def derivatives(self, box: list[Ball], m: list[Ball], image: list[Rest], h: Ball, n: int) -> list[list[Rest]]:
-        """Those of the step over a box about m. Over a wide box the terms are taken again by the mean-value theorem."""
-        rows, slopes = self.step(box, h, n, True)
-        off = [x - y for x, y in zip(box, m, strict=True)]
-        if not any(abs(x) > _WIDE for x in off):
-            return slopes
-        known = []
-        for row, exactly, by in zip(rows, image, slopes, strict=True):
-            shifts = [sum((term(d, k) * x for d, x in zip(by, off, strict=True)), ZERO) for k in range(n)]
-            again = [term(exactly, k) + shift for k, shift in enumerate(shifts)]
-            known.append([min(term(row, k), x, key=lambda y: float(y.rad())) for k, x in enumerate(again)])
-        return self.step(box, h, n, True, known)[1]
-
-    def _rates(self, terms: Any, slopes: Any, rests: Any, slope_rests: Any, still: Any, n: int) -> list[Dual]:
-        rows = [Rest(row, rest, n) for row, rest in zip(terms, rests, strict=True)]
-        by = None
-        if slopes:
-            given = slope_rests or [[None] * self.size for _ in slopes]
-            by = [
-                [Rest(e, r, n) for e, r in zip(row, rest, strict=True)] for row, rest in zip(slopes, given, strict=True)
-            ]
-        return evaluated(self.tape, self.arguments(rows, still, by, n), n)
-
-    def _bounded(self, terms: Any, slopes: Any, still: Any, h: Ball, n: int) -> tuple[list[Rest], list[list[Rest]]]:
-        """Rests that Picard's map takes into themselves."""
-        rests, wide = [ZERO] * len(terms), [[ZERO] * self.size for _ in slopes]
+        terms = known or [[x] for x in moving]
+        for k in range(1, n if known is None else 1):
+            rates = self._rates([Rest(row, None, k) for row in terms], still, k)
+            for row, rate in zip(terms, rates, strict=True):
+                row.append(h * term(rate, k - 1) / k)
+        rests = [ZERO] * len(terms)
         for _ in range(9):
-            rates = self._rates(terms, slopes, rests, wide, still, n)
-            new = [left_out(rate.value, h, n) for rate in rates]
-            wider = [
-                [left_out(x, h, n) for x in rate.by] if rate.by else [ZERO] * self.size for rate in rates[: len(slopes)]
-            ]
-            if within(new, rests) and all(within(x, y) for x, y in zip(wider, wide, strict=True)):
-                series = [Rest(row, rest, n) for row, rest in zip(terms, new, strict=True)]
-                return series, [
-                    [Rest(e, r, n) for e, r in zip(row, rest, strict=True)]
-                    for row, rest in zip(slopes, wider, strict=True)
-                ]
-            least = max([*new, *(x for row in wider for x in row)], key=lambda x: float(x.upper())) / 2**16
-            rests, wide = [2 * x + least for x in new], [[2 * x + least for x in row] for row in wider]
+            rates = self._rates([Rest(row, rest, n) for row, rest in zip(terms, rests, strict=True)], still, n)
+            new = [left_out(rate, h, n) for rate in rates]
+            if within(new, rests):
+                return [Rest(row, rest, n) for row, rest in zip(terms, new, strict=True)]
+            least = max(new, key=lambda x: float(x.upper())) / 2**16
+            rests = [arb((2 * x + least).upper()) for x in new]
         raise NotProved("check: the rest of the Taylor series is not bounded over a step")
+
+    def _rates(self, rows: list[Rest], still: Sequence[Ball], n: int) -> list[Rest]:
+        return [rate.value for rate in evaluated(self.tape, self.arguments(rows, still, None, n), n)]
+
+    def slopes(self, rows: list[Rest], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
+        """The terms of D, D' = h J D and D(0) = 1, and a bound of the rest of each entry."""
+        size, n_rows = self.size, self.moving
+        by = [[Rest([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
+        zero = [Rest([], ZERO, n)] * size
+        found = [rate.by or zero for rate in evaluated(self.tape, self.arguments(rows, still, by, n), n)]
+        found += [zero] * (size - n_rows)
+        J = [arb_mat([[h * term(x, k) for x in row] for row in found]) for k in range(n)]
+        rest = widest([total([h * x.bound for x in row]) for row in found])
+        D = [unit(size)]
+        for k in range(1, n):
+            D.append(sum((J[i] * D[k - 1 - i] for i in range(1, k)), J[0] * D[k - 1]) * (arb(1) / k))
+        a, b = ([widest([total(row) for row in X.tolist()]) for X in matrices] for matrices in (J, D))
+        over = sum((x * y for i, x in enumerate(a) for j, y in enumerate(b) if i + j >= n - 1), ZERO)
+        error = (over / n + rest * sum(b, ZERO) / (n + 1)) / below_one((sum(a, ZERO) + rest) / (n + 1))
+        demand(error.is_finite(), "the derivative's series does not converge over a step")
+        return D, arb(error.upper())
+
+    def derivative(self, box: list[Ball], m: list[Ball], image: list[Rest], h: Ball, n: int) -> Any:
+        """That of the step over a box about m. Over a wide box the terms are taken again by the mean-value theorem."""
+        still = box[self.moving :]
+        rows = self.step(box, h, n)
+        D, error = self.slopes(rows, still, h, n)
+        off = [x - y for x, y in zip(box, m, strict=True)]
+        if any(abs(x).upper() > _WIDE for x in off):
+            shifts = [(X * column(off)).entries() for X in D]
+            known = [
+                [narrower(term(row, k), term(exactly, k) + shifts[k][i]) for k in range(n)]
+                for i, (row, exactly) in enumerate(zip(rows, image, strict=True))
+            ]
+            D, error = self.slopes(self.step(box, h, n, known), still, h, n)
+        wide = [arb(0, error) if i < self.moving else ZERO for i in range(self.size) for _ in range(self.size)]
+        return sum(D[1:], D[0]) + arb_mat(self.size, self.size, wide)
+
+
+def narrower(x: Ball, y: Ball) -> Ball:
+    """The narrower of two balls that hold the same number."""
+    return min(x, y, key=lambda ball: float(ball.rad()))
+
+
+def widest(values: Sequence[Ball]) -> Ball:
+    """The largest of some bounds."""
+    return arb(max(values, key=lambda x: float(x.upper())).upper())
 
 
 def term(a: Rest, k: int) -> Ball:
@@ -472,13 +476,9 @@ class Carried:
         h, n, few = read_ball(data["h"]), int(data["terms"]), int(data["slope_terms"])
         demand(h > 0 and n > 2 and few > 2, f"step {k} has no length")
         moving = self.flow.moving
-        image, _ = self.flow.step(m, h, n, False)
+        image = self.flow.step(m, h, n)
         box = box_of(node, self.w)
-        slopes = self.flow.derivatives(box, m, image, h, few)
-        D = arb_mat(
-            [[end_of(x) for x in row] for row in slopes]
-            + [[arb(int(i == j)) for j in range(self.flow.size)] for i in range(moving, self.flow.size)]
-        )
+        D = self.flow.derivative(box, m, image, h, few)
         after = read_node(data["node"])
         m1, Q1, s1, C1, S1 = after
         back = Q1.inv()
@@ -541,7 +541,7 @@ def pieces_of(certificate: Any, carried: Carried) -> Any:
     at = ZERO
     tape = certificate["expression"]
     for box, h, n in carried.boxes:
-        rows, _ = carried.flow.step(box, h, n, False)
+        rows = carried.flow.step(box, h, n)
         arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
         yield at, h, evaluated(tape, arguments, n)[0].value
         at += h

@@ -46,13 +46,15 @@ def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
     rows = [[x] for x in start[: motion.moving]]
     still = [*start[motion.moving :], *motion.parameters]
     before = ctx.cap
-    for k in range(n - 1):
-        ctx.cap = k + 1
-        rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still], k + 1)
-        for row, rate in zip(rows, rates, strict=True):
-            value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
-            row.append(value / (k + 1))
-    ctx.cap = before
+    try:
+        for k in range(n - 1):
+            ctx.cap = k + 1
+            rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
+            for row, rate in zip(rows, rates, strict=True):
+                value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
+                row.append(value / (k + 1))
+    finally:
+        ctx.cap = before
     return rows
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagrotor.errors import NotProved
-from lagrotor.proved.balls import Ball, arb, arb_poly, arb_series, upper
+from lagrotor.proved.balls import Ball, arb, arb_poly, arb_series, ctx, upper
 from lagrotor.proved.tape import Tape
 
 ZERO = arb(0)
@@ -36,7 +36,9 @@ class Tailed:
         return self._norm
 
     def series(self) -> Any:
-        """The polynomial as Arb's truncated series, whose functions are exact to n terms."""
+        """The polynomial as Arb's truncated series, whose functions are exact to n terms, but never to more than `ctx.cap`."""
+        if ctx.cap < self.n:
+            raise TailError(f"series of {self.n} terms need precision(…, {self.n}), not {ctx.cap}")
         return arb_series(self.poly.coeffs(), self.n)
 
     def __add__(self, other: "Tailed") -> "Tailed":
@@ -152,7 +154,7 @@ def number(text: str) -> Ball:
     return arb(int(above)) / int(below or 1)
 
 
-def series_values(tape: Tape, arguments: Sequence[Any], n: int) -> list[Any]:
+def series_values(tape: Tape, arguments: Sequence[Any]) -> list[Any]:
     """The tape's outputs as truncated series, of arguments as truncated series (or numbers)."""
     found: list[Any] = []
     for name, *on in tape.operations:

@@ -23,6 +23,7 @@ from lagrotor.pair.notation import AXES
 from lagrotor.proved import NotProved, enclose, stepping
 from lagrotor.proved.balls import as_text, ball, of_text, precision
 from lagrotor.proved.tails import ZERO, Tailed
+from lagrotor.proved.tape import tape_of
 
 x, y, u, v = sp.symbols("x y u v")
 OSCILLATOR = Program((x, v), (), (v, -x))
@@ -263,3 +264,16 @@ def test_without_the_extra_the_way_out_is_named() -> None:
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "pip install lagrotor[proof]" in run.stdout
+
+
+def test_a_step_that_fails_leaves_the_length_of_series_as_it_was() -> None:
+    """Shorter series would drop terms that no bound holds; a twin of the guard."""
+    from flint import ctx
+
+    motion = stepping.Motion(tape_of(Program((x, v), (), (v, 1 / x))), ())
+    with precision(64, 12):
+        with pytest.raises(ValueError, match="leading term"):
+            stepping.taylor(motion, [arb(0, 1), arb(1)], 9)
+        assert ctx.cap == 12
+        with pytest.raises(NotProved, match="series of 20 terms"):
+            Tailed(arb_poly([1, 1]), ZERO, 20).inverse()
