@@ -20,7 +20,7 @@ from lagrotor.errors import ConstraintError, InputError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
-from lagrotor.proved import NotProved, enclose, stepping
+from lagrotor.proved import NotProved, carried_sets, enclose, stepping
 from lagrotor.proved.balls import as_text, ball, of_text, precision
 from lagrotor.proved.tails import ZERO, Tailed
 from lagrotor.proved.tape import tape_of

@@ -12,15 +12,15 @@ pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
 from flint import arb
 
-from lagrotor import Link, Scene
+from lagrotor import Link, Scene, floquet
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.models import floquet
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proved import (
     NotProved,
+    carried_sets,
     check,
     crossing,
     enclose,
