@@ -64,6 +64,8 @@ def _convert(source: str, display: bool) -> str:
         tree = Converter(display="block" if display else "inline").convert_to_element(plain)
         for node in tree.iter():
             node.text, node.tail = unescape(node.text or ""), None
+            if not node.get("href", "https://").startswith(("https://", "http://")):
+                del node.attrib["href"]  # a link to a page is kept, one that would run is not
         _tidy(tree)
         element = Element("math", {"display": "block"} if display else {})
         element.extend(tree)

@@ -9,29 +9,30 @@ import io
 import json
 import pickle
 import shutil
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from sympy.parsing import sympy_parser
 
 from lagrotor.files import write_beside, write_text
 from lagrotor.report.job.folder import MADE, PRODUCTS
 from lagrotor.report.job.reach import digest
 
-# What a product may be made of: a pickle that names anything else is not read.
-_TRUSTED = (
-    "sympy.",
-    "lagrotor.",
-    "numpy.",
-    "pathlib",
-    "collections",
-    "builtins",
-    "copyreg",
-    "fractions",
-    "mpmath.",
-    "_codecs",
-)
+# Rooms of classes that a product may be made of, and the few functions that make them again: a pickle that names anything
+# else is not read. A class may be given text; while a product is read, no text is parsed as an expression.
+_ROOMS = ("sympy.", "lagrotor.", "numpy.", "pathlib.", "collections.", "fractions.", "mpmath.")
+_FUNCTIONS = {
+    ("copyreg", "_reconstructor"),
+    ("copyreg", "__newobj__"),
+    ("copyreg", "__newobj_ex__"),
+    ("_codecs", "encode"),
+    ("lagrotor.paper.papers", "opened"),
+    *((f"numpy.{core}.multiarray", name) for core in ("core", "_core") for name in ("_reconstruct", "scalar")),
+    *((f"numpy.{core}.numeric", "_frombuffer") for core in ("core", "_core")),
+}
 _BUILTINS = {
     "dict",
     "list",
@@ -53,9 +54,37 @@ class _Reader(pickle.Unpickler):
     """Reads products, and refuses a pickle that would call anything else."""
 
     def find_class(self, module: str, name: str) -> Any:
-        if not f"{module}.".startswith(_TRUSTED) or (module == "builtins" and name not in _BUILTINS):
+        if module == "builtins" and name in _BUILTINS:
+            return super().find_class(module, name)
+        value = (
+            super().find_class(module, name)
+            if f"{module}.".startswith(_ROOMS) or (module, name) in _FUNCTIONS
+            else None
+        )
+        if (module, name) not in _FUNCTIONS and not isinstance(value, type):
             raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
-        return super().find_class(module, name)
+        return value
+
+
+def _read(data: bytes) -> Any:
+    """The product; raises UnpicklingError for one that names what it may not, or that holds text to be parsed."""
+
+    def refuse(*text: Any, **options: Any) -> Any:
+        raise pickle.UnpicklingError("a product holds text where an expression should be")
+
+    with patched(sympy_parser, "parse_expr", refuse), patched(sympy_parser, "eval_expr", refuse):
+        return _Reader(io.BytesIO(data)).load()
+
+
+@contextmanager
+def patched(module: Any, name: str, value: Any) -> Iterator[None]:
+    """Within the block the module's name stands for the value."""
+    before = getattr(module, name)
+    setattr(module, name, value)
+    try:
+        yield
+    finally:
+        setattr(module, name, before)
 
 
 @dataclass
@@ -84,10 +113,11 @@ class Kept:
             whole = whole and all(
                 digest((self.old / file).read_bytes()) == seen for file, seen in part["files"].items()
             )
-            return _Reader(io.BytesIO((self.old / _file_of(name)).read_bytes())).load() if whole else None
+            return _read((self.old / _file_of(name)).read_bytes()) if whole else None
         except (
             OSError,
             TypeError,
+            ValueError,
             KeyError,
             AttributeError,
             pickle.UnpicklingError,

@@ -141,3 +141,13 @@ def test_brackets_that_grow_and_matrices_stay_the_converters() -> None:
     assert latex(tex(sp.Matrix([[M, 1], [1, 2]]))).count("<mtr>") == 2
     assert 'displaystyle="true"' in latex(tex(sp.Matrix([M / r0, 1])))
     assert "mfrac" in latex(tex((M + 1 / r0) ** 2))
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["javascript:alert(1)", "JaVaScript:alert(1)", "&#106;avascript:alert(1)", "data:text/html,x"],
+)
+def test_a_link_that_would_run_is_not_kept(address: str) -> None:
+    drawn = mathml_latex.mathml(rf"\href{{{address}}}{{x}} + 1")
+    assert drawn and "href" not in drawn and "<mi>x</mi>" in drawn
+    assert 'href="https://example.org"' in (mathml_latex.mathml(r"\href{https://example.org}{x}") or "")
