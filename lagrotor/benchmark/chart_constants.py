@@ -26,4 +26,3 @@ LSODA_LEAST = Calibrated(
     "scipy's odeint and ode",
     "test_limits.py::test_solvers_keep_an_orbit",
 )
-TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured, MechanismKind
 
-Row = tuple[str, ...]
+_Row = tuple[str, ...]
 MECHANISM_HEAD = (
     "mechanism",
     "tool",
@@ -20,7 +20,7 @@ _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
 
 
-def mechanism_rows(measured: Sequence[Measured]) -> list[Row]:
+def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
@@ -28,7 +28,7 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[Row]:
     ]
 
 
-def decision_rows(decided: Sequence[Decided]) -> list[Row]:
+def decision_rows(decided: Sequence[Decided]) -> list[_Row]:
     """One row a pair of formulations."""
     return [
         (x.pair, _number(x.ours, 1e3), x.answer, _number(x.theirs, 1e3), x.their_answer, f"{_at_least(x)}{x.times:.0f}")
@@ -41,13 +41,13 @@ def target_rows(
     decided: Sequence[Decided],
     operations: dict[MechanismKind, list[int]],
     ready_in: dict[MechanismKind, list[float]],
-) -> list[Row]:
+) -> list[_Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 
     On each of LINKS, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
     """
     made = {(x.kind, x.n, x.tool): x for x in measured}
-    table, nothing = list[Row](), Measured("rods", 0, "")
+    table, nothing = list[_Row](), Measured("rods", 0, "")
     for kind, n in _AT.items():
         own, fast, pydy = (
             made.get((kind, n, name), nothing) for name in ("lagrotor", "lagrotor, fast", "PyDy, Cython")

@@ -23,7 +23,7 @@ from lagrotor.errors import InputError, LagrotorError
 from lagrotor.files import write_beside
 from lagrotor.numerics.rotations import Array
 
-SUFFIXES = (".gif", ".mp4")
+_SUFFIXES = (".gif", ".mp4")
 FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
 SIZE = (720, 420)  # of a frame, in pixels; even, as MP4 needs them
 SPOKES, ARCS = 5, 8  # few spokes, so that a turn of 0.4 rad from frame to frame is not seen as one backwards
@@ -34,7 +34,7 @@ Pixels = NDArray[np.uint8]
 
 def check_film(path: Path, duration: float, fps: float) -> None:
     """Raises InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
-    if path.suffix not in SUFFIXES:
+    if path.suffix not in _SUFFIXES:
         raise InputError(f"animate: {path}: the name must end in .gif or .mp4")
     if path.is_dir():
         raise InputError(f"animate: {path} is a folder: give a file")

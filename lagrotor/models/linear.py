@@ -31,7 +31,7 @@ LINEAR_MARGIN = Calibrated(
     "test_linear.py::test_the_linear_error_is_bounded",
 )
 FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
-SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
+_SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
 FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 _A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
@@ -197,7 +197,7 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))
     axes, seen = linear_run(scene, t).axes, response.through(t)
     off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
-    error = SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
+    error = _SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
     if not error <= FARTHEST_OFF:
         raise DomainError(
             f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {FARTHEST_OFF:g}: the response is "

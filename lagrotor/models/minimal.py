@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from lagrotor.models.programs.minimal_program import Ratio
     from lagrotor.numerics.codegen import Program
 
-NEAR = 1e-3  # rad from the joint line, where the coordinates U grow without end
+_NEAR = 1e-3  # rad from the joint line, where the coordinates U grow without end
 Kind = tuple[bool, "Ratio", int]  # massive bar, ell against R, shocked rotor (0: none)
 RATIOS: tuple[Ratio, ...] = ("short", "equal", "long")
-KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
+_KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
 
 
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
@@ -33,14 +33,14 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
     return minimal_program.program(massive, ratio, body)
 
 
-@generated((*kind, bounded) for kind in KINDS for bounded in (False, True))
+@generated((*kind, bounded) for kind in _KINDS for bounded in (False, True))
 def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
     from lagrotor.numerics.rhs import rhs_source
 
     return rhs_source(program(massive, ratio, body), 6, body > 0, bounded)
 
 
-@generated(KINDS)
+@generated(_KINDS)
 def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
     """The outputs of one kind's program on arrays that broadcast."""
     from lagrotor.numerics.codegen import program_source
@@ -105,7 +105,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 
 def _singular(axes: Array) -> str:
-    near = [i for i in (0, 1) if hypot(axes[i, 1], axes[i, 2]) < NEAR]
+    near = [i for i in (0, 1) if hypot(axes[i, 1], axes[i, 2]) < _NEAR]
     return f"axis {near[0] + 1} lies along the joint line" if near else ""
 
 

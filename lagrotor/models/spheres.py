@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
 CLEARANCE = 1e-5  # rad; nearer, the multipliers carry fewer than six digits
-NEAR = 1e-3  # rad from there, where a solver that stops has come to it
+_NEAR = 1e-3  # rad from there, where a solver that stops has come to it
 # Massive bar, bar, shocked rotor (0: none).
-Kind = tuple[bool, bool, int]
-KINDS: tuple[Kind, ...] = tuple(
+_Kind = tuple[bool, bool, int]
+_KINDS: tuple[_Kind, ...] = tuple(
     (*bars, body) for bars in ((False, False), (False, True), (True, True)) for body in (0, 1, 2)
 )
 
@@ -36,14 +36,14 @@ def program(massive: bool, bar: bool, body: int) -> Program:
     return spheres_program.program(massive, bar, body)
 
 
-@generated((*kind, False) for kind in KINDS)
+@generated((*kind, False) for kind in _KINDS)
 def _rhs(massive: bool, bar: bool, body: int, bounded: bool) -> str:
     from lagrotor.numerics.rhs import rhs_source
 
     return rhs_source(program(massive, bar, body), 12, body > 0, bounded)
 
 
-@generated(kind[:2] for kind in KINDS if kind[2] == 0)
+@generated(kind[:2] for kind in _KINDS if kind[2] == 0)
 def _projected(massive: bool, bar: bool) -> str:
     from lagrotor.models.programs.spheres_program import projection
     from lagrotor.numerics.codegen import program_source
@@ -51,7 +51,7 @@ def _projected(massive: bool, bar: bool) -> str:
     return program_source(projection(massive, bar), "numpy")
 
 
-def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
+def _kind(scene: Scene, driven: bool) -> tuple[_Kind, tuple[float, ...]]:
     """The scene's kind and the values of its parameters but for the force."""
     inertia_a, inertia_b = scene.inertias
     bar, massive = scene.link is not None, inertia_b != 0
@@ -109,7 +109,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 
 def _singular(axes: Array) -> str:
-    near = axes[0, 0] * axes[1, 0] > 0.9 and _across(axes.ravel()) < NEAR
+    near = axes[0, 0] * axes[1, 0] > 0.9 and _across(axes.ravel()) < _NEAR
     return "bar and axes come into line, where the motion is not determined" if near else ""
 
 

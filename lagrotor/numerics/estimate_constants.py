@@ -84,5 +84,3 @@ KEPT = Calibrated(
     f"{_WIDE}: 99 of 100 runs are off by less than twice the estimate",
     "test_estimated.py::test_a_run_that_does_not_conserve_is_refused",
 )
-
-TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

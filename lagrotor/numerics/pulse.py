@@ -8,7 +8,7 @@ from typing import NamedTuple
 PULSE_REACH = 6.5
 
 
-class Part(NamedTuple):
+class _Part(NamedTuple):
     """A part of a run without a pulse's edge inside; `pulsed`: it lies within the pulse."""
 
     left: float
@@ -16,9 +16,9 @@ class Part(NamedTuple):
     pulsed: bool
 
 
-def segments(begin: float, end: float, width: float) -> Iterator[Part]:
+def segments(begin: float, end: float, width: float) -> Iterator[_Part]:
     """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width; 0: there is none."""
     reach = PULSE_REACH * width
     cuts = [begin, *(s for s in (-reach, reach) if width and begin < s < end), end]
     for left, right in pairwise(cuts):
-        yield Part(left, right, abs(left + right) / 2 < reach)
+        yield _Part(left, right, abs(left + right) / 2 < reach)

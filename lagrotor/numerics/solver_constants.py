@@ -37,5 +37,3 @@ DETOUR = Calibrated(
     "the 1,000 wide scenes: those of more than 500 turns beside a dead point",
     "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung",
 )
-
-TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

@@ -30,7 +30,7 @@ _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, t
 MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
-Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
+_Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Pulse:
 
 
 def integrate_taylor(
-    generated: Generated,
+    generated: _Generated,
     start: Array,
     pulse: Pulse | None,
     times: Array,

@@ -7,7 +7,7 @@ from lagrotor.errors import InputError
 
 Vector = tuple[float, float, float]
 Spins = tuple[float, float]  # axial angular velocities of the two rotors, rad/s
-SMALLEST, LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
+SMALLEST, _LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
 
 
 def number(value: object, where: str, unit: str) -> float:
@@ -18,8 +18,8 @@ def number(value: object, where: str, unit: str) -> float:
         raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
     if isinstance(value, bool) or not isfinite(given):
         raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
-    if abs(given) > LARGEST:
-        raise InputError(f"{where} = {given:g} {unit} is beyond {LARGEST:g}, where squares overflow; change the units")
+    if abs(given) > _LARGEST:
+        raise InputError(f"{where} = {given:g} {unit} is beyond {_LARGEST:g}, where squares overflow; change the units")
     return given
 
 

@@ -10,10 +10,10 @@ from lagrotor.errors import InputError
 from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.pair.quantities import Vector, not_negative, not_vanishing, number, numbers, positive, two_vectors, vector
 
-CLOSE = 1e-9  # how far a given state may lie off its constraints
+_CLOSE = 1e-9  # how far a given state may lie off its constraints
 
 
-def dot(p: Vector, q: Vector) -> float:
+def _dot(p: Vector, q: Vector) -> float:
     """Scalar product of two vectors."""
     return fsum(x * y for x, y in zip(p, q, strict=True))
 
@@ -130,11 +130,11 @@ class Scene:
         object.__setattr__(self, "axes", two_vectors(self.axes, "Scene: axes", "1"))
         object.__setattr__(self, "rates", two_vectors(self.rates, "Scene: rates", "1/s"))
         for i, (r, v) in enumerate(zip(self.axes, self.rates, strict=True)):
-            if abs(hypot(*r) - 1) > CLOSE:
+            if abs(hypot(*r) - 1) > _CLOSE:
                 raise InputError(f"Scene: axes[{i}] has length {hypot(*r):.9g}, not 1: divide it by its length")
-            if abs(dot(r, v)) > CLOSE * (1 + hypot(*v)):
+            if abs(_dot(r, v)) > _CLOSE * (1 + hypot(*v)):
                 raise InputError(
-                    f"Scene: rates[{i}] is not tangent: r . r' = {dot(r, v):.3g}; subtract (r . r') r, "
+                    f"Scene: rates[{i}] is not tangent: r . r' = {_dot(r, v):.3g}; subtract (r . r') r, "
                     "or use lagrotor.consistent_scene"
                 )
         if self.link is not None:
@@ -145,13 +145,13 @@ class Scene:
         (r1, r2), (v1, v2), R, ell = self.axes, self.rates, self.rotor.length, link.length
         d = (ell + R * (r2[0] - r1[0]), R * (r2[1] - r1[1]), R * (r2[2] - r1[2]))
         w = (v2[0] - v1[0], v2[1] - v1[1], v2[2] - v1[2])
-        if abs(hypot(*d) - ell) > CLOSE * ell:
+        if abs(hypot(*d) - ell) > _CLOSE * ell:
             raise InputError(
                 f"Scene: the bar cannot reach: |ell e_x + R (r2 - r1)| = {hypot(*d):.9g}, ell = {ell:g}; "
                 "change an axis or the bar, or use lagrotor.consistent_scene"
             )
-        stretch = R * dot(d, w) / ell
-        if abs(stretch) > CLOSE * R * (1 + hypot(*w)):
+        stretch = R * _dot(d, w) / ell
+        if abs(stretch) > _CLOSE * R * (1 + hypot(*w)):
             raise InputError(
                 f"Scene: the rates stretch the bar at {stretch:.3g} m/s; make them tangent to its constraint, "
                 "or use lagrotor.consistent_scene"
@@ -160,7 +160,7 @@ class Scene:
         pulls = []
         for r, other, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
             n = (ell / R * sign + other[0], other[1], other[2])
-            along = dot(n, r)
+            along = _dot(n, r)
             pulls.append(hypot(n[0] - along * r[0], n[1] - along * r[1], n[2] - along * r[2]))
         if max(pulls) < 1e-6 * min(1.0, ell / R):
             raise InputError(

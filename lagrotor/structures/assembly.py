@@ -10,7 +10,7 @@ from lagrotor.errors import InputError
 from lagrotor.pair.quantities import not_negative, number, numbers, vector
 from lagrotor.pair.scene import Link, Rotor
 
-Point = tuple[float, float, float]
+_Point = tuple[float, float, float]
 Bar = tuple[int, int, float]
 
 
@@ -22,7 +22,7 @@ class Brace:
     """
 
     tip: int
-    to: int | Point
+    to: int | _Point
     stiffness: float = 0.0
     damping: float = 0.0
 
@@ -130,7 +130,7 @@ class Assembly:
             )
         return number
 
-    def upright_tip(self, i: int) -> Point:
+    def upright_tip(self, i: int) -> _Point:
         """Where the tip of rotor i is when its axis is upright, m."""
         return (*self.joints[i], self.rotor[i].length)
 

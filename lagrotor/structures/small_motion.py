@@ -24,7 +24,7 @@ from lagrotor.structures.coefficients import Array, Coefficients, Complex, coeff
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
 # Of the structure's rate: a root nearer to zero is zero (a double one is found to half of a double's digits).
-ZERO = 1e-6
+_ZERO = 1e-6
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
 
@@ -123,7 +123,7 @@ class SmallMotion:
         return found
 
     def _in_seconds(self, s: Matrix) -> Complex:
-        least = ZERO * np.maximum(np.abs(s), 1.0)
+        least = _ZERO * np.maximum(np.abs(s), 1.0)
         return np.asarray(
             self.rate * (np.where(np.abs(s.real) < least, 0, s.real) + 1j * np.where(np.abs(s.imag) < least, 0, s.imag))
         )

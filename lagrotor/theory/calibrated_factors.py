@@ -48,5 +48,3 @@ FARTHEST_TURN = Calibrated(
     "the same pairs; about there the estimates grow past the rates",
     _DRIFT + "test_what_is_out_of_range_is_refused",
 )
-
-TABLE = {name: value for name, value in dict(globals()).items() if isinstance(value, Calibrated)}

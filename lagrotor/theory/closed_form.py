@@ -17,7 +17,7 @@ from lagrotor.pair.notation import GLOSSARY
 
 Array = NDArray[np.float64]
 # From the arguments, each (n,): estimated bounds of the errors, (outputs, n) or what broadcasts to it.
-Bound = Callable[..., Array]
+_Bound = Callable[..., Array]
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class ClosedForm:
     source: str
     order: int | None = None
     small: sp.Symbol | None = None
-    bound: Bound | None = None
+    bound: _Bound | None = None
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
     from lagrotor.mechanics.fourier import FourierSeries
 
-Waves = NDArray[np.complex128]
-ORDERS = (3, 5, 7, 9, 11, 13, 15)
+_Waves = NDArray[np.complex128]
+_ORDERS = (3, 5, 7, 9, 11, 13, 15)
 FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
 LONG = 300.0  # rad beyond which a period is integrated where the series does not reach the tolerance
-LARGEST = 0.5  # amplitude beyond which the series is of no use
+_LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 ROUND = 4e-16  # relative, of an angle
 _SMALL = 0.1  # of an error, known to first order
@@ -40,7 +40,7 @@ class _Series(NamedTuple):
     """The orbit's series to one order: of r_1, waves[n, h, i] of r0**n exp(i h Phi) (real part meant), of Omega/Omega_0,
     frequency[n], and how large the terms of each power of r0 are."""
 
-    waves: Waves
+    waves: _Waves
     frequency: Array
     wave_sizes: list[float]
     frequency_sizes: list[float]
@@ -65,13 +65,13 @@ def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int
     return ((term, value) for term, value in series.terms.items() if term[0] <= order)
 
 
-def _summed(powers: Array, waves: Waves) -> Waves:
+def _summed(powers: Array, waves: _Waves) -> _Waves:
     """sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
-    summed: Waves = powers @ waves.reshape(len(waves), -1)
+    summed: _Waves = powers @ waves.reshape(len(waves), -1)
     return summed.reshape(*powers.shape, 3)
 
 
-def _axes_at(waves: Waves, phase: float) -> Array:
+def _axes_at(waves: _Waves, phase: float) -> Array:
     """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, 3).
 
     waves (…, order + 1, 3).
@@ -131,7 +131,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
 
     shape, ratio = _shape(scene.rotor, scene.link)
     error, before = inf, inf
-    orders = (*ORDERS, *FURTHER) if best else ORDERS
+    orders = (*_ORDERS, *FURTHER) if best else _ORDERS
     r0 = float(guess[0])
     growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
     for order in orders:
@@ -178,7 +178,7 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
     r0, phase = float(np.hypot(x, y)), float(np.arctan2(y, x))
     off = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
-    if not off <= 2 * (1 + width**2) * r0**2 or r0 > LARGEST:
+    if not off <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
         raise DomainError(
             f"closed_form: the start is not on a paired precession: {off:.2g} of the natural rate off the one of amplitude "
             f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
@@ -186,7 +186,7 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     return np.array([r0, phase, azimuth])
 
 
-def _orbit_answer(waves: Waves, frequency: float, unknowns: Array, order: int, error: float) -> ClosedForm:
+def _orbit_answer(waves: _Waves, frequency: float, unknowns: Array, order: int, error: float) -> ClosedForm:
     r0, phase, azimuth = (float(u) for u in unknowns)
     h = np.arange(order + 1)[:, None]
     # Both axes and both rates as one real matrix over cos(h Phi) and sin(h Phi); half a period later odd waves change sign.

@@ -14,7 +14,7 @@ from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.orbit_harmonics import Array
 from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit, amplitude_of, series_orbit
 
-ORDERS = (5, 9, 13)  # beyond which shooting takes less time
+_ORDERS = (5, 9, 13)  # beyond which shooting takes less time
 _SAMPLES = (16, 32, 64, 128, 256)  # of a quarter period
 
 
@@ -30,7 +30,7 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
     if isinstance(tol, bool) or not (isinstance(tol, int | float | np.floating) and 0 < tol < 1):
         raise InputError(f"precession_orbit: tol = {tol!r} must be a number between 0 and 1")
     wanted = tol * natural_rate(scene)
-    for order in ORDERS:
+    for order in _ORDERS:
         try:
             orbit = series_orbit(scene, amplitude, order)
         except DomainError:

@@ -7,7 +7,7 @@ from lagrotor.numerics.codegen import Program, solve_symmetric
 from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, a, b, k
 
-FORCE = sp.symbols("F_x F_y F_z", real=True)
+_FORCE = sp.symbols("F_x F_y F_z", real=True)
 # The spins first: their pivot is I_3, and what is left of the azimuth's is then a sin² theta.
 ORDER = [2, 5, 0, 3, 1, 4]
 
@@ -22,7 +22,7 @@ def program(massive: bool, body: int) -> Program:
         i = 3 * (body - 1)
         tip = axis(PAIR.q[i], PAIR.q[i + 1])
         for j in (0, 1):
-            force[i + j] += sp.Matrix(FORCE).dot(tip.diff(PAIR.q[i + j]))
+            force[i + j] += sp.Matrix(_FORCE).dot(tip.diff(PAIR.q[i + j]))
     mass, force, G = mass.extract(ORDER, ORDER), force.extract(ORDER, [0]), G.extract([0], ORDER)
     stages, free = solve_symmetric(mass, force.row_join(G.T), "m")
     # I_3 cos² theta cancels from the azimuth's pivot here: in floating point it would leave more than a sin² theta is.
@@ -34,7 +34,7 @@ def program(massive: bool, body: int) -> Program:
     stages.append((lam, -(row.dot(acceleration) + gamma) / row.dot(pull)))
     moved = acceleration + lam * pull
     accelerations = [moved[ORDER.index(i)] for i in range(6)]
-    parameters = (a, *((b,) if massive else ()), k, I3, *(FORCE if body else ()))
+    parameters = (a, *((b,) if massive else ()), k, I3, *(_FORCE if body else ()))
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), (*PAIR.v, *accelerations))
 
 

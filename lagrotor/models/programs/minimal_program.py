@@ -19,9 +19,9 @@ from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
 from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 
 Ratio = Literal["short", "equal", "long"]
-Pair = tuple[sp.Expr, sp.Expr]
+_Pair = tuple[sp.Expr, sp.Expr]
 FARTHEST_ALONG = sp.Rational(49, 50)  # |x| of an axis: beyond, Mercator coordinates magnify errors more than fivefold
-FORCE = sp.symbols("F_x F_y F_z", real=True)
+_FORCE = sp.symbols("F_x F_y F_z", real=True)
 (_U, _CHI, _ALPHA), (_U_V, _CHI_V, _ALPHA_V) = MINIMAL.q, MINIMAL.v
 # Delta, its cosine and sine, rho of the bar's curve, exp(−w), exp(2 U).
 _D, _C, _S, _RHO, _DROP, _E = sp.symbols("D c_D s_D rho drop e_U", real=True)
@@ -46,7 +46,7 @@ class _Rotor(NamedTuple):
     u_v: sp.Symbol
     alpha_v: sp.Symbol
     g: sp.Expr
-    force: Pair
+    force: _Pair
 
 
 class _Stages(list[Stage]):
@@ -71,7 +71,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         *(() if ratio == "equal" else (k,)),
         G_1,
         G_2,
-        *(FORCE if body else ()),
+        *(_FORCE if body else ()),
     )
     away = tuple(FARTHEST_ALONG**2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
@@ -120,9 +120,9 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
         t = stages.keep(f"t_{i}", (e - 1) / (e + 1))
         u_v = stages.keep(f"u_{i}_v", _U_V + sign * curve.W1 * _CHI_V / 2)
         alpha_v = stages.keep(f"al_{i}_v", _ALPHA_V - sign * curve.D1 * _CHI_V / 2)
-        force: Pair = (sp.Integer(0), sp.Integer(0))
+        force: _Pair = (sp.Integer(0), sp.Integer(0))
         if body == i:
-            turn, (x, y, z) = _ALPHA - sign * _D / 2, FORCE
+            turn, (x, y, z) = _ALPHA - sign * _D / 2, _FORCE
             c, s, sech = sp.cos(turn), sp.sin(turn), 2 * sp.sqrt(e) / (e + 1)
             force = (sech * x + t * (y * s - z * c)) / a, -(y * c + z * s) / a
         rotors.append(_Rotor(e, t, u_v, alpha_v, G / a, force))

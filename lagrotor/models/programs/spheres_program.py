@@ -16,7 +16,7 @@ from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, a, b, k
 
-FORCE = sp.symbols("F_x F_y F_z", real=True)
+_FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
@@ -24,13 +24,13 @@ def program(massive: bool, bar: bool, body: int) -> Program:
 
     With a massive bar, what the system generates; without mass or bar, fewer operations by hand.
     """
-    parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(FORCE if body else ()))
+    parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(_FORCE if body else ()))
     if not massive:
         stages, accelerations = _slim(bar, body)
         return Program((*AXES.q, *AXES.v, *parameters), tuple(stages), (*AXES.v, *accelerations))
     system = axes_pair(bar)
     if body:
-        push = sp.Matrix([*(FORCE if body == 1 else (0, 0, 0)), *(FORCE if body == 2 else (0, 0, 0))])
+        push = sp.Matrix([*(_FORCE if body == 1 else (0, 0, 0)), *(_FORCE if body == 2 else (0, 0, 0))])
         system = replace(system, forces=tuple(system.push + push))
     made = motion_program(system).program
     return Program((*AXES.q, *AXES.v, *parameters), made.stages, made.outputs)
@@ -53,7 +53,7 @@ def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
     for i, G in enumerate((G_1, G_2)):
         own = sp.Matrix(sp.symbols(f"f{i}_0:3", real=True))
         square, along, inward = sp.symbols(f"s_{i} n_{i} h_{i}", real=True)
-        force = sp.Matrix(FORCE) if body == i + 1 else sp.zeros(3, 1)
+        force = sp.Matrix(_FORCE) if body == i + 1 else sp.zeros(3, 1)
         stages += list(zip(own, (G * r[i].cross(v[i]) + force) / a, strict=True))
         stages.append((square, r[i].dot(r[i]) if bar else sp.S.One))
         stages.append((along, (r[0].dot(r[1]) + (-1) ** i * k * r[i][0]) / square))

@@ -16,7 +16,7 @@ from lagrotor.numerics.rotations import cross_matrix
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
-MOST = 12  # bodies beyond which arrays cost less
+_MOST = 12  # bodies beyond which arrays cost less
 _STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch on no value
 
 
@@ -59,7 +59,7 @@ def _recorded(
         numbers: list[Any] = read(moving).tolist()
         return numbers
 
-    if n > MOST or (system.force, system.rotation, system.transform) != _STRAIGHT:
+    if n > _MOST or (system.force, system.rotation, system.transform) != _STRAIGHT:
         return found
     tape: list[Recorded] = []
     names = [f"y{k}" for k in range(size * n)]

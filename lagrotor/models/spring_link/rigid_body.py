@@ -14,7 +14,7 @@ from lagrotor.numerics.rotations import cross_matrix, turn_about
 Array = NDArray[np.float64]
 
 _LEAST = np.finfo(float).smallest_normal
-CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
+_CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
 
 
 def finite_array(value: ArrayLike, shape: tuple[int, ...], where: str) -> Array:
@@ -110,9 +110,9 @@ class RigidBody:
         if self.mass <= 0:
             raise InputError(f"RigidBody: mass = {self.mass:g} kg must be greater than zero")
         I0, R = self.inertia, self.rotation
-        if abs(I0 - I0.T).max() > CLOSE * abs(I0).max() or np.linalg.eigvalsh(I0)[0] <= 0:
+        if abs(I0 - I0.T).max() > _CLOSE * abs(I0).max() or np.linalg.eigvalsh(I0)[0] <= 0:
             raise InputError(f"RigidBody: inertia = {I0.tolist()} must be symmetric, its principal moments above zero")
-        if abs(R @ R.T - np.eye(3)).max() > CLOSE or np.linalg.det(R) < 0:
+        if abs(R @ R.T - np.eye(3)).max() > _CLOSE or np.linalg.det(R) < 0:
             raise InputError(f"RigidBody: rotation = {R.tolist()} is no rotation: give R with R Rᵀ = 1 and det R = 1")
 
     @property

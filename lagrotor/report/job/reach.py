@@ -128,7 +128,7 @@ def source_digest(path: Path, paper: Paper) -> str:
     )
 
 
-def digest_of(files: Iterable[Path], paper: Paper) -> str:
+def _digest_of(files: Iterable[Path], paper: Paper) -> str:
     """Digest of some files, by their places and their bytes."""
     return digest(*(part for file in sorted((_place(f, paper), _file_digest(f)) for f in files) for part in file))
 
@@ -154,7 +154,7 @@ def inputs(paper: Paper) -> dict[str, str]:
         {f for f in files if f.suffix not in _NO_SOURCE - {".py"} and f.name not in _NO_DATA}
         for files in (package - own, own)
     )
-    digests = {"catalogue of equations, claims, figures": digest_of(own, paper), "package": digest_of(package, paper)}
+    digests = {"catalogue of equations, claims, figures": _digest_of(own, paper), "package": _digest_of(package, paper)}
     scripts = {kind: (paper.scripts.base / kind).glob("*.*") for kind in ("derivations", "figures")}
     kept = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
-    return digests | {kind: digest_of(files, paper) for kind, files in kept.items()}
+    return digests | {kind: _digest_of(files, paper) for kind, files in kept.items()}

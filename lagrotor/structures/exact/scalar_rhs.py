@@ -14,13 +14,13 @@ from lagrotor.structures.exact.exact_motion import Drive, ExactMotion
 from lagrotor.structures.exact.written_out import accelerations
 
 # Axes and bars beyond which arrays cost less: with massless bars, where each axis is eliminated by itself, and with heavy ones.
-MOST, HEAVY = 40, 15
+_MOST, HEAVY = 40, 15
 
 
 def right_hand_side(motion: ExactMotion) -> RightHandSide:
     """The right-hand side (s, y) → y' of an exact motion, that of `motion.rhs`: for few rotors in single numbers."""
     c = motion.c
-    if len(c.R) + len(c.i) > (HEAVY if c.coupling.any() else MOST):
+    if len(c.R) + len(c.i) > (HEAVY if c.coupling.any() else _MOST):
         return motion.rhs
     make = function_of(_source(c, motion.force is not None, motion.ground is not None))
     rhs: RightHandSide = make(*(_listed(drive) for drive in (motion.force, motion.ground)))

@@ -7,19 +7,19 @@ from typing import Any
 from lagrotor.structures.coefficients import Coefficients
 from lagrotor.structures.exact.levels import eliminate_in_levels
 
-Vector = list[Any]
+_Vector = list[Any]
 _TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
 
 
 def accelerations(
     c: Coefficients,
-    r: Sequence[Vector],
-    v: Sequence[Vector],
+    r: Sequence[_Vector],
+    v: Sequence[_Vector],
     G: Sequence[Any],
     by: Any,
-    add: Callable[[Vector], Any] = sum,
-    more: Sequence[Vector] = (),
-) -> list[Vector]:
+    add: Callable[[_Vector], Any] = sum,
+    more: Sequence[_Vector] = (),
+) -> list[_Vector]:
     """r'' of axes r and rates v, N lists of three each, with axial momenta G (N).
 
     by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
@@ -30,7 +30,7 @@ def accelerations(
 
 
 def system(
-    c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequence[Any], by: Any, more: Sequence[Vector] = ()
+    c: Coefficients, r: Sequence[_Vector], v: Sequence[_Vector], G: Sequence[Any], by: Any, more: Sequence[_Vector] = ()
 ) -> tuple[list[Any], dict[tuple[int, int], Any], list[Any], int]:
     """The linear system for [r'' (3 N), multipliers of the axes (N) and of the bars (B)]: diagonal, {(i, j): entry off it},
     right side, and 3 N, the number of unknowns with a mass. Arguments as of `accelerations`.
@@ -52,7 +52,7 @@ def system(
     return diagonal, off, right, 3 * N
 
 
-def _forces(c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequence[Any], by: Any) -> list[Vector]:
+def _forces(c: Coefficients, r: Sequence[_Vector], v: Sequence[_Vector], G: Sequence[Any], by: Any) -> list[_Vector]:
     """What acts on the axes besides the constraints, N m."""
     found = []
     for i, ((x, y, z), (p, q, w)) in enumerate(zip(r, v, strict=True)):
@@ -69,7 +69,7 @@ def _forces(c: Coefficients, r: Sequence[Vector], v: Sequence[Vector], G: Sequen
     return found
 
 
-def _brace(c: Coefficients, k: int, F: list[Vector], r: Sequence[Vector], v: Sequence[Vector], by: Any) -> None:
+def _brace(c: Coefficients, k: int, F: list[_Vector], r: Sequence[_Vector], v: Sequence[_Vector], by: Any) -> None:
     i, j = int(c.brace_tip[k]), int(c.brace_to[k])
     if j >= 0:
         d, swing = _apart(c, r, j, i), [c.R[i] * x - c.R[j] * y for x, y in zip(v[i], v[j], strict=True)]
@@ -100,10 +100,10 @@ def _angle_by_sine(z: Any, by: Any) -> Any:
     return series / (half * quarter * eighth)
 
 
-def _apart(c: Coefficients, r: Sequence[Vector], i: int, j: int) -> Vector:
+def _apart(c: Coefficients, r: Sequence[_Vector], i: int, j: int) -> _Vector:
     """From tip i to tip j, m."""
     return [c.feet[j, m] - c.feet[i, m] + (c.R[j] * r[j][m] - c.R[i] * r[i][m]) for m in range(3)]
 
 
-def _dot(one: Vector, other: Vector) -> Any:
+def _dot(one: _Vector, other: _Vector) -> Any:
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

@@ -15,7 +15,7 @@ from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, check_order, paired_series
 
 _ORBIT_DOMAIN = (sp.Gt(r0, -1), sp.Lt(r0, 1))
-Values = dict[sp.Symbol, Array]
+_Values = dict[sp.Symbol, Array]
 
 
 @cache
@@ -39,7 +39,7 @@ def paired_frequency(order: int = 3) -> ClosedForm:
     return with_error(form, _frequency, lambda series, amplitude: series.remainder(amplitude).frequency)
 
 
-def _frequency(series: PairedSeries, given: Values) -> Array:
+def _frequency(series: PairedSeries, given: _Values) -> Array:
     return np.array([[series.relative_frequency(float(v)) for v in given[r0]]])
 
 
@@ -69,7 +69,7 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     return with_error(form, _axes)
 
 
-def _axes(series: PairedSeries, given: Values) -> Array:
+def _axes(series: PairedSeries, given: _Values) -> Array:
     axes = series.axes(float(given[r0][0]), given[Phi])
     return np.moveaxis(axes, -1, 1).reshape(6, -1)
 
@@ -95,7 +95,7 @@ def corrected_inclinations(order: int = 2) -> ClosedForm:
         r0,
     )
 
-    def sines(series: PairedSeries, given: Values) -> Array:
+    def sines(series: PairedSeries, given: _Values) -> Array:
         axes = series.axes(float(given[r0][0]), given[Phi])
         return np.hypot(axes[..., 0], axes[..., 1])
 
@@ -146,7 +146,7 @@ def _scaled_inertias(series: PairedSeries) -> tuple[float, float]:
     return (root + 1 / root) / 2, (root - 1 / root) / 2
 
 
-def _momentum(series: PairedSeries, given: Values) -> Array:
+def _momentum(series: PairedSeries, given: _Values) -> Array:
     inertias = _scaled_inertias(series)
     motions = [(series.harmonics(r), series.relative_frequency(r)) for r in given[r0].tolist()]
     return np.array([[harmonic_momentum(harmonics, rate, inertias, 1.0) for harmonics, rate in motions]])

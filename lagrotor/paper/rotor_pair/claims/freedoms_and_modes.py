@@ -9,16 +9,16 @@ from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import harmonics_at
 from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.notation import G_1, G_2, a, b, k
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL, OPPOSITE
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
 from lagrotor.shown import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
-Spins = tuple[float, float]
-OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
 RANK = 1e-9  # singular values below it count as zero; the least along the run is near one
 DIRECTION = 0.01  # the direction of a mode in a run of a small shock, to one part in a hundred
 REST = 1e-3  # what two modes leave of the motion: the square of the shock, left out, is below it

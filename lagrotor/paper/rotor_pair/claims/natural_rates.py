@@ -10,18 +10,17 @@ from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.numerics.harmonic_fit import best_harmonics
 from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
+from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
-Spins = tuple[float, float]
 # The paper's "..." leave the bar of 5.3 open. Those of its listings are the first two; the third has the mass of the one
 # and the inertia of the other.
 BARS = {"m_1_K_1": HEAVY_LINK, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
-PAPER, SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
-PAPER_RUN = 8.0  # s that the paper's runs last after the shock
-SINGLE, HALF_UNIT = 16.0, 0.5  # rad/s, printed without decimals
+_PAPER, _SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
+SINGLE, _HALF_UNIT = 16.0, 0.5  # rad/s, printed without decimals
 COUPLED, HALF_TENTH = 11.4, 0.05  # rad/s, printed with one decimal
 CONSTANT, OF_CONSTANT = 0.7125, 0.05 / 16  # 11.4/16; half a unit of 11.4, over 16
 OPPOSITE_RATE = 10 * 4 / 5 * CONSTANT  # rad/s, 5.7, printed 0.57
@@ -48,7 +47,7 @@ def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = P
 
 def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
     """The same rate over 3 s of the paper's program."""
-    scene = _scene(spins, bar, PAPER)
+    scene = _scene(spins, bar, _PAPER)
     t = np.round(shock_of(scene).at + np.arange(17, 151) * 0.02, 3)
     run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, t, STEP)
     return best_harmonics(t, run.axes[0, :, 0], natural_rate(scene)).rate
@@ -56,11 +55,11 @@ def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
 
 def measure_c20(spins: Spins) -> dict[str, float]:
     """The rate of one rotor after the paper's shock, exactly and with springs, and after a small one."""
-    rate, farthest = rate_of_run(spins, None, PAPER)
+    rate, farthest = rate_of_run(spins, None, _PAPER)
     return {
         "rate_exact_rad_per_s": rate,
         "rate_springs_rad_per_s": _rate_of_springs(spins, None),
-        "rate_after_small_shock_rad_per_s": rate_of_run(spins, None, SMALL)[0],
+        "rate_after_small_shock_rad_per_s": rate_of_run(spins, None, _SMALL)[0],
         "amplitude": farthest,
         "rate_by_G_over_J_cos_rad_per_s": natural_rate(Scene(spins, link=None)) / (1 - farthest**2) ** 0.5,
         "cycles_off_16_at_the_end_of_8_s": abs(rate - SINGLE) * PAPER_RUN / (2 * pi),
@@ -71,7 +70,7 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
     """The three rates against 16."""
     exact, springs, small = (m[f"rate_{way}_rad_per_s"] for way in ("exact", "springs", "after_small_shock"))
     return Finding(
-        (Part(AT_16, all(abs(rate - SINGLE) < HALF_UNIT for rate in (exact, springs, small))),),
+        (Part(AT_16, all(abs(rate - SINGLE) < _HALF_UNIT for rate in (exact, springs, small))),),
         f"{exact:.3f} rad/s exactly, {springs:.3f} with springs over the first 3 s (over longer times less, figure 25, since "
         f"their dampers take the amplitude), {small:.4f} after a small shock; the excess comes from the "
         f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
@@ -81,9 +80,9 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
 
 def measure_c21(spins: Spins) -> dict[str, float]:
     """The rate of the pair by four choices of the springs, exactly, and after a small shock; the constant in five ways."""
-    rate, _ = rate_of_run(spins, HEAVY_LINK, PAPER)
+    rate, _ = rate_of_run(spins, HEAVY_LINK, _PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
-    natural = {name: rate_of_run(spins, bar, SMALL)[0] for name, bar in BARS.items()}
+    natural = {name: rate_of_run(spins, bar, _SMALL)[0] for name, bar in BARS.items()}
     by_n = {n: _rate_of_springs(spins, HEAVY_LINK, n) for n in OF_SPRINGS}
     J, G = Scene(spins).rotor.J, abs(spins[0])
     return {
@@ -96,7 +95,7 @@ def measure_c21(spins: Spins) -> dict[str, float]:
         "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
         "rate_of_one_rotor_rad_per_s": single,
         "constant": natural["m_1_K_1"] / single,
-        "constant_at_half_the_spins": rate_of_run(half, HEAVY_LINK, SMALL)[0] / natural_rate(Scene(half, link=None)),
+        "constant_at_half_the_spins": rate_of_run(half, HEAVY_LINK, _SMALL)[0] / natural_rate(Scene(half, link=None)),
         "constant_light_bar": natural["m_0.01_K_0.1"] / single,
         "constant_bar_K_0.1": natural["m_1_K_0.1"] / single,
         "J_over_J_plus_half_m": J / (J + HEAVY_LINK.mass / 2),
@@ -120,13 +119,13 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
     at_11_4 = [abs(rate - COUPLED) < HALF_TENTH for rate in (springs, small, exact)]
     needs = (
         f"a small amplitude, or the paper's springs: with rigid joints it is {exact:.3f} rad/s under the paper's "
-        f"{PAPER:.0f} N"
+        f"{_PAPER:.0f} N"
     )
     by_n = [m[f"rate_springs_n_{n}_rad_per_s"] for n in OF_SPRINGS]
     return Finding(
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
         f"{springs:.3f} rad/s with springs, {small:.3f} exactly after a small shock, but {exact:.3f} exactly after the "
-        f"paper's {PAPER:.0f} N, {exact - COUPLED:+.3f} off 11.4: the finite amplitude adds {exact - small:.3f}, and the "
+        f"paper's {_PAPER:.0f} N, {exact - COUPLED:+.3f} off 11.4: the finite amplitude adds {exact - small:.3f}, and the "
         f"softness of the springs takes {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f}; the "
         f"constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them, "
         f"J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It is set by the mass of the bar, whatever its inertia "
@@ -141,7 +140,7 @@ def measure_c22(spins: Spins) -> dict[str, float]:
     """For each bar, over three cycles of 5.7: the rate, and for how many cycles a wave of 5.7 keeps within a quarter."""
     found = {}
     for name, bar in BARS.items():
-        for shock, force in (("40_N", PAPER), ("small_shock", SMALL)):
+        for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
             rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
             found[f"rate_after_{shock}_{name}"] = rate
             off = max(abs(rate - OPPOSITE_RATE), 1e-12)
@@ -182,9 +181,9 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
     )
 
 
-EXACT = "exact pair (spheres) and spring-linked bodies"
+_EXACT = "exact pair (spheres) and spring-linked bodies"
 C20 = ClaimTest(
     "C20", (20, 20), {AT_16: (10, 10)}, "one rotor, exact (spheres) and with springs", measure_c20, decide_c20
 )
-C21 = ClaimTest("C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, EXACT, measure_c21, decide_c21)
-C22 = ClaimTest("C22", (10, -10), {FOLLOWS: (10, 10)}, EXACT, measure_c22, decide_c22)
+C21 = ClaimTest("C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, _EXACT, measure_c21, decide_c21)
+C22 = ClaimTest("C22", (10, -10), {FOLLOWS: (10, 10)}, _EXACT, measure_c22, decide_c22)

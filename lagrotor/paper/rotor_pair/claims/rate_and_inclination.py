@@ -23,10 +23,10 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
 from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
-OVER_COSINE, HALF_UNIT = 0.5, 0.05  # c of 1/cos θ = 1 + θ²/2, to half a unit of its decimal
+OVER_COSINE, _HALF_UNIT = 0.5, 0.05  # c of 1/cos θ = 1 + θ²/2, to half a unit of its decimal
 WEAK = 5.0  # N
 
-COSINE = "the rate at average inclination θ is the natural rate over cos θ"
+_COSINE = "the rate at average inclination θ is the natural rate over cos θ"
 
 
 def _mean_square(run: Trajectory) -> float:
@@ -80,9 +80,9 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     own = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]
-    needs = "equal spins with parallel axes" if abs(equal - OVER_COSINE) < HALF_UNIT else ""
+    needs = "equal spins with parallel axes" if abs(equal - OVER_COSINE) < _HALF_UNIT else ""
     return Finding(
-        (Part(COSINE, all(abs(c - OVER_COSINE) < HALF_UNIT for c in own), needs),),
+        (Part(_COSINE, all(abs(c - OVER_COSINE) < _HALF_UNIT for c in own), needs),),
         f"The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5. Measured: "
         f"{own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change "
         f"goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes {equal:+.3f}. After a shock "
@@ -91,4 +91,4 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     )
 
 
-C23 = ClaimTest("C23", OPPOSITE, {COSINE: EQUAL}, "exact orbits; exact pair (minimal)", measure_c23, decide_c23)
+C23 = ClaimTest("C23", OPPOSITE, {_COSINE: EQUAL}, "exact orbits; exact pair (minimal)", measure_c23, decide_c23)

@@ -10,25 +10,22 @@ from numpy.typing import NDArray
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.harmonic_fit import Harmonics, best_harmonics, harmonics_at
 from lagrotor.pair.examples import LIGHT
-from lagrotor.pair.quantities import Vector
+from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene, turned_about_joint_line
+from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL, OPPOSITE, PAPER_R0
+from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, shock_of, shocked_scene, turned_about_joint_line
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]
-Spins = tuple[float, float]
-OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
 SHOCK: Vector = (40, -11, 0)  # N, of the listing in 5.2.1
-PAPER_RUN = 8.0  # s that the paper's runs last after the shock
-PAPER_R0 = 0.204  # the amplitude of figure 21
 MAGNITUDE = 0.5  # in powers of ten: of the same order of magnitude, nearer to once than to ten times or a tenth
 SMALL_ANGLE = 14.0  # degrees: up to here sin α is α within one part in a hundred, as a small angle is used
 MOTION = 0.5**0.5  # rms of a swing over its amplitude: what leaves as much describes nothing
 CENTRES_ARE_THE_CAUSE = 0.5  # corrected, the centres must leave less than half of what they leave as printed
 
 VALLEYS, PEAKS = "x₁ has the pinched valleys of the formula", "x₂ has its pinched peaks"
-SMALL, AGREE = (
+_SMALL, AGREE = (
     "the centres lie at a small angle to x",
     "projected on that axis, simulation and formula agree accurately",
 )
@@ -151,7 +148,7 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
     mended = corrected < min(plain, CENTRES_ARE_THE_CAUSE * printed, MOTION)
     return Finding(
         (
-            Part(SMALL, abs(m["skew_deg"]) < SMALL_ANGLE),
+            Part(_SMALL, abs(m["skew_deg"]) < SMALL_ANGLE),
             Part(AGREE, printed < min(plain, MOTION), needs if mended else ""),
         ),
         f"The centres lie at {m['skew_deg']:+.1f}° to x, which the paper calls a small angle: components of y make "
@@ -165,14 +162,14 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
     )
 
 
-EXACT = "exact pair (spheres), bar m = 0.01 kg, K = 0.1 kg m²"
-C18 = ClaimTest("C18", OPPOSITE, {VALLEYS: EQUAL, PEAKS: EQUAL}, EXACT, measure_c18, decide_c18)
+_EXACT = "exact pair (spheres), bar m = 0.01 kg, K = 0.1 kg m²"
+C18 = ClaimTest("C18", OPPOSITE, {VALLEYS: EQUAL, PEAKS: EQUAL}, _EXACT, measure_c18, decide_c18)
 # The skew goes as the shock: a quarter of it leaves a small angle.
 C19 = ClaimTest(
     "C19",
     (OPPOSITE, SHOCK),
-    {SMALL: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)},
-    EXACT,
+    {_SMALL: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)},
+    _EXACT,
     measure_c19,
     decide_c19,
 )

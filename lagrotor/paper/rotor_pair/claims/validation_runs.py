@@ -19,7 +19,7 @@ from lagrotor.shown import scientific
 Array = NDArray[np.float64]
 PRINTED_ENERGY = 100.0  # J
 _HALF_UNIT = 0.5  # J: 100 is printed without decimals
-START = 0.1  # s, a hundredth of the paper's 10 s: what figure 8 shows at its left edge
+_START = 0.1  # s, a hundredth of the paper's 10 s: what figure 8 shows at its left edge
 
 SPIKES, DECAYS, STAYS = (
     "the energy spikes at the start",
@@ -69,7 +69,7 @@ def decide_c06(m: Mapping[str, float]) -> Finding:
     """The height of the peak and when it comes, the energy at the end, and the energy with the bar placed right."""
     return Finding(
         (
-            Part(SPIKES, m["peak_J"] > m["start_J"] + _HALF_UNIT and m["peak_at_s"] < START),
+            Part(SPIKES, m["peak_J"] > m["start_J"] + _HALF_UNIT and m["peak_at_s"] < _START),
             Part(DECAYS, abs(m["after_0.6_s_J"] - m["start_J"]) < _HALF_UNIT),
             Part(
                 STAYS,
