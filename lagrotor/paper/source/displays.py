@@ -177,7 +177,7 @@ class _Walker:
                 argument = []
             options = latex_of(self.expander.optional() or ()) if name.startswith("dmath") else ""
             lettered = self._begin_subequations() if name == "subnumcases" else None
-            lead = argument if "cases" in name else []
+            lead = self._without_label(argument, self.parent) if "cases" in name else []
             self._display(name.rstrip("*"), token, name, name.endswith("*"), lead, options)
             if lettered is not None:
                 self._end_subequations(lettered)
@@ -202,6 +202,13 @@ class _Walker:
             self.expander.macros.pop(r"\theequation")
         else:
             self.expander.macros[r"\theequation"] = own
+
+    def _without_label(self, tokens: list[Token], number: str) -> list[Token]:
+        """The tokens without a label, which gets the number."""
+        source = latex_of(tokens)
+        for label in re.findall(r"\\label\{([^{}]*)\}", source):
+            self.found.labels.setdefault(label, number)
+        return tokenize(re.sub(r"\\label\{[^{}]*\}", "", source))
 
     def _until(self, end: str) -> None:
         """Read on until an environment ends."""
@@ -247,7 +254,8 @@ class _Walker:
         for token in self.expander.tokens():
             if token.text == end or (token.text == "$$" and end == "$"):
                 break
-            if (token.kind == "command" and token.text == r"\begin") or len(found) > 4000:
+            stray = token.kind == "text" and re.search(r"\n\s*\n", token.text)
+            if stray or token.text == r"\begin" or len(found) > 4000:
                 self.expander.push([token])  # a dollar sign that was not closed
                 return
             found.append(token)

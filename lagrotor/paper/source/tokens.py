@@ -14,6 +14,7 @@ _TOKEN = re.compile(
     r"|(?P<text>[^\\{}$%&#^_]+)|(?P<stray>\\)",
     re.DOTALL,
 )
+_SHORT = re.compile(r"\\DefineShortVerb\*?\s*\{\\([^A-Za-z\s])\}")
 
 
 class Token(NamedTuple):
@@ -27,6 +28,9 @@ class Token(NamedTuple):
 def tokenize(text: str, base: int = 0) -> list[Token]:
     """The tokens of a text, its comments left out; base: the place of its first character."""
     found = []
+    if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
+        mark = re.escape(short[1])
+        text = re.sub(rf"(?<!\\){mark}[^{mark}\n]*{mark}", lambda span: " " * len(span[0]), text)
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup or "text"
         if kind in ("name", "mark"):
