@@ -15,6 +15,7 @@ from tests.conftest import exploring
 from tests.machines import EXTRAS, KERNELS, OLDEST, PYTHONS, ROOT, Environment, Run, extras_files, runs
 
 WORKFLOW = ROOT / ".github" / "workflows" / "tests.yml"
+BUILD = ROOT / ".ci" / "run"
 HERE = Environment(str(Path(sys.executable).parent.parent))
 
 
@@ -38,12 +39,14 @@ def test_the_extras_are_in_the_environment_that_tests_them() -> None:
     assert {path.relative_to(ROOT).as_posix() for path in files} <= set(extras_files())
 
 
-@pytest.mark.skipif(not WORKFLOW.exists(), reason="installed without the workflow")
+@pytest.mark.skipif(not (WORKFLOW.exists() and BUILD.exists()), reason="installed without the workflow")
 def test_what_is_run_elsewhere_is_one_of_the_runs() -> None:
     names, text = {run.name for run in runs()}, WORKFLOW.read_text()
     (listed,) = re.findall(r"run: \[(.*)\]", text)
     assert set(listed.split(", ")) <= names
     assert tuple(re.findall(r'"(3\.\d+)"', re.findall(r"python: \[(.*)\]", text)[0])) == PYTHONS
+    (again,) = re.findall(r'RUNS="(.*)"', BUILD.read_text())
+    assert again.split() == [OLDEST, "extras"] and set(again.split()) <= names
 
 
 def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
