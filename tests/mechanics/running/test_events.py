@@ -134,6 +134,15 @@ def test_a_plastic_impact_projects_the_velocities_in_the_mass_metric() -> None:
     assert caught.v[0, 0] == pytest.approx(-arm * after, rel=1e-4)
 
 
+def test_a_billiard_ball_between_four_walls_is_where_its_unfolded_straight_line_is() -> None:
+    c = coordinates("x y")
+    free = System(c, (c.v[0] ** 2 + c.v[1] ** 2) / 2)
+    walls = tuple(Impact(gap) for gap in (c.q[0], 1 - c.q[0], c.q[1], 1 - c.q[1]))
+    run = free.simulate({}, (0.3, 0.2), (1.0, 0.7), np.linspace(0, 10, 51), 1e-10, events=walls)
+    for q, straight in zip(run.q.T, (0.3 + run.t, 0.2 + 0.7 * run.t), strict=True):
+        assert q == pytest.approx(np.abs((straight + 1) % 2 - 1), abs=1e-10)
+
+
 def test_a_clock_goes_at_the_amplitude_at_which_its_impulses_make_good_its_losses() -> None:
     """Andronov, Vitt & Khaikin, ch. III: each upward passage of rest adds an impulse k; v* = k/(1 − exp(−2π n/ω))."""
     damped = System(C, v**2 / 2 - x**2 / 2, dissipation=sp.Rational(1, 20) * v**2 / 2)
