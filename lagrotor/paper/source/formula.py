@@ -726,6 +726,16 @@ class _Formula:
                     if name not in self.notation.letters
                     else StopError(0, "", "")
                 )
+        if (
+            len(row) == 1
+            and box.sub is not None
+            and row[0].kind == "letter"
+            and row[0].name.isupper()
+            and not row[0].marks
+        ):
+            raise StopError(
+                row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"
+            )
         if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":
             raise StopError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
 

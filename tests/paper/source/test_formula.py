@@ -84,6 +84,13 @@ OPEN = {
     r"x = a + \dots + b": "dots stand for terms",
     r"y = \frac{d}{dx} f \frac{d}{dx} g": "how far the derivative reaches",
     r"x^0 = ct": "whether 0 is an upper index",
+    r"y = S^{P}_{,t}": "whether P is a mark or a power",
+    r"y = x^\mu + A_\mu": "whether mu is an upper index or a power",
+    r"C = x + constant": "constant is a word",
+    r"S[f] = a": "whether S[…] is a functional",
+    r"\frac{\tilde{\mathrm{d}}v}{\mathrm{d}t} = a": "a differential stands below",
+    r"\ddot r = \mathrm{d}r\,f": "a differential stands on one side only",
+    r"P\,\mathrm{d}' A = b": "a differential has a prime",
 }
 
 
