@@ -64,6 +64,8 @@ def add_paper_commands(command: Command) -> None:
     _add_paper(added)
     added.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder (default: report)")
     added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
+    proofs = "write the proof of each exact verdict into DIR/certificates, linked from the page; lagrotor certify checks them"
+    added.add_argument("--certify", action="store_true", help=proofs)
     added.add_argument("--json", action="store_true", help="print what was found as a JSON object")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
@@ -209,7 +211,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
     from lagrotor.report.job.reproduce import reproduce
 
     paper = _paper(given)
-    made = reproduce(paper, given.out, progress, given.jobs)
+    made = reproduce(paper, given.out, progress, given.jobs, given.certify)
     page = given.out / "index.html"
     if given.json:
         print(json.dumps(asdict(made) | {"report": str(page)}, indent=1, ensure_ascii=False))

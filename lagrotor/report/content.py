@@ -1,8 +1,8 @@
 """What a report says and in which order, before it is put into HTML or Markdown."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 
 import sympy as sp
 
@@ -69,6 +69,7 @@ class Report:
 
     claims: the paper's claims after their tests; parts: what is shown besides; derivations: (stem, title, HTML); model: HTML;
     versions: (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
+    certificates: equation's id → its file of Coq, beside the page.
     """
 
     paper: Paper
@@ -81,6 +82,7 @@ class Report:
     model: str = ""
     versions: tuple[tuple[str, str], ...] = ()
     inputs: tuple[tuple[str, str], ...] = ()
+    certificates: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def title(self) -> str:

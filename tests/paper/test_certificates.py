@@ -259,6 +259,17 @@ def test_hypotheses_that_contradict_each_other_prove_nothing(rows: list[tuple[An
         assert not line.theorems and line.why_not
 
 
+@coq
+def test_an_inequality_is_a_hypothesis_and_a_point_obeys_it() -> None:
+    above = (sp.Ge(x, 2), sp.Ne(y, x))
+    line = certified_line(Proposition("line_1", "", "holds-if", (x - y) / (x - y), sp.S.One, region=above))
+    assert "0 <= x - 2" in line.text and failures(PREAMBLE + line.text, (line,)) == {}
+    line = certified_line(Proposition("line_1", "", "refuted", x, 2 * x, region=(sp.Gt(x, 2),)))
+    assert failures(PREAMBLE + line.text, (line,)) == {} and "0 < x - 2" in line.text
+    assert not certified_line(Proposition("line_1", "", "holds", x, x, region=(sp.Gt(x, 2), sp.Lt(x, 1)))).theorems
+    assert not certified_line(Proposition("line_1", "", "holds", x, x, region=(sp.Or(x > 2, x < 1),))).theorems
+
+
 def test_words_of_a_paper_stay_in_their_comment() -> None:
     evil = '*) Axiom a : False. (* " *'
     assert comment(evil).count("*)") == 1 and comment(evil).endswith("*)") and '"' not in comment(evil)
@@ -321,6 +332,19 @@ def test_the_heavy_tops_certificates_are_accepted_and_a_changed_one_is_not(
     file.write_text(file.read_text().replace("psi_dot", "(2 * psi_dot)"))
     assert main(["certify", str(folder)]) == 1
     assert "rejected" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_a_report_links_each_verdict_to_its_certificate(tmp_path: Path) -> None:
+    assert (
+        main(["reproduce", "--paper", str(HEAVY_TOP), "--out", str(tmp_path / "report"), "--jobs", "1", "--certify"])
+        == 0
+    )
+    page = (tmp_path / "report" / "index.html").read_text()
+    listed = read_certificates(tmp_path / "report" / "certificates")
+    assert all((f'href="certificates/{row.file}"' in page) == bool(row.file) for row in listed) and listed[0].file
+    assert main(["reproduce", "--paper", str(HEAVY_TOP), "--out", str(tmp_path / "report"), "--jobs", "1"]) == 0
+    assert not (tmp_path / "report" / "certificates").exists()
 
 
 def test_without_coq_nothing_is_said_to_be_checked(

@@ -158,7 +158,8 @@ class _Hypotheses:
 
 def _hypotheses(p: Proposition) -> _Hypotheses:
     sides = [e for pair in p.pairs for e in pair]
-    held = [*sides, *(e for _, left, right in p.equations for e in (left, right))]
+    region = tuple(map(_as_comparison, p.region))
+    held = [*sides, *(e for _, left, right in p.equations for e in (left, right)), *(e for _, e in region)]
     for e in held:
         for node in sp.preorder_traversal(e):
             if node.is_Float or node in (sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan):
@@ -170,8 +171,17 @@ def _hypotheses(p: Proposition) -> _Hypotheses:
         raise NotExactError("a function is called with different numbers of arguments")
     signs = tuple(declared_signs(letters))
     return _Hypotheses(
-        terms, letters, tuple(functions), p.stands_for, signs, p.equations, tuple(conditions_of_value(held))
+        terms, letters, tuple(functions), p.stands_for, signs, p.equations, (*conditions_of_value(held), *region)
     )
+
+
+def _as_comparison(condition: sp.Basic) -> Comparison:
+    """An inequality of a premise as a comparison with zero. Raises NotExactError for another condition."""
+    signs = {sp.Ne: "<>", sp.Ge: "<=", sp.Gt: "<", sp.Le: "<=", sp.Lt: "<"}
+    if condition.func not in signs:
+        raise NotExactError(f"the condition {condition} is no inequality")
+    left, right = condition.args
+    return signs[condition.func], right - left if condition.func in (sp.Le, sp.Lt) else left - right
 
 
 def _held(p: Proposition) -> tuple[tuple[str, ...], str]:

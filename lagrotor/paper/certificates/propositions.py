@@ -23,8 +23,9 @@ class Proposition:
     """One line of an equation, or of its correction, as it was judged.
 
     name: that of its theorem, line_1 or correction_1. equations: the premises' and the scene's, (left, right) with the words
-    for each; they are what the line holds under, or, of a refuted one, all that were offered. stands_for: a letter for each
-    derivative and integral, of which nothing is used but that it is the same wherever it stands. small, order: of a series.
+    for each; they are what the line holds under, or, of a refuted one, all that were offered. region: their inequalities.
+    stands_for: a letter for each derivative and integral, of which nothing is used but that it is the same wherever it stands.
+    small, order: of a series.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Proposition:
     printed: Any
     derived: Any
     equations: tuple[tuple[str, sp.Expr, sp.Expr], ...] = ()
+    region: tuple[sp.Basic, ...] = ()
     stands_for: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
     within: sp.Rational | None = None
     small: sp.Symbol | None = None
@@ -65,9 +67,11 @@ def _proposition(name: str, relation: Relation, statement: Statement) -> Proposi
         for old, new in _unscaled(premise)
         if premise.small is None or old not in set_otherwise  # a letter that is zero need not be small
     ]
+    where = [each for premise in premises for each in premise.where]
+    rows += [(str(each), each.lhs, each.rhs) for each in where if isinstance(each, sp.Eq)]
     rows += [(SCENE, old, new) for old, new in relation.scene.items()]
     rows = [(says, sp.sympify(old), sp.sympify(new)) for says, old, new in rows]
-    held = [relation.printed, relation.derived, *(side for _, *sides in rows for side in sides)]
+    held = [relation.printed, relation.derived, *where, *(side for _, *sides in rows for side in sides)]
     letters = _letters_for_operators(held)
     return Proposition(
         name,
@@ -76,6 +80,7 @@ def _proposition(name: str, relation: Relation, statement: Statement) -> Proposi
         relation.printed.xreplace(letters),
         relation.derived.xreplace(letters),
         tuple((says, old.xreplace(letters), new.xreplace(letters)) for says, old, new in rows),
+        tuple(each.xreplace(letters) for each in where if not isinstance(each, sp.Eq)),
         tuple((letter, node) for node, letter in letters.items()),
         relation.within,
         judged.small,

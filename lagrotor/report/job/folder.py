@@ -20,6 +20,7 @@ CONTENTS = {
     "measured.json",
     "errata.md",
     "errata.tex",
+    "certificates",
     "figures",
     TIMES,
     MADE,

@@ -15,6 +15,7 @@ from typing import Any
 
 from lagrotor.files import write_text
 from lagrotor.paper import claim_tests, verdict_text
+from lagrotor.paper.certificates.certificate_folder import certify
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
@@ -53,15 +54,20 @@ class JobOutcome:
     seconds: float
 
 
-def reproduce(paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None) -> JobOutcome:
+def reproduce(
+    paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None, certificates: bool = False
+) -> JobOutcome:
     """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
 
-    jobs: how many processes; None: as many as there are cores, one in a debugger. `progress(total)` gives the function that
+    jobs: how many processes; None: as many as there are cores, one in a debugger. certificates: with the proofs of the exact
+    verdicts as files of Coq. `progress(total)` gives the function that
     is called with the name of each step as it begins. Raises InputError when `target` cannot be written, is no report, or is
     being written by another run. Until all is done the old report stays.
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
-    made_from = json.dumps([reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter()])
+    made_from = json.dumps(
+        [reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
+    )
     whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
     if found := Kept(old, old).last("report", whole):
         return JobOutcome(**found, taken=["report"], seconds=time.perf_counter() - began)
@@ -71,6 +77,9 @@ def reproduce(paper: Paper, target: Path, progress: StepProgress, jobs: int | No
         products, seconds = _make(kept, list(steps(paper)), progress, jobs or cores())
         report = _report(paper, products, new / "figures")
         start = time.perf_counter()
+        if certificates:
+            rows = certify(report.verdicts, paper, new / "certificates")
+            report = replace(report, certificates={row.id: f"certificates/{row.file}" for row in rows if row.file})
         _write(new, report)
         found = {
             "equations": report.counts,

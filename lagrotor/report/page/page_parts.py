@@ -14,6 +14,7 @@ from lagrotor.report.page.page_pieces import (
     badge,
     code,
     fact_list,
+    file_link,
     fold,
     heading,
     link,
@@ -37,11 +38,13 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
     source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
+    proof = report.certificates.get(verdict.id)
+    certificate = f"<p>Certificate, for Coq: {file_link(proof)}</p>" if proof else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
 
 
