@@ -5,14 +5,13 @@ scene are equations beside them. A letter that a premise scales, such as F in F 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.ledger import decide
 from lagrotor.paper.premises import Premise
-from lagrotor.paper.verdicts import Answer, Relation, Statement, Verdict
+from lagrotor.paper.verdicts import Answer, LineVerdict, Verdict
 
 # What the values that the text gives for a line are called among its premises.
 SCENE = "the text's values"
@@ -20,7 +19,7 @@ SCENE = "the text's values"
 
 @dataclass(frozen=True)
 class Proposition:
-    """One line of an equation, or of its correction, as it was judged.
+    """One line of an equation, or of its correction, as it was line.
 
     name: that of its theorem, line_1 or correction_1. equations: the premises' and the scene's, (left, right) with the words
     for each; they are what the line holds under, or, of a refuted one, all that were offered. region: their inequalities.
@@ -50,16 +49,14 @@ class Proposition:
 
 def propositions(verdict: Verdict) -> Iterator[Proposition]:
     """Every printed line of an equation, then every line of its correction."""
-    statement = verdict.statement
-    for kind, relations in (("line", statement.relations), ("correction", statement.correction)):
-        for number, relation in enumerate(relations, 1):
-            measured = statement.measured and kind == "line"
-            yield _proposition(f"{kind}_{number}", relation, replace(statement, measured=measured))
+    for kind, lines in (("line", verdict.lines), ("correction", verdict.correction_lines)):
+        for number, line in enumerate(lines, 1):
+            yield _proposition(f"{kind}_{number}", line, verdict.statement.premises)
 
 
-def _proposition(name: str, relation: Relation, statement: Statement) -> Proposition:
-    judged = decide(replace(statement, relations=(relation,), correction=()))
-    premises = statement.premises if judged.verdict == "refuted" else judged.premises
+def _proposition(name: str, line: LineVerdict, offered: tuple[Premise, ...]) -> Proposition:
+    relation = line.relation
+    premises = offered if line.verdict == "refuted" else line.premises
     set_otherwise = {old for premise in premises if premise.small is None for old in premise.put}
     rows = [
         (premise.says, old, new)
@@ -76,15 +73,15 @@ def _proposition(name: str, relation: Relation, statement: Statement) -> Proposi
     return Proposition(
         name,
         relation.quantity,
-        judged.verdict,
+        line.verdict,
         relation.printed.xreplace(letters),
         relation.derived.xreplace(letters),
         tuple((says, old.xreplace(letters), new.xreplace(letters)) for says, old, new in rows),
         tuple(each.xreplace(letters) for each in where if not isinstance(each, sp.Eq)),
         tuple((letter, node) for node, letter in letters.items()),
         relation.within,
-        judged.small,
-        judged.order,
+        line.small,
+        line.order,
     )
 
 
