@@ -42,11 +42,12 @@ from lagrotor.algebra.branches import branch_of_zero, simplest
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
 from lagrotor.algebra.generators import survey
+from lagrotor.algebra.names import check_names
 from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.refutation import sample
-from lagrotor.algebra.scalar import check_letters, parts, scalar, sympified
+from lagrotor.algebra.scalar import parts, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.errors import InputError, NotExactError, TooLargeError
 
@@ -226,7 +227,7 @@ def _decide_difference(left: sp.Expr, right: sp.Expr, where: Region) -> Decision
         left, right = scalar(left, "decide_equal"), scalar(right, "decide_equal")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    check_letters("decide_equal", left, right)
+    check_names("decide_equal", left, right)
     return _decide(left - right, where)
 
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrotor.algebra.names import check_names
 from lagrotor.errors import InputError, NotExactError
 
 # Deeper expressions exhaust the stack, larger ones the memory; equal parts count as often as they occur.
@@ -24,23 +25,8 @@ def scalar(given: Any, name: str) -> sp.Expr:
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {given!r} is not a scalar expression: give a sympy expression or a number")
     zeros = {part: sp.S.Zero for part in _sizes(expression) if part.is_Symbol and part.is_zero}
-    check_letters(name, expression)
+    check_names(name, expression)
     return expression.xreplace(zeros) if zeros else expression
-
-
-def check_letters(name: str, *expressions: Any) -> None:
-    """Raise InputError, on behalf of the function `name`, where two different symbols have one name."""
-    known: dict[str, sp.Symbol] = {}
-    for symbol in sorted(set().union(*(e.free_symbols for e in expressions)), key=sp.default_sort_key):
-        if not isinstance(symbol, sp.Dummy) and known.setdefault(symbol.name, symbol) != symbol:
-            raise InputError(
-                f"{name}: two different letters are called {symbol.name}, declared as {_declared(known[symbol.name])} and as "
-                f"{_declared(symbol)}: use one symbol"
-            )
-
-
-def _declared(symbol: sp.Symbol) -> str:
-    return ", ".join(kind for kind, holds in sorted(symbol._assumptions_orig.items()) if holds) or "nothing"
 
 
 def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:

@@ -147,7 +147,7 @@ ONE_NAME = [
 @pytest.mark.parametrize("other", [*ONE_NAME, sp.Symbol("x", extended_real=True)])
 def test_two_symbols_of_one_name_are_refused(other: sp.Symbol) -> None:
     for function in (lambda: decide_zero(x - other), lambda: decide_equal(x, other), lambda: normal_form(x * other)):
-        with pytest.raises(InputError, match="two different letters are called x, declared as"):
+        with pytest.raises(InputError, match="two different symbols are called 'x', one declared"):
             function()
 
 

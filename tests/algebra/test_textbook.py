@@ -74,7 +74,7 @@ def test_a_region_is_made_of_inequalities(within: list[object]) -> None:
 
 def test_two_letters_of_one_name_are_refused_at_the_door() -> None:
     one, other = sp.Symbol("g"), sp.Symbol("g", positive=True)
-    with pytest.raises(InputError, match="two different letters are called g"):
+    with pytest.raises(InputError, match="two different symbols are called 'g'"):
         decide_equal(sp.sqrt(one**2), other)
 
 
