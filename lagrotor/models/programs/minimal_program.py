@@ -21,7 +21,7 @@ from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 Ratio = Literal["short", "equal", "long"]
 _Pair = tuple[sp.Expr, sp.Expr]
 FARTHEST_ALONG = sp.Rational(49, 50)  # |x| of an axis: beyond, Mercator coordinates magnify errors more than fivefold
-_FORCE = sp.symbols("F_x F_y F_z", real=True)
+FORCE = sp.symbols("F_x F_y F_z", real=True)
 (_U, _CHI, _ALPHA), (_U_V, _CHI_V, _ALPHA_V) = MINIMAL.q, MINIMAL.v
 # Delta, its cosine and sine, rho of the bar's curve, exp(−w), exp(2 U).
 _D, _C, _S, _RHO, _DROP, _E = sp.symbols("D c_D s_D rho drop e_U", real=True)
@@ -71,7 +71,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         *(() if ratio == "equal" else (k,)),
         G_1,
         G_2,
-        *(_FORCE if body else ()),
+        *(FORCE if body else ()),
     )
     away = tuple(FARTHEST_ALONG**2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
@@ -122,7 +122,7 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
         alpha_v = stages.keep(f"al_{i}_v", _ALPHA_V - sign * curve.D1 * _CHI_V / 2)
         force: _Pair = (sp.Integer(0), sp.Integer(0))
         if body == i:
-            turn, (x, y, z) = _ALPHA - sign * _D / 2, _FORCE
+            turn, (x, y, z) = _ALPHA - sign * _D / 2, FORCE
             c, s, sech = sp.cos(turn), sp.sin(turn), 2 * sp.sqrt(e) / (e + 1)
             force = (sech * x + t * (y * s - z * c)) / a, -(y * c + z * s) / a
         rotors.append(_Rotor(e, t, u_v, alpha_v, G / a, force))
