@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.source.printed import paper_notation, read_print
@@ -60,6 +61,9 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
-    """The printed lines of an equation as they are judged, in LaTeX."""
-    lines = paper.lines(identifier)
+    """The printed lines of an equation as they are judged, in LaTeX; none where a letter of theirs is not declared."""
+    try:
+        lines = paper.lines(identifier)
+    except InputError:
+        return ()
     return tuple(" = ".join([line.quantity, *map(latex, line.members)]) for line in lines)

@@ -2,7 +2,9 @@
 
 from html import escape
 
+from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.source.readings import typeset_lines
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, as_read, derived_heading, derived_lines
@@ -36,6 +38,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
     read = code("\n".join(as_read(entry)))
     how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
+    how += reading_of(entry, report)
     source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
     number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
     proof = report.certificates.get(verdict.id)
@@ -46,6 +49,15 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
         f"{fact_list(facts(verdict, report))}"
         f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
     )
+
+
+def reading_of(entry: Equation, report: Report) -> str:
+    """What was read of a source, typeset, whether it is confirmed, and what custom settled; nothing of other lines."""
+    if not entry.read:
+        return ""
+    lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
+    guesses = f" Guessed: {prose('; '.join(entry.guesses))}." if entry.guesses else ""
+    return f"<p>Its reading, {'confirmed' if entry.is_confirmed else 'not confirmed'}:{guesses}</p>{lines}"
 
 
 def erratum_entry(e: Erratum) -> str:

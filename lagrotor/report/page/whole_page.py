@@ -27,6 +27,7 @@ from lagrotor.report.page.page_parts import (
     finding_entry,
     headline_entry,
     picture_entry,
+    reading_of,
 )
 from lagrotor.report.page.page_pieces import (
     badge,
@@ -39,6 +40,7 @@ from lagrotor.report.page.page_pieces import (
     links,
     prose,
     side_by_side,
+    typeset,
 )
 from lagrotor.report.results import balance, headlines, opening
 
@@ -141,7 +143,10 @@ def _shown(part: ShownPart, report: Report) -> str:
 
 
 def _waiting(report: Report) -> str:
-    return html_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])
+    if not any(entry.read for entry in report.waiting):
+        return html_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])
+    rows = [(e.id, prose(e.title), typeset(e.latex), reading_of(e, report)) for e in report.waiting]
+    return html_table(("Equation", "Title", "As printed", "As read"), rows)
 
 
 def _cite(report: Report) -> str:
