@@ -54,9 +54,23 @@ def test_one_equation_checked() -> None:
     assert ends[-1][0] == "refuted" and ends[-1][2].startswith("holds")
 
 
+def test_an_orbit_proved() -> None:
+    pytest.importorskip("flint", reason="the extra `proof` is not installed")
+    names, ends = ran("an_orbit_proved")
+    assert ends[0] is names["orbit"] and "period [6.69997566437" in ends[1]
+    assert ends[2].startswith("theta first passes zero") and ends[3] == "stable"
+    assert "is not shown to change it" in ends[4]
+
+
 def test_every_notebook_has_its_test_and_no_output() -> None:
     stems = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
-    assert stems == ["a_shock_and_what_cancels_it", "my_own_pair", "one_equation_checked", "paired_precession"]
+    assert stems == [
+        "a_shock_and_what_cancels_it",
+        "an_orbit_proved",
+        "my_own_pair",
+        "one_equation_checked",
+        "paired_precession",
+    ]
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]
         assert not any(cell.get("outputs") for cell in cells), f"{stem}: clear the outputs before it is committed"

@@ -24,8 +24,8 @@ from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, radi
 from lagrotor.proved.stepping import SLACK, Motion, derivative_of_step, scaled, taylor, with_rest
 from lagrotor.proved.tails import TailError, max_of
 
-SHORTEST = 1e-2  # of the step that the middle's Taylor terms allow: a set that needs a shorter one is too wide
-MOST = 20_000  # steps
+SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
+MOST = 5_000  # steps
 _SHORTER, _LONGER = 0.7, 1.2
 _WIDER = 2**-9  # of a set's size, added at each node
 _WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
@@ -207,12 +207,11 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
     Raises NotProved where no step is short enough.
     """
     node, w, n, slope_terms = start.node, start.spread, accuracy.terms, accuracy.slope_terms
-    limit = float(exact(t))
+    limit = longest = float(exact(t))
     for _ in range(MOST):
         left = t - node.t
         rows = taylor(motion, node.m, n)
-        natural = step_length(rows, accuracy.tol)
-        h = min(natural, limit * _LONGER)
+        h = min(step_length(rows, accuracy.tol), limit * _LONGER)
         while True:
             last = not (left > h * 1.0001)
             try:
@@ -220,7 +219,7 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
                 break
             except (TailError, ZeroDivisionError, ValueError) as reason:
                 h = min(h, float(left)) * _SHORTER
-                if h < SHORTEST * natural:
+                if h < SHORTEST * longest:
                     raise NotProved(
                         f"the enclosure ends at t = {float(node.t):.6g}: {reason}; shorten the time, or narrow the start"
                     ) from None

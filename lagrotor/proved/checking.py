@@ -183,12 +183,15 @@ def logarithm(a: Rest) -> Rest:
 
 
 def exponential(a: Rest) -> Rest:
-    """q + e with e' = a' e + (a' q − q')."""
+    """q + e with e' = a' e + (a' q − q'); never more than the whole, exp(a_0 + |a − a_0|)."""
     q, rate = exp_terms(padded(a)), slopes_of(a.terms)
     if a.rest is None:
         return Rest(q, None, a.n)
+    whole = (a.at_start() + total(a.terms[1:]) + a.rest).exp()
+    if not total(rate) / (a.n + 1) < 1:
+        return Rest(q, arb(whole.upper()), a.n)
     e = high(rate, q, a.n - 1) / a.n / below_one(total(rate) / (a.n + 1))
-    return Rest(q, e + (total(q) + e) * (a.rest.exp() - 1), a.n)
+    return Rest(q, arb(whole.upper()).min(e + (total(q) + e) * (a.rest.exp() - 1)), a.n)
 
 
 def turning(a: Rest, which: int) -> Rest:

@@ -80,12 +80,15 @@ class Tailed:
         return Tailed(q, k * d / (1 + _left(1 - k * k * d).sqrt()), self.n)
 
     def exp(self) -> "Tailed":
-        """q + s with s' = a' s + (a' q − q'), then the tail's factor exp(e)."""
+        """q + s with s' = a' s + (a' q − q'), then the tail's factor exp(e); never more than the whole, exp(a_0 + |a − a_0|)."""
         q = _poly(self.series().exp())
         slope = self.poly.derivative()
-        s = beyond(slope * q, self.n - 1) / self.n
-        s /= _left(1 - norm(slope) / (self.n + 1))
-        return Tailed(q, s + (norm(q) + s) * self.tail.expm1(), self.n)
+        tail = (self.poly[0] + norm(self.poly - arb_poly([self.poly[0]])) + self.tail).exp()
+        left = 1 - norm(slope) / (self.n + 1)
+        if left > 0:
+            s = beyond(slope * q, self.n - 1) / self.n / left
+            tail = tail.min(s + (norm(q) + s) * self.tail.expm1())
+        return Tailed(q, upper(tail), self.n)
 
     def sin_cos(self) -> tuple["Tailed", "Tailed"]:
         """Both solve (S, C)' = a' (C, −S); then sin(a + e) = S cos e + C sin e."""

@@ -1,0 +1,57 @@
+"""What the paper states of motions, as theorems with their certificates; the numbers of docs/proved.md."""
+
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+pytest.importorskip("flint", reason="the extra `proof` is not installed")
+
+from lagrotor import Link, Scene, Shock, natural_rate, precession_orbit
+from lagrotor.pair.notation import AXES
+from lagrotor.proved import NotProved, check, crossing, enclose, no_crossing, precession
+
+X1, _, Z1 = AXES.q[:3]
+BAR = Link(1, 1, 1)
+
+
+def shocked(spins: tuple[float, float], force: tuple[float, float, float]) -> Scene:
+    """The paper's pulse, ten widths after the start."""
+    return Scene(spins, link=BAR, shock=Shock(force, 0.2, 1 / 50))
+
+
+def test_the_precession_of_figure_21_turns_more_slowly_than_the_printed_rate() -> None:
+    """The paper takes the natural rate (8 rad/s, massless bar) at every amplitude; the corrected series is right."""
+    scene = Scene((10, -10))
+    orbit, corrected = precession(scene, 0.204), precession_orbit(scene, 0.204, 1e-9)
+    assert natural_rate(scene) == pytest.approx(8) and orbit.frequency < 8
+    assert abs(float(orbit.frequency.mid()) - corrected.frequency) <= corrected.frequency_error + 1e-14
+    page = (Path(__file__).parents[2] / "docs" / "proved.md").read_text(encoding="utf-8")
+    assert "7.9181412672010302" in page and "7.9181412672010302" in orbit.theorem
+
+
+@pytest.mark.slow
+def test_opposite_spins_topple_after_the_shock_across_the_bar() -> None:
+    """C11: |x| passes 1/2, and not in the 8 s of the paper's run."""
+    scene = shocked((10, -10), (0, -50, 0))
+    fall = crossing(scene, event=X1**2 - sp.Rational(1, 4), before=10)
+    assert fall.first and 8 < float(fall.time.mid()) - 0.2 < 9.5
+    assert "first passes zero" in check(fall.certificate)
+    assert no_crossing(scene, event=X1**2 - sp.Rational(1, 4), until=8).theorem
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_drift_after_a_shock_along_the_bar_has_one_sign(sign: int) -> None:
+    """C11: after ±x the pair turns to the same side of the joint line."""
+    turned = enclose(shocked((10, -10), (50 * sign, 0, 0)), t=4, tol=1e-20).states[2]
+    assert turned < 0
+
+
+@pytest.mark.slow
+def test_without_spin_the_pair_topples() -> None:
+    """C10: a tilt of 60° is passed before 2.5 s."""
+    fall = crossing(shocked((0, 0), (50, 0, 0)), event=Z1 - sp.Rational(1, 2), before="2.5")
+    assert fall.first
+    with pytest.raises(NotProved):
+        crossing(shocked((0, 0), (50, 0, 0)), event=Z1 - sp.Rational(1, 2), before="1.5")
