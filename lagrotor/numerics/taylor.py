@@ -218,7 +218,14 @@ def march(
         if at is not None:
             reached = Stretch(np.concatenate(parts), y, steps * solver.order)
             raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
-        y, left = (y if project is None else project(y)), until
+        try:
+            y, left = (y if project is None else project(y)), until
+        except StopError as stop:
+            before = np.concatenate(parts)[: np.searchsorted(times, stop.at)]
+            end = before[-1] if len(before) else y
+            raise StopError(
+                stop.at, stop.reason, Stretch(before, end, steps * solver.order), cause=stop.cause
+            ) from None
     return np.concatenate(parts), y, steps * solver.order
 
 

@@ -90,7 +90,7 @@ class QuarterPeriod:
             if np.abs(error).max() < _LAST_MISS and tol == TIGHTEST:
                 return z
             tol = TIGHTEST if np.abs(error).max() < _NEAR else tol
-            if not np.isfinite(z).all() or np.abs(z).max() > 60:
+            if not np.isfinite(z).all() or np.abs(z).max() > 60 or z[3] <= 0:  # a quarter of a turn takes time
                 break
         raise DomainError("the periodic orbit: Newton's method does not converge")
 

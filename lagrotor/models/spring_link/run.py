@@ -58,7 +58,7 @@ class SpringRun:
 
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
-    """Move a copy of `system` from t = 0 by the paper's step and read it at the times `t` (n,), whole multiples of dt.
+    """Move a copy of `system` from t[0] by the paper's step and read it at the times `t` (n,), whole multiples of dt.
 
     The shock of step k has its strength at k dt, as in the paper's loop. `step_limit` says which dt is stable; one
     above it is run all the same, for as long as it lasts.
@@ -66,17 +66,17 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
     miss it); IntegrationError when the state is not a number, or beyond LOST.
     """
-    times = _times(t)
+    times = check_times(t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
         raise InputError(f"run_steps: dt = {dt!r} s must be a finite number above zero")
     counts = np.rint(times / dt).astype(int)
-    if (abs(counts * dt - times) > 1e-6 * dt * np.maximum(counts, 1)).any():
+    if (abs(counts * dt - times) > 1e-6 * dt * np.maximum(abs(counts), 1)).any():
         raise InputError(f"run_steps: t holds times between the steps of dt = {dt:g} s: give whole multiples of dt")
     if shock is not None and dt > shock.width:
         raise InputError(
             f"run_steps: dt = {dt:g} s steps over a shock of width {shock.width:g} s; take dt well below it"
         )
-    step, state, k, at = step_function(system, shock, dt), system.state.tolist(), 0, shock.at if shock else 0.0
+    step, state, k, at = step_function(system, shock, dt), system.state.tolist(), counts[0], shock.at if shock else 0.0
     seen = []
     with np.errstate(over="ignore", invalid="ignore"):
         for count in counts:
@@ -92,13 +92,13 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                     f"s; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
                 )
             seen.append(state)
-    return _read(system, times, np.array(seen), k)
+    return _read(system, times, np.array(seen), int(k - counts[0]))
 
 
 def run_solver(
     system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8, method: str = "LSODA"
 ) -> SpringRun:
-    """Move a copy of `system` from t = 0 by one of scipy's solvers, the same forces without the error of a fixed step.
+    """Move a copy of `system` from t[0] by one of scipy's solvers, the same forces without the error of a fixed step.
 
     State X, U, R, L of every body, with R' = [Omega]× R. tol: relative and absolute local error / 20. The run is cut at
     the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
@@ -108,13 +108,13 @@ def run_solver(
     """
     from scipy.integrate import solve_ivp
 
-    times, error = _times(t), check_tolerance(tol) / 20
+    times, error = check_times(t), check_tolerance(tol) / 20
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     rate = rate_function(system, shock)
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     since_peak = times - at
-    begin, end = -at, float(since_peak[-1])
+    begin, end = float(since_peak[0]), float(since_peak[-1])
     y = system.state[: 18 * len(system.vertices)]
     states, evaluations = np.empty((len(times), len(y))), 0
     states[since_peak == begin] = y
@@ -136,16 +136,6 @@ def run_solver(
         states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
         evaluations += found.nfev
     return _read(system, times, states, evaluations)
-
-
-def _times(t: ArrayLike) -> Array:
-    """Times of the paper's program, which begins at 0."""
-    times = check_times(t)
-    if times[0] < 0:
-        raise InputError(
-            f"simulate: t starts at {times[0]:g} s: the bodies are given at t = 0, so times start there or later"
-        )
-    return times
 
 
 def _strength(shock: Shock | None, s: float) -> float:

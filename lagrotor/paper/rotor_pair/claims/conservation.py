@@ -37,7 +37,9 @@ BY_GROUNDS = "the cause is what the grounds exert: without them both are conserv
 def _spring_energy(scene: Scene, n: int, times: Array) -> Array | None:
     """Kinetic energy (J) at `times` by the paper's program with ω_s = 10 rad/s; None where 1 ms is above the step limit."""
     system = paper_system(scene, 2000 / n * OMEGA_S**2, 500 / n * OMEGA_S)
-    return run_steps(system, scene.shock, times, STEP).paper_energy if step_limit(system).whole > STEP else None
+    if step_limit(system).whole <= STEP:
+        return None
+    return run_steps(system, scene.shock, np.append(0, times), STEP).paper_energy[1:]
 
 
 def _jump(scene: Scene) -> float:
@@ -117,8 +119,8 @@ def measure_c09(grounded: bool) -> dict[str, float]:
     exact, impulse = after_shock(scene, 2.4, 1e-11), float(np.linalg.norm(shock_of(scene).impulse))
     freed = RigidBodySystem(paper_bodies(scene), STIFFNESS, DAMPING)
     join_bar(freed)
-    run = run_steps(freed, scene.shock, np.round(np.arange(0.34, 2.6, 0.02), 3), STEP)
-    without = run.momentum, run.angular_momentum
+    run = run_steps(freed, scene.shock, np.append(0, np.round(np.arange(0.34, 2.6, 0.02), 3)), STEP)
+    without = run.momentum[1:], run.angular_momentum[1:]
     p, L = _momenta(exact) if grounded else without
 
     def swing(values: Array) -> float:

@@ -79,7 +79,7 @@ def _past_dead_point(dead: float) -> dict[str, float]:
         "side_1_N_axes_part_by_deg_after_8_s": np.degrees(angle_between(exact.axes)[-1]),
     }
     for name, S in SPRINGS.items():
-        run = run_solver(paper_system(beside, S, DAMPING * (S / STIFFNESS) ** 0.5), beside.shock, t, 1e-5)
+        run = run_solver(paper_system(beside, S, DAMPING * (S / STIFFNESS) ** 0.5), beside.shock, np.append(0, t), 1e-5)
         found[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
         found[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
     return found
@@ -140,7 +140,7 @@ def _fall_of_springs(spins: Spins, force: Vector, seconds: float) -> float:
     """The same by the paper's program."""
     scene = shocked_scene(spins, force)
     t = np.round(np.arange(15, round(50 * (shock_of(scene).at + seconds))) * 0.02, 3)
-    over = abs(paper_run(scene, t).axes[..., 0]).max(0) > FALLEN
+    over = abs(paper_run(scene, np.append(0, t)).axes[:, 1:, 0]).max(0) > FALLEN
     return float(t[over.argmax()] - shock_of(scene).at) if over.any() else inf
 
 

@@ -91,7 +91,7 @@ def _is_nan(rotation: Callable[[Array, float], Array], size: float) -> bool:
 def _is_lost(scene: Scene, rotation: Callable[[Array, float], Array], end: float) -> bool:
     """Whether the paper's program, with this rotation, loses the run before `end` (s)."""
     try:
-        run_steps(paper_system(scene, STIFFNESS, DAMPING, rotation=rotation), scene.shock, [end], STEP)
+        run_steps(paper_system(scene, STIFFNESS, DAMPING, rotation=rotation), scene.shock, [0.0, end], STEP)
     except IntegrationError:
         return True
     return False
