@@ -128,8 +128,9 @@ def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: 
     """The step of length h. Raises TailError where its rest is not bounded."""
     rows = taylor(motion, node.m, n) if rows is None else rows
     rests, _ = with_rest(motion, at := scaled(rows, h, n), node.m, h, n)
+    least = max_of(rests) * arb(2) ** -16  # another program's bounds of small components are not as small
     image = [
-        sum(row, arb(0)) + arb(0, (SLACK * rest).abs_upper()) for row, rest in zip(at, rests, strict=True)
+        sum(row, arb(0)) + arb(0, (SLACK * rest + least).abs_upper()) for row, rest in zip(at, rests, strict=True)
     ] + node.m[motion.moving :]
     D = derivative_over(motion, node.m, node.box(w), at, h, slope_terms)
     return Step(node, h, n, slope_terms, carried(node, h, image, D, frame(D * node.Q, node)))
