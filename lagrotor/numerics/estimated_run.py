@@ -34,6 +34,7 @@ from lagrotor.numerics.estimate_constants import (
     SHORTEST,
     STAGE,
     START,
+    SWING,
 )
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
@@ -315,6 +316,9 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comp
             break
     errors, between = np.concatenate([np.empty(0), *parts]), np.concatenate([np.empty(0, bool), *alone])
     grown = np.maximum.accumulate(np.where(between, 0.0, errors)) if len(errors) else errors
+    # Two runs that part swing through each other: from the start on, as much is known as to the end of the swing.
+    t = course.t[: len(errors)]
+    grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * evolution.turn, side="right") - 1]
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.
     refusal: IntegrationError | None = stop

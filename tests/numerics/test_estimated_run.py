@@ -15,9 +15,9 @@ from lagrotor.numerics.segment import Array, StopError, Stretch
 
 T = np.linspace(0.0, 10.0, 11)
 ENOUGH = Patience(1e6, 1e6)
-SAFETY, APART, FIRST, ROUNDING, START, LEAST, RESOLVED, LOST = (
+SAFETY, APART, FIRST, ROUNDING, START, LEAST, RESOLVED, LOST, SWING = (
     getattr(estimated_run, name).value
-    for name in ("SAFETY", "APART", "FIRST", "ROUNDING", "START", "LEAST", "RESOLVED", "LOST")
+    for name in ("SAFETY", "APART", "FIRST", "ROUNDING", "START", "LEAST", "RESOLVED", "LOST", "SWING")
 )
 
 
@@ -62,12 +62,34 @@ def test_the_error_is_safety_times_the_difference_and_what_rounding_adds() -> No
     run = made.run(1e-6)
     loose, tight = made.locals[:2]
     assert loose == pytest.approx(1e-6 * FIRST) and tight == pytest.approx(loose / APART)
-    apart = SAFETY * 0.1 * (loose - tight) * T
-    assert run.errors == pytest.approx(np.maximum(apart, LEAST * tight) + rounding(T), rel=1e-6)
+    watched = np.union1d(T, np.linspace(0, 10, 65))
+    later = np.append(0.0, watched[np.searchsorted(watched, T[1:] + SWING, side="right") - 1])
+    apart = SAFETY * 0.1 * (loose - tight) * later
+    assert run.errors == pytest.approx(np.maximum(apart, LEAST * tight) + rounding(later), rel=1e-6)
     assert run.ending.kind == "end" and run.horizon == np.inf and run.local == tight
     assert run.evaluations == made.spent == 200
     true = np.abs(run.states[:, 0] - 1)
     assert (true <= run.errors).all() and run.errors[-1] < 1.01 * SAFETY * (APART - 1) * true[-1]
+
+
+def test_two_runs_that_swing_through_each_other_are_no_better_known_where_they_meet() -> None:
+    """The difference of two oscillators, out of phase by what grows, is zero twice a turn; their errors are not."""
+    times, turn = np.linspace(0.0, 10.0, 2001), 2.0
+
+    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        states = 1 + (local * times * (np.sin(2 * np.pi * times / turn) if companion else 0))[:, None]
+        return Stretch(states, states[-1], 1)
+
+    def errors(swing: float) -> Array:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(estimated_run, "SWING", estimated_run.SWING._replace(value=swing))
+            distance = lambda one, other: np.abs(one - other)[:, 0]  # noqa: E731
+            run = estimate_run(Evolution(np.ones(1), integrate, distance, turn, ENOUGH), times, 1e-6)
+            return run.errors / (SAFETY * APART * run.local)
+
+    whole, inside = times, (times > 0) & (times < 10 - turn)
+    assert (errors(SWING)[inside] >= whole[inside]).all()
+    assert not (errors(0.0)[inside] >= whole[inside]).all()  # the twin
 
 
 def test_below_what_is_resolved_safety_counts_twice() -> None:
