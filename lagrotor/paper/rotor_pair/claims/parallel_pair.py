@@ -130,6 +130,14 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
 
 
 _EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
-# C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes.
+# C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes. With a mass of 10 kg in the middle of
+# the bar unequal spins drift by (a − b)(G₁ + G₂)²/(2D) = 0.64 of (7), D = a(G₁² + G₂²) − 2b G₁G₂.
 C01 = ClaimTest("C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, _EXACT, measure_c01, decide_c01)
-C02 = ClaimTest("C02", HEAVY_LINK, {AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, _EXACT, measure_c02, decide_c02)
+C02 = ClaimTest(
+    "C02",
+    HEAVY_LINK,
+    {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)},
+    _EXACT,
+    measure_c02,
+    decide_c02,
+)
