@@ -1,18 +1,28 @@
-"""Truncated power series in a small quantity, and the first term in which two expressions differ.
+"""Truncated series in a small quantity about a regular or a singular point, and the first term in which two expressions differ.
 
-With e the small quantity, a series is carried as the finitely many terms
+With e the small quantity, a series is carried as the finitely many terms (Laurent for q = 1, Puiseux otherwise)
 
-    e**start * (a_0 + a_1*e + ... + a_(n-1)*e**(n-1)) + O(e**(start + n)),
+    e**(start/q) * (a_0 + a_1*e**(1/q) + ... + a_(n-1)*e**((n-1)/q)) + what is smaller than e**((start + n - 1)/q).
 
-negative powers included, so that sin(e)/e is regular.  A function is expanded about the value u0 of its argument,
-f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v = O(e) leaves finitely many terms.  For a logarithm, a root or an
-inverse function with a branch cut, u0 must lie off the cut or the argument stay on it; e and the symbols of which
-nothing is declared are taken to be real.
+A function is expanded about the value u0 of its argument, f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v, which vanishes
+with e, leaves finitely many terms.  Of u = e**s * w, w not zero at e = 0,
+
+    u**a = e**(s*a) * w**a,    log u = s*log(e) + log w,
+
+where log(e) is a letter of its own in the coefficients: no series in powers of e equals it.  tan, cot, sec, csc and their
+hyperbolic kin are quotients where they have a pole, and Gamma(v - n) = Gamma(1 + v) / (v*(v - 1)*...*(v - n)).  A function whose
+argument is unbounded at e = 0 has no such series, but for roots and logarithms.
+
+For a logarithm, a root or an inverse function with a branch cut, u0 (of roots and logarithms w) must lie off the cut or the
+argument stay on the real line; e and the symbols of which nothing is declared are taken to be real.  Where e may be negative,
+the formulas above are used for 0 < s <= 1 and w > 0 only: sqrt(e**2) is no series in e unless e is declared positive.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
+from math import ceil, floor, lcm
 from typing import NamedTuple
 
 import sympy as sp
@@ -28,46 +38,63 @@ _ANALYTIC = (
     sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc,
     sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch, sp.exp,
 )  # fmt: skip
-# Cut along the imaginary axis, from i and -i outwards; the logarithm and the powers along the negative real axis.
-_CUT = (sp.atan, sp.asinh)
-# How many orders may be lost to division by a power of the small quantity.
-_MARGIN = 8
+# Cut along the imaginary axis, from i and -i outwards; along the real one, from 1 and -1 outwards; the logarithm and the
+# powers along the negative real axis.
+_CUT, _CUT_BEYOND_ONE = (sp.atan, sp.asinh), (sp.asin, sp.acos, sp.atanh)
+# How many orders may be lost to division by powers of the small quantity, at a time and at most; the largest q.
+_MARGIN, _MOST_LOST, _MOST_ROOTS = 8, 24, 24
 _ARGUMENT = sp.Dummy("z")  # of the functions that are expanded: one, so that sympy remembers their derivatives
+_LOG = sp.Dummy("log", real=True)  # the logarithm of the small quantity
+_KNOWN = (sp.Add, sp.Mul, sp.Pow, *_ANALYTIC, *_CUT, *_CUT_BEYOND_ONE, sp.log, sp.acosh, sp.gamma)
+# Numerator and denominator of the functions with poles.
+_QUOTIENTS = {
+    sp.tan: (sp.sin, sp.cos), sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin),
+    sp.tanh: (sp.sinh, sp.cosh), sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh),
+}  # fmt: skip
 # Well above the error of a value computed to more than thirty digits.
 _CLEARLY_NONZERO = 1e-15
 
 
 @dataclass(frozen=True)
 class LeadingTerm:
-    """The first non-vanishing term coefficient * small**order; order is None if there is none through `through`."""
+    """The first non-vanishing term coefficient * small**order; order is None if there is none below small**(through + 1).
 
-    order: int | None
+    The order is an int or, about a branch point, a sympy Rational; about a logarithmic point the coefficient holds log(small).
+    """
+
+    order: int | sp.Rational | None
     coefficient: sp.Expr
     through: int
 
+    @property
+    def vanishes_through(self) -> int:
+        """The last whole n for which what was looked at is smaller than small**n."""
+        return self.through if self.order is None else ceil(self.order) - 1
+
 
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
-    """Return the Taylor polynomial of the expression in `small` about 0, through small**order.
+    """Return the series of the expression in `small` about 0, through small**order, with its principal part.
 
-    Raises NotExactError if the expression is singular at small = 0 or not known to be analytic there, InputError for what
-    is not a scalar expression, a symbol and a whole number from zero on.
+    Raises NotExactError if the expression is not known to have one there, InputError for what is not a scalar expression, a
+    symbol and a whole number.
     """
-    coefficients = _taylor(scalar(expression, "truncated_series"), small, order)
     terms = [
-        sp.expand_mul(coefficient) * small**power
-        for power, coefficient in enumerate(coefficients)
-        if decide_zero(coefficient).answer != "zero"
+        sp.expand_mul(coefficient.xreplace({_LOG: sp.log(small)})) * small**power
+        for power, coefficient in _terms(scalar(expression, "truncated_series"), small, order)
+        if power <= order and decide_zero(coefficient).answer != "zero"
     ]
     return sp.Add(*terms)
 
 
 def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
-    """Return the first term of the expansion in `small` that does not vanish, looking through small**through.
+    """Return the first term of the series in `small` that does not vanish, looking below small**(through + 1).
 
-    Raises NotExactError if a coefficient met on the way is undecided, or the expression is singular at small = 0.
+    Where there is none the expression is O(small**(through + 1)): a term small**(through + 1) * log(small)**k is looked at,
+    too. Raises NotExactError if a coefficient met on the way is undecided, or the expression has no series at small = 0.
     """
-    for power, coefficient in enumerate(_taylor(scalar(expression, "leading_term"), small, through)):
+    for power, coefficient in _terms(scalar(expression, "leading_term"), small, through):
         decision = decide_zero(coefficient)
+        coefficient = coefficient.xreplace({_LOG: sp.log(small)})
         if decision.answer == "undecided" or decision.partly:
             raise NotExactError(f"coefficient {coefficient} of {small}**{power} is undecided: {decision.reason}")
         if decision.answer == "nonzero":
@@ -76,18 +103,24 @@ def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> Lea
 
 
 def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
-    """Return the leading term of printed - derived; they agree to order n if its order is None or above n.
+    """Return the leading term of printed - derived, which agree through order `vanishes_through`.
 
+    The order is absolute, also where the sides have a pole: 1/sin(e) and 1/e agree through order 0 and part by e/6.
     Raises NotExactError as `leading_term` does.
     """
     return leading_term(scalar(printed, "agreement_order") - scalar(derived, "agreement_order"), small, through)
 
 
 class _Series(NamedTuple):
-    """Terms of small**start, small**(start + 1), ...; what follows the last one is unknown."""
+    """Terms of small**(start/q), small**((start + 1)/q), ...; what follows the last one is unknown.
+
+    real: whether all but the constant, also what is unknown, is certainly real for the real values that small may have.
+    """
 
     start: int
     terms: tuple[sp.Expr, ...]
+    q: int = 1
+    real: bool = True
 
     @property
     def end(self) -> int:
@@ -96,21 +129,30 @@ class _Series(NamedTuple):
     def at(self, power: int) -> sp.Expr:
         return self.terms[power - self.start] if self.start <= power else sp.S.Zero
 
+    def led_by(self, first: sp.Expr) -> _Series:
+        """The series with another first term."""
+        return self._replace(terms=(first, *self.terms[1:]))
 
-def _taylor(expression: sp.Expr, small: sp.Symbol, order: int) -> list[sp.Expr]:
-    """Return the coefficients of small**0 to small**order."""
-    if not getattr(small, "is_Symbol", False) or isinstance(order, bool) or not isinstance(order, int) or order < 0:
-        raise InputError(
-            f"series: small = {small!r} must be a symbol and the order {order!r} a whole number from zero on"
-        )
-    series = _Series(0, ())
-    for length in (order + 1, order + 1 + _MARGIN):
+
+def _terms(expression: sp.Expr, small: sp.Symbol, order: int) -> list[tuple[int | sp.Rational, sp.Expr]]:
+    """Powers and coefficients below small**(order + 1), and the logarithms that small**(order + 1) is multiplied by."""
+    if not getattr(small, "is_Symbol", False) or isinstance(order, bool) or not isinstance(order, int):
+        raise InputError(f"series: small = {small!r} must be a symbol and the order {order!r} a whole number")
+    logarithms = [log.args[0] for log in expression.atoms(sp.log)]
+    logarithms += [power.base for power in expression.atoms(sp.Pow) if power.exp.has(small)]
+    beyond = order + 1 + any(argument.has(small) for argument in logarithms)
+    length, most = max(beyond, 1), max(beyond, 1) + _MOST_LOST
+    while length <= most:
         try:
-            series = _regular(_expanded(expression, small, length))
+            series = _expanded(expression, small, length)
         except _TooShortError:
+            length += _MARGIN
             continue
-        if series.end > order:
-            return [series.at(power) for power in range(order + 1)]
+        if series.end >= beyond * series.q:
+            powers = [sp.Rational(power, series.q) for power in range(series.start, beyond * series.q)]
+            terms = [(int(n) if n.is_Integer else n, series.at(series.start + k)) for k, n in enumerate(powers)]
+            return [(n, term) for n, term in terms if n < order + 1 or (n == order + 1 and term.has(_LOG))]
+        length += beyond - floor(series.end / series.q)
     raise NotExactError(f"division by powers of {small} leaves too few terms of {expression}")
 
 
@@ -119,64 +161,149 @@ class _TooShortError(Exception):
 
 
 def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
-    """Expand the node to `length` terms, or to fewer where terms cancel in a denominator."""
+    """Expand the node to `length` orders, or to fewer where terms cancel in a denominator."""
     if not node.has(small):
-        return _Series(0, _padded([node], length))
+        return _Series(0, _padded([node], length), real=_is_real(node))
     if node == small:
         return _Series(1, _padded([sp.S.One], length))
-    if node.is_Add or node.is_Mul:
-        total, *others = (_expanded(part, small, length) for part in node.args)
-        for other in others:
-            total = _plus(total, other) if node.is_Add else _times(total, other)
-        return total
+    if not isinstance(node, _KNOWN):
+        raise NotExactError(f"{node} is not known to be analytic in {small}")
+    parts = [_expanded(part, small, length) for part in node.args]
+    if node.is_Mul:
+        return reduce(_times, parts)
+    if node.is_Add:
+        real = all(part.real for part, term in zip(parts, node.args, strict=True) if term.has(small))
+        return reduce(_plus, parts)._replace(real=real)
+    if node.is_Pow:
+        return _of_power(node, parts[0], parts[1], small)
+    return _of_function(node, parts[0], small, length)
+
+
+def _of_power(node: sp.Expr, base: _Series, exponent: _Series, small: sp.Symbol) -> _Series:
+    """base**exponent, where both vary exp(exponent * log(base))."""
     z = _ARGUMENT
-    if node.is_Pow and not node.exp.has(small):
-        base = _expanded(node.base, small, length)
-        if node.exp.is_Integer and node.exp > 0:
-            return _power(base, int(node.exp))
-        base = _stripped(base)
-        if base.start and not node.exp.is_Integer:
-            raise NotExactError(f"{node} is singular at {small} = 0")
-        if not node.exp.is_Integer:
-            _check_cut(node, base)
-        shift = base.start * int(node.exp) if base.start else 0
-        return _Series(shift, _composed(z**node.exp, z, _Series(0, base.terms)).terms)
-    if node.is_Pow and not node.base.has(small):
-        return _composed(node.base**z, z, _regular(_expanded(node.exp, small, length)))
-    if isinstance(node, (*_ANALYTIC, *_CUT, sp.log)):
-        inner = _regular(_expanded(node.args[0], small, length))
-        if not isinstance(node, _ANALYTIC):
-            _check_cut(node, inner)
-        return _composed(node.func(z), z, inner)
-    raise NotExactError(f"{node} is not known to be analytic in {small}")
+    if not node.exp.has(small):
+        whole = node.exp.is_Integer and node.exp > 0
+        return _power(base, int(node.exp)) if whole else _of_constant_power(node, _stripped(base), small)
+    if not node.base.has(small):
+        power = _composed(node.base**z, z, _regular(node, exponent, small))
+        return power._replace(real=power.real and bool(node.base.is_positive))
+    exponent = _times(exponent, _logarithm(node, _stripped(base), small))
+    return _composed(sp.exp(z), z, _regular(node, exponent, small))
+
+
+def _of_function(node: sp.Expr, argument: _Series, small: sp.Symbol, length: int) -> _Series:
+    if isinstance(node, sp.log):
+        return _logarithm(node, _stripped(argument), small)
+    z, inner = _ARGUMENT, _regular(node, argument, small)
+    if isinstance(node, sp.gamma):
+        return _gamma(node, inner)
+    if isinstance(node, sp.acosh) or (isinstance(node, sp.asin | sp.acos) and _vanishes(1 - inner.terms[0] ** 2)):
+        return _expanded(_from_branch_point(node, inner.terms[0]), small, length)
+    if not isinstance(node, _ANALYTIC):
+        _check_cut(node, inner, small)
+    above, below = _QUOTIENTS.get(node.func, (None, None))
+    if below is not None and _vanishes(below(inner.terms[0])):
+        inverse = _inverse(_composed(below(z), z, inner))
+        return inverse if above is None else _times(_composed(above(z), z, inner), inverse)
+    return _composed(node.func(z), z, inner)
+
+
+def _from_branch_point(node: sp.Expr, u0: sp.Expr) -> sp.Expr:
+    """acos u = 2 asin sqrt((1 - u)/2), acosh u = 2 asinh sqrt((u - 1)/2), asin u = pi/2 - acos u, acos(-u) = pi - acos u."""
+    u = node.args[0]
+    if isinstance(node, sp.acosh):
+        return 2 * sp.asinh(sp.sqrt((u - 1) / 2))
+    right = _vanishes(1 - u0)
+    acos = 2 * sp.asin(sp.sqrt((1 - u if right else 1 + u) / 2))
+    acos = acos if right else sp.pi - acos
+    return acos if isinstance(node, sp.acos) else sp.pi / 2 - acos
+
+
+def _of_constant_power(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
+    """base**a = small**(s*a) * w**a."""
+    if base.start and not node.exp.is_Rational:
+        raise NotExactError(f"{node} is singular at {small} = 0, and its exponent is no rational number")
+    if not node.exp.is_Integer:
+        _check_cut(node, base, small)
+    shift = node.exp * sp.Rational(base.start, base.q) if base.start else sp.S.Zero
+    power = _composed(_ARGUMENT**node.exp, _ARGUMENT, base._replace(start=0))
+    power = _refined(power, lcm(base.q, int(shift.q)))
+    real = power.real and (node.exp.is_Integer or _is_positive(base, small))
+    return power._replace(start=int(shift * power.q), real=real)
+
+
+def _is_positive(base: _Series, small: sp.Symbol) -> bool:
+    """Whether a real series is certainly positive next to zero."""
+    return bool(base.terms[0].is_positive and (small.is_extended_nonnegative or not base.start))
+
+
+def _inverse(series: _Series) -> _Series:
+    series = _stripped(series)
+    return _composed(1 / _ARGUMENT, _ARGUMENT, series._replace(start=0))._replace(start=-series.start)
+
+
+def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
+    """log(base) = s*log(small) + log w."""
+    _check_cut(node, base, small)
+    series = _composed(sp.log(_ARGUMENT), _ARGUMENT, base._replace(start=0))
+    series = series._replace(real=series.real and _is_positive(base, small))
+    return series.led_by(series.terms[0] + sp.Rational(base.start, base.q) * _LOG)
+
+
+def _gamma(node: sp.Expr, inner: _Series) -> _Series:
+    """Gamma(u0 + v), at the poles u0 = 0, -1, ... by the recurrence."""
+    u0 = inner.terms[0]
+    if not u0.is_Integer and _vanishes(sp.sin(sp.pi * u0)):
+        raise NotExactError(f"{node} may have a pole: its argument starts at {u0}")
+    if not u0.is_Integer or u0 > 0:
+        return _composed(sp.gamma(_ARGUMENT), _ARGUMENT, inner)
+    if u0 < -_MOST_LOST:
+        raise NotExactError(f"{node} is not expanded at so distant a pole")
+    above = _composed(sp.gamma(_ARGUMENT), _ARGUMENT, inner.led_by(sp.S.One))
+    return _times(above, _inverse(reduce(_times, [inner.led_by(sp.Integer(-k)) for k in range(1 - int(u0))])))
 
 
 def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
     """Return sum of f^(m)(u0) * v**m / m!, u0 + v the inner series."""
-    length = len(inner.terms)
-    u0 = sp.S.Zero if _vanishes(inner.terms[0]) else inner.terms[0]
-    v = _Series(0, (sp.S.Zero, *inner.terms[1:]))
-    power = _Series(0, _padded([sp.S.One], length))
-    total = _Series(0, (sp.S.Zero,) * length)
+    length, u0 = len(inner.terms), inner.terms[0]
+    if u0.has(_LOG):
+        raise NotExactError(
+            f"{function} of an argument that starts with a logarithm of the small quantity has no series"
+        )
+    v = inner.led_by(sp.S.Zero)
+    power = inner._replace(terms=_padded([sp.S.One], length))
+    total = inner._replace(terms=(sp.S.Zero,) * length)
     for m in range(length):
+        if all(term is sp.S.Zero for term in power.terms):
+            break
         value = function.subs(z, u0) / sp.factorial(m)
         if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
             raise NotExactError(f"{function} is singular at {z} = {u0}")
-        total = _plus(total, _Series(0, tuple(_product(value, term) for term in power.terms)))
+        total = _plus(total, inner._replace(terms=tuple(_product(value, term) for term in power.terms)))
         power = _times(power, v)
         function = derivative(function, z)
-    return total
+    return total._replace(real=inner.real and _is_real(u0))
 
 
-def _check_cut(node: sp.Expr, inner: _Series) -> None:
+def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
     """Raise NotExactError unless the argument starts off the branch cut of the function or stays on the cut's line."""
     u0, *tail = inner.terms
+    one_sided = bool(small.is_extended_nonnegative)
+    on_line = False
     if isinstance(node, _CUT):
         off = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
-        on_line = all(_is_real(sp.expand(sp.I * term)) for term in tail)
+    elif isinstance(node, _CUT_BEYOND_ONE):
+        off = u0.is_extended_real is False or (u0.is_extended_real and (1 - u0**2).is_positive)
     else:
         off = u0.is_positive or u0.is_extended_real is False
-        on_line = all(map(_is_real, tail))
+        on_line = inner.real and all(map(_is_real, tail))
+    if inner.start and not one_sided:
+        within = inner.start < inner.q or (inner.start == inner.q and on_line)
+        if not (u0.is_positive and inner.start > 0 and within):
+            raise NotExactError(
+                f"{node} is singular at {small} = 0, and its branch depends on the sign of {small}: declare it positive"
+            )
     if not (off or on_line):
         raise NotExactError(
             f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"
@@ -196,14 +323,28 @@ def _is_real(node: sp.Expr) -> bool:
     )
 
 
+def _refined(series: _Series, q: int) -> _Series:
+    """The same series in powers of small**(1/q), q a multiple of its own."""
+    if q > _MOST_ROOTS:
+        raise NotExactError(f"powers with the common denominator {q} are not expanded: the largest is {_MOST_ROOTS}")
+    each = q // series.q
+    terms = tuple(part for term in series.terms for part in _padded([term], each))
+    return series._replace(start=series.start * each, terms=terms, q=q)
+
+
 def _plus(a: _Series, b: _Series) -> _Series:
+    q = lcm(a.q, b.q)
+    a, b = _refined(a, q), _refined(b, q)
     start, end = min(a.start, b.start), min(a.end, b.end)
-    return _Series(start, tuple(a.at(power) + b.at(power) for power in range(start, end)))
+    return _Series(start, tuple(a.at(power) + b.at(power) for power in range(start, end)), q, a.real and b.real)
 
 
 def _times(a: _Series, b: _Series) -> _Series:
+    q = lcm(a.q, b.q)
+    a, b = _refined(a, q), _refined(b, q)
     terms = (sp.Add(*map(_product, a.terms[: k + 1], b.terms[k::-1])) for k in range(min(len(a.terms), len(b.terms))))
-    return _Series(a.start + b.start, tuple(terms))
+    real = a.real and b.real and _is_real(a.terms[0]) and _is_real(b.terms[0])
+    return _Series(a.start + b.start, tuple(terms), q, real)
 
 
 def _product(a: sp.Expr, b: sp.Expr) -> sp.Expr:
@@ -226,18 +367,22 @@ def _stripped(series: _Series) -> _Series:
     """Drop the leading terms that vanish."""
     for place, term in enumerate(series.terms):
         if not _vanishes(term):
-            return _Series(series.start + place, series.terms[place:])
+            return series._replace(start=series.start + place, terms=series.terms[place:])
     raise _TooShortError
 
 
-def _regular(series: _Series) -> _Series:
-    """Return the series from small**0 on; raise NotExactError if it has a term of negative power."""
+def _regular(node: sp.Expr, series: _Series, small: sp.Symbol) -> _Series:
+    """Return the argument of the node from small**0 on; raise NotExactError if it has a term of negative power."""
     for power in range(series.start, min(series.end, 0)):
         if not _vanishes(series.at(power)):
-            raise NotExactError(f"the expansion has the negative power {power}")
+            negative = sp.Rational(power, series.q)
+            raise NotExactError(
+                f"{node} has an essential singularity or a jump at {small} = 0: its argument has the negative power {negative}"
+            )
     if series.end <= 0:
         raise _TooShortError
-    return _Series(0, tuple(series.at(power) for power in range(series.end)))
+    first = sp.S.Zero if _vanishes(series.at(0)) else series.at(0)
+    return series._replace(start=0, terms=(first, *(series.at(power) for power in range(1, series.end))))
 
 
 def _vanishes(coefficient: sp.Expr) -> bool:

@@ -9,6 +9,7 @@ certified point, or an order at which the two part; what is neither is undecided
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import Any
 
 import sympy as sp
@@ -323,12 +324,12 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
         terms = truncated_series(ratio, small, order)
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
-    first = leading_term(terms - terms.xreplace({small: sp.S.Zero}), small, order)
-    constant = _constant(terms.xreplace({small: sp.S.Zero}))
+    fixed, changing = terms.as_independent(small, as_Add=True)
+    first, constant = leading_term(changing, small, order), _constant(fixed)
     if first.order is not None:
         by = readable(str(first.coefficient))
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
-        return _Finding("refuted", first.order - 1, small, reasons=(reason,), difference=first.coefficient)
+        return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
         return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
     near = bool(abs(constant - 1) <= within)
@@ -354,26 +355,26 @@ def _to_order(
     try:
         terms = [agreement_order(p, d, small, furthest) for p, d in pairs]
         place, first = min(enumerate(terms), key=lambda t: t[1].through + 1 if t[1].order is None else t[1].order)
-        reached = furthest if first.order is None else first.order - 1
+        reached = first.vanishes_through
         lead = _leading_order(pairs, small, furthest)
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
     if lead is None:
         reason = f"both sides vanish through order {furthest} in {name}: nothing was compared"
         return _Finding("undecided", None, small, domain, (reason,))
-    if reached >= max(relation.claimed, lead):
+    if reached >= relation.claimed and (first.order is None or first.order > lead):
         return _Finding("holds-to-order", reached, small, domain)
     if first.order is None:
         reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
     reason = f"first differs at order {first.order} in {name}, by {readable(str(first.coefficient))}"
     if lead > relation.claimed:
-        reason = f"both sides vanish through order {lead - 1} in {name}; {reason}"
+        reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
 
 
-def _leading_order(pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int) -> int | None:
+def _leading_order(pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int) -> int | sp.Rational | None:
     """The lowest order at which any of the sides has a term; None where there is none."""
     for most in (0, through):
         orders = [leading_term(side, small, most).order for pair in pairs for side in pair]

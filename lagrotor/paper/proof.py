@@ -127,7 +127,7 @@ def _through(a: Any, b: Any, small: sp.Symbol, order: int, says: str) -> None:
     entries = zip(a, b, strict=True) if isinstance(a, sp.MatrixBase) else [(a, b)]
     for p, q in entries:
         first = agreement_order(p, q, small, order)
-        if first.order is not None and first.order <= order:
+        if first.order is not None:
             raise ProofError(
                 f"prove: {says or 'this step'} fails at order {first.order} in {small}, by {first.coefficient}: {p} against {q}"
             )

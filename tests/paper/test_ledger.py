@@ -7,7 +7,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import I1, I3, ROTOR, J, r0
-from lagrotor.paper import Premise, Relation, Statement, chain, decide, letters, verdict
+from lagrotor.paper import Premise, Relation, Statement, chain, decide, judge, letters, verdict
 from lagrotor.paper.record import as_text, changes, reaches_result, recorded
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import about_parameters
@@ -246,3 +246,24 @@ def test_a_verdict_is_shown_with_what_it_rests_on() -> None:
     assert "the correction" not in held
     near = decide(Statement("5.01", (Relation(1 - x**2 / 2, sp.cos(x), x, 2),)))._repr_html_()
     assert "through order 3 in x" in near
+
+
+@pytest.mark.parametrize(
+    ("printed", "derived", "order", "verdict", "reached"),
+    [
+        (sp.cot(x), 1 / x - x / 3, 2, "holds-to-order", 2),
+        (sp.cot(x), 1 / x - x / 2, 2, "refuted", 0),
+        (1 / x, 2 / x, 0, "refuted", -2),
+        (sp.sqrt(sp.sin(x)), sp.sqrt(x), 2, "holds-to-order", 2),
+        (x * sp.sqrt(x), 2 * x * sp.sqrt(x), 1, "refuted", 1),  # both vanish through order 1, where nothing is compared
+        (x * sp.sqrt(x) + x**2, x * sp.sqrt(x), 1, "holds-to-order", 1),
+        (sp.log(sp.sin(x)), sp.log(x) - x**2 / 6, 3, "holds-to-order", 3),
+        (sp.log(sp.sin(x)), sp.log(x) / 2, 0, "refuted", -1),
+        (sp.exp(1 / x), 1 / x, 0, "undecided", None),
+    ],
+)
+def test_series_about_a_singular_point_hold_through_whole_orders(
+    printed: sp.Expr, derived: sp.Expr, order: int, verdict: str, reached: int | None
+) -> None:
+    judged = judge(printed, derived, small=x, order=order)
+    assert (judged.verdict, judged.order) == (verdict, reached)

@@ -264,12 +264,11 @@ class _Checker:
             a, b = expression(left.node, self.opaque), expression(right.node, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return
-            term = agreement_order(a, b, small, power + 2)
+            term = agreement_order(a, b, small, power - 1)
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
             yield self._finding(each, step, right, "undecided", "the series cannot be compared")
             return
-        through = getattr(term, "order", None)
-        if through is None or through >= power:
+        if term.order is None:
             yield self._finding(each, step, right, HOLDS, f"through order {power - 1} in {name}")
         else:
             yield self._finding(
@@ -277,7 +276,7 @@ class _Checker:
                 step,
                 right,
                 REFUTED,
-                f"the two sides part at order {through} in {name}; O({name}**{power}) is claimed",
+                f"the two sides part at order {term.order} in {name}; O({name}**{power}) is claimed",
             )
 
     # ---- equations and what they cite
