@@ -9,7 +9,8 @@
 #
 # **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included; $\kappa=gS$
 # its weight's moment, $S$ the sum of its masses times their heights; $N$ the number of rotors; $b$ the coupling by a heavy
-# bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for motion as $e^{st}$.
+# bar; $G_i$ the axial momenta; $\lambda=as^2-\kappa$ for motion as $e^{st}$; $D(s)$ the matrix of the equations of such motion,
+# $P(s)=\det D(s)$ its characteristic polynomial.
 
 # %%
 from math import inf, sqrt
@@ -18,7 +19,8 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Brace, Link, Structure
-from lagrotor.paper import Remark, prove
+from lagrotor.mechanics import coordinates, euler_lagrange
+from lagrotor.paper import Formula, Remark, prove
 from lagrotor.structures import bounded_motion, measured_growth, sign_patterns
 from lagrotor.structures.coefficients import coefficients
 
@@ -38,30 +40,86 @@ def polynomial(spins: list[float], **more: object) -> sp.Expr:
 pair = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}
 
 # %% [markdown]
+# ## The linear equations
+#
+# To second order in the tilts the Lagrangian after Routh's reduction is
+#
+# $$L=\sum_i\Big(\frac a2|\dot u_i|^2+\frac{G_i}2\,(y_i\dot x_i-x_i\dot y_i)+\frac\kappa2|u_i|^2\Big)
+# +\sum_{\text{bars }ij}b\,\dot u_i\cdot\dot u_j.$$
+#
+# Each bar holds the two tilts along it equal. With that put in, the Euler–Lagrange equations of the freedoms that are left are
+# linear. For freedoms that go as $e^{st}$ they are $D(s)\,q=0$, and such a motion exists where $P(s)=\det D(s)=0$.
+
+
+# %%
+def small_motion(tilts: list[str], spins: tuple[sp.Expr, ...], bars: tuple = (), spring: sp.Expr = sp.S.Zero) -> tuple:
+    """Equations of motion and coordinates of the tilts "x_i y_i"; bars: (i, j) that couple by b; spring: its energy."""
+    free = coordinates(sorted(set(" ".join(tilts).split())))
+    named = {str(q): (q, v) for q, v in zip(free.q, free.v, strict=True)}
+    u = [[named[name] for name in tilt.split()] for tilt in tilts]
+    total = -spring
+    for ((x, x_v), (y, y_v)), G in zip(u, spins, strict=True):
+        total += a / 2 * (x_v**2 + y_v**2) + G / 2 * (y * x_v - x * y_v) + kappa / 2 * (x**2 + y**2)
+    for i, j in bars:
+        total += sum(b * one[1] * other[1] for one, other in zip(u[i], u[j], strict=True))
+    return euler_lagrange(total, free), free
+
+
+def pencil(*of: object, **more: object) -> sp.Matrix:
+    """D(s) of a small motion."""
+    motion, free = small_motion(*of, **more)
+    by_q, by_v, by_a = (motion.jacobian(list(names)) for names in (free.q, free.v, free.a))
+    return by_q + s * by_v + s**2 * by_a
+
+
+# %% [markdown]
 # ## The loaded pair
 #
-# The bar holds the two tilts along it equal, $x_1=x_2$: three freedoms, $x$, $y_1$, $y_2$. With a massless bar
+# The bar holds $x_1=x_2$: three freedoms, $x_1$, $y_1$, $y_2$, with the equations
+
+# %%
+tilts_of_two, G_12 = ["x_1 y_1", "x_1 y_2"], (G_1, G_2)
+Formula(small_motion(tilts_of_two, G_12, bars=((0, 1),))[0], "E")
+
+# %% [markdown]
+# each to vanish. For motion as $e^{st}$
+
+# %%
+coupled = pencil(tilts_of_two, G_12, bars=((0, 1),))
+Formula(coupled, "D(s)")
+
+# %% [markdown]
+# With a massless bar, $b=0$,
 
 # %%
 massless = polynomial([3, 2], **pair)
+product = lam * (2 * lam**2 + (G_1**2 + G_2**2) * s**2)
 prove(
-    massless,
-    lam * (2 * lam**2 + (G_1**2 + G_2**2) * s**2),
-    "the characteristic polynomial of the loaded pair, massless bar",
-    names="P(s)",
+    (coupled.subs(b, 0).det(), massless),
+    (product, product),
+    "the determinant for a massless bar, and the library's characteristic polynomial",
+    names=(r"\det D(s)", "P(s)"),
 )
 
 # %% [markdown]
 # The factor $\lambda$ contains no spin: one motion grows at the rate $\sqrt{\kappa/a}$, as without spins. It is the one on
-# which the two gyroscopic moments cancel, $x=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
+# which the two gyroscopic moments cancel, $x_1=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
 # the joint line. A heavy bar mixes the motions, but at $s=0$ and for large $s$ its polynomial has the signs
 
 # %%
-heavy = sp.Poly(polynomial([3, 2], link=Link(1, 0.3, 0.1), **pair), s)
+heavy = sp.Poly(coupled.det(), s)
 prove(heavy.eval(0), -2 * kappa**3, "the polynomial of a heavy bar at s = 0", names="P(0)")
 
 # %%
 prove(heavy.coeff_monomial(s**6), 2 * (a - b) * (a + b) ** 2, "its leading coefficient", names="P_6")
+
+# %%
+prove(
+    polynomial([3, 2], link=Link(1, 0.3, 0.1), **pair),
+    coupled.det(),
+    "the library's polynomial of a heavy bar",
+    written=r"P_{\text{library}}(s) = \det D(s)",
+)
 
 # %% [markdown]
 # As $a>|b|$, the polynomial changes its sign between: a positive root exists for every pair of spins. **No loaded pair
@@ -88,15 +146,20 @@ prove(quadratic.discriminant(), beta**2 * (beta**2 - 4 * a * kappa), "the discri
 #
 # ## The smallest jointed structure that stands
 #
-# Three rotors and two bars at a corner: $x_1=x_2$, $y_2=y_3$, four freedoms.
+# Three rotors and two bars at a corner: $x_1=x_2$, $y_2=y_3$, four freedoms, $x_1$, $x_3$, $y_1$, $y_2$. Massless bars:
+
+# %%
+at_corner = pencil(["x_1 y_1", "x_1 y_2", "x_3 y_2"], (G_1, G_2, G_3))
+Formula(at_corner, "D(s)")
 
 # %%
 corner = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}
+terms = 4 * lam**4 + (2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam**2 * s**2 + G_1**2 * G_3**2 * s**4
 prove(
-    polynomial([3, 2, 1], **corner),
-    4 * lam**4 + (2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam**2 * s**2 + G_1**2 * G_3**2 * s**4,
-    "the characteristic polynomial of the corner",
-    names="P(s)",
+    (at_corner.det(), polynomial([3, 2, 1], **corner)),
+    (terms, terms),
+    "the determinant, and the library's characteristic polynomial of the corner",
+    names=(r"\det D(s)", "P(s)"),
 )
 
 # %% [markdown]
@@ -112,12 +175,17 @@ prove(resting, (2 * lam**2 + G_1**2 * s**2) ** 2, "the corner with its middle ro
 # mean of the $y_i$ alone, and the other motions fall:
 
 # %%
+in_row = pencil(["x_1 y_1", "x_1 y_2", "x_1 y_3"], (G_1, G_2, G_3))
+Formula(in_row, "D(s)")
+
+# %%
 row = {"joints": [(0, 0), (1, 0), (2, 0)], "bars": [(0, 1), (1, 2)]}
+product = lam**2 * (3 * lam**2 + (G_1**2 + G_2**2 + G_3**2) * s**2)
 prove(
-    polynomial([3, 2, 1], **row),
-    lam**2 * (3 * lam**2 + (G_1**2 + G_2**2 + G_3**2) * s**2),
-    "the characteristic polynomial of a straight row of three",
-    names="P(s)",
+    (in_row.det(), polynomial([3, 2, 1], **row)),
+    (product, product),
+    "the determinant, and the library's characteristic polynomial of a straight row of three",
+    names=(r"\det D(s)", "P(s)"),
 )
 
 # %% [markdown]
@@ -126,13 +194,18 @@ prove(
 # Four rotors and four bars: each row of the grid has one $x$, each column one $y$.
 
 # %%
+of_square = pencil(["x_1 y_1", "x_1 y_2", "x_3 y_2", "x_3 y_1"], (G_1, G_2, G_3, G_4))
+Formula(of_square, "D(s)")
+
+# %%
 square = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "bars": [(0, 1), (1, 2), (2, 3), (3, 0)]}
 squares = G_1**2 + G_2**2 + G_3**2 + G_4**2
+terms = 16 * lam**4 + 4 * squares * lam**2 * s**2 + (G_1 * G_3 - G_2 * G_4) ** 2 * s**4
 prove(
-    polynomial([1, 2, 3, 4], **square),
-    16 * lam**4 + 4 * squares * lam**2 * s**2 + (G_1 * G_3 - G_2 * G_4) ** 2 * s**4,
-    "the characteristic polynomial of the square",
-    names="P(s)",
+    (of_square.det(), polynomial([1, 2, 3, 4], **square)),
+    (terms, terms),
+    "the determinant, and the library's characteristic polynomial of the square",
+    names=(r"\det D(s)", "P(s)"),
 )
 
 # %% [markdown]
@@ -192,12 +265,18 @@ Remark(
 # even number:
 
 # %%
+y_1, y_2 = coordinates("y_1 y_2").q
+braced = pencil(tilts_of_two, G_12, spring=k * y_1**2 / 2)
+Formula(braced, "D(s)")
+
+# %%
 across = [Brace(0, (0.0, 1.0, 1.0), 200.0)]
+terms = 2 * lam**2 * (lam + k) + G_1**2 * s**2 * lam + G_2**2 * s**2 * (lam + k)
 prove(
-    polynomial([3, 2], braces=across, **pair),
-    2 * lam**2 * (lam + k) + G_1**2 * s**2 * lam + G_2**2 * s**2 * (lam + k),
-    "the characteristic polynomial of the braced pair",
-    names="P(s)",
+    (braced.det(), polynomial([3, 2], braces=across, **pair)),
+    (terms, terms),
+    "the determinant, and the library's characteristic polynomial of the braced pair",
+    names=(r"\det D(s)", "P(s)"),
 )
 
 # %% [markdown]
@@ -205,25 +284,20 @@ prove(
 # spin of the rotor without the brace, whichever sense the other has.
 
 # %%
-stiff = sp.Limit((2 * lam**2 * (lam + k) + G_1**2 * s**2 * lam + G_2**2 * s**2 * (lam + k)) / k, k, sp.oo).doit()
+stiff = sp.Limit(terms / k, k, sp.oo).doit()
 prove(stiff, 2 * lam**2 + G_2**2 * s**2, "a stiff brace", names=r"\lim_{k\to\infty} P(s)/k")
 
 # %% [markdown]
-# A spring that acts on yaw alone, $k(y_1-y_2)^2/2$, leaves the two sways to fall. On $(x,y_1,y_2)$
+# A spring that acts on yaw alone, $k(y_1-y_2)^2/2$, leaves the two sways to fall:
 
 # %%
-L = sp.Symbol("lambda", real=True)
+yaw = k * (y_1 - y_2) ** 2 / 2
+Formula(pencil(tilts_of_two, G_12, spring=yaw), "D(s)")
 
-
-def yaw_held(G_a: sp.Expr, G_b: sp.Expr) -> sp.Expr:
-    """The characteristic polynomial of the pair with a spring against yaw."""
-    rows = [[2 * L, G_a * s, G_b * s], [-G_a * s, L + k, -k], [-G_b * s, -k, L + k]]
-    return sp.expand(sp.Matrix(rows).det())
-
-
+# %%
 prove(
-    [yaw_held(G_1, G_1), yaw_held(G_1, -G_1)],
-    (2 * (L + 2 * k) * (L**2 + G_1**2 * s**2), 2 * L * (L * (L + 2 * k) + G_1**2 * s**2)),
+    [pencil(tilts_of_two, (G_1, sign * G_1), spring=yaw).det() for sign in (1, -1)],
+    (2 * (lam + 2 * k) * (lam**2 + G_1**2 * s**2), 2 * lam * (lam * (lam + 2 * k) + G_1**2 * s**2)),
     "equal and opposite spins with a spring against yaw",
     names=("P_=(s)", r"P_\pm(s)"),
 )

@@ -41,7 +41,8 @@ MUTANTS = [
     ("n4_damped", "(2 * (a * s + c) ** 2 + G_1", "(2 * (a * s - c) ** 2 + G_1"),
     ("n4_damped", "gap = (y_1 - y_2) ** 2 / (2 * k)", "gap = (y_1 - y_2) ** 2 / k"),
     pytest.param("n4_damped", "velocity = sp.exp(-c * t / a", "velocity = sp.exp(-c * t / (2 * a)", marks=AFTER_RUNS),
-    ("n1_standing", "2 * (L + 2 * k) * (L**2 + G_1", "2 * (L + k) * (L**2 + G_1"),
+    ("n1_standing", "(lam + 2 * k) * (lam**2 + G_1", "(lam + k) * (lam**2 + G_1"),
+    ("n1_standing", "G / 2 * (y * x_v - x * y_v)", "G * (y * x_v - x * y_v)"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),
 ]
 
