@@ -467,7 +467,7 @@ def test_report_is_complete(work: Path, capsys: pytest.CaptureFixture[str]) -> N
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
     kept = {name for name in kept if not name.startswith(folder.PRODUCTS)}
     drawn = {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
-    assert kept == folder.CONTENTS - {"figures", folder.PRODUCTS} | drawn
+    assert kept == folder.CONTENTS - {"figures", folder.PRODUCTS, folder.CERTIFICATES} | drawn
     rows = json.loads((report / "verdicts.json").read_text())
     assert {row["id"] for row in rows if row["verdict"] != "not-yet-judged"} == set(found())
     assert {row["id"] for row in rows} == set(PAPER.equations)
@@ -525,7 +525,9 @@ def test_what_latex_leaves_is_no_obstacle(last_report: Path, capsys: pytest.Capt
     assert (report / "report.pdf").exists(), "nothing had changed"
     (report / "index.html").write_text("edited")
     assert main(["reproduce", "--jobs", "1"]) == 0
-    assert {path.name for path in report.iterdir()} == folder.CONTENTS, "the PDF was of the last report"
+    assert {path.name for path in report.iterdir()} == folder.CONTENTS - {folder.CERTIFICATES}, (
+        "the PDF was of the last report"
+    )
     (report / "thesis.pdf").touch()
     assert main(["reproduce", "--jobs", "1"]) == 2
     assert "holds thesis.pdf, which" in capsys.readouterr().err

@@ -274,7 +274,7 @@ def test_words_of_a_paper_stay_in_their_comment() -> None:
     evil = '*) Axiom a : False. (* " *'
     assert comment(evil).count("*)") == 1 and comment(evil).endswith("*)") and '"' not in comment(evil)
     entry = Equation("1.1", "1", evil, evil, reading=evil)
-    text, line = of(J, I_3, [Premise(evil, {J: I_3})], entry)
+    text, line = of(J * x, I_3 * x, [Premise(evil, {J: I_3})], entry)
     assert line.theorems and foreign_word(text) == ""
 
 

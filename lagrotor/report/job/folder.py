@@ -10,6 +10,7 @@ from lagrotor.errors import InputError
 
 # How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
 TIMES, MADE, PRODUCTS = "times.json", "made.json", "products"
+CERTIFICATES = "certificates"  # where the job was given `--certify`
 CONTENTS = {
     "index.html",
     "api.html",
@@ -20,7 +21,7 @@ CONTENTS = {
     "measured.json",
     "errata.md",
     "errata.tex",
-    "certificates",
+    CERTIFICATES,
     "figures",
     TIMES,
     MADE,

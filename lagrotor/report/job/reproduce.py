@@ -26,7 +26,7 @@ from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import reach
-from lagrotor.report.job.folder import TIMES, check_target, replacement
+from lagrotor.report.job.folder import CERTIFICATES, TIMES, check_target, replacement
 from lagrotor.report.job.kept import Kept
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
@@ -78,8 +78,8 @@ def reproduce(
         report = _report(paper, products, new / "figures")
         start = time.perf_counter()
         if certificates:
-            rows = certify(report.verdicts, paper, new / "certificates")
-            report = replace(report, certificates={row.id: f"certificates/{row.file}" for row in rows if row.file})
+            rows = certify(report.verdicts, paper, new / CERTIFICATES)
+            report = replace(report, certificates={row.id: f"{CERTIFICATES}/{row.file}" for row in rows if row.file})
         _write(new, report)
         found = {
             "equations": report.counts,
