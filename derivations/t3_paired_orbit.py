@@ -27,13 +27,13 @@ from lagrotor import (
     precession_orbit,
 )
 from lagrotor.mechanics import FourierSeries, euler_lagrange
-from lagrotor.mechanics.fourier import constant
+from lagrotor.mechanics.fourier import constant_series
 from lagrotor.numerics import measured_order
 from lagrotor.pair import axes_pair, joint_line_momentum
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma
 from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import paired_series, series_orbit
-from lagrotor.theory.paired_precession.series import equations, field_of
+from lagrotor.theory.paired_precession.series import coefficient_field, equations
 
 # %% [markdown]
 # ## Lagrangian and constraints
@@ -130,7 +130,7 @@ class Standing:
         return Standing(self.of.subs(exchange, simultaneous=True))
 
 
-FIELD, w = field_of(sigma, k), sp.Symbol("w", positive=True)
+FIELD, w = coefficient_field(sigma, k), sp.Symbol("w", positive=True)
 library = equations(sigma, k, FIELD)([Standing(q) for q in (x1, y1, z1, lambda_1, tau)], Standing(w))
 own, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
 units = {a: own, b: shared, G: 1 / sp.sqrt(sigma)}
@@ -214,7 +214,7 @@ def of_order(n: int, found: list[FourierSeries]) -> list[sp.Expr]:
 
 
 prove(
-    sp.Matrix([of_order(n, left(2, constant(FIELD.one, 3), FIELD)) for n in range(3)]),
+    sp.Matrix([of_order(n, left(2, constant_series(FIELD.one, 3), FIELD)) for n in range(3)]),
     sp.zeros(3, 5),
     "orders 0, 1 and 2 of the five equations",
     names=r"\left(E^{(0)}, E^{(1)}, E^{(2)}\right)",
@@ -230,7 +230,7 @@ prove(
 # %%
 w_2 = sp.Symbol("w_2", real=True)
 wider = sp.ZZ.frac_field(*FIELD.symbols, w_2)
-rate = constant(wider.one, 3) + constant(wider.from_sympy(w_2), 3, 2)
+rate = constant_series(wider.one, 3) + constant_series(wider.from_sympy(w_2), 3, 2)
 in_x, in_Y = (left(2, rate, wider)[i].harmonics(3) for i in range(2))
 condition = wider.to_sympy(in_x[1]) + sigma * wider.to_sympy(in_Y[-1])
 solution = sp.solve(condition, w_2)[0]

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from lagrotor.drawing import GROUND, INK, MARK, ROTORS, Camera
 from lagrotor.pair import axis
-from lagrotor.pictures import arrow, between, canvas, label, path_arrow
+from lagrotor.pictures import arc_between, arrow, canvas, label, path_arrow
 
 NODE, THETA, PSI = 1.05, 0.7, 0.75  # the paper's varphi, theta, psi, rad
 TITLE = "Euler angles of one rotor"
@@ -44,9 +44,9 @@ def data() -> dict[str, np.ndarray]:
         "node": node,
         "level": np.cos(turn) * fixed[0] + np.sin(turn) * fixed[1],
         "tilted": np.cos(turn) * node + np.sin(turn) * aside,
-        "varphi": between(fixed[0], node, 0.42),
-        "theta": between(fixed[2], body[2], 0.5),
-        "psi": between(node, body[0], 0.62),
+        "varphi": arc_between(fixed[0], node, 0.42),
+        "theta": arc_between(fixed[2], body[2], 0.5),
+        "psi": arc_between(node, body[0], 0.62),
     }
 
 

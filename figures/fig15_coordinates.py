@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import consistent_scene
 from lagrotor.drawing import BAR, GROUND, INK, MARK, ROTORS, Camera
 from lagrotor.pair import axis
-from lagrotor.pictures import arc, arrow, between, canvas, ground, label, path_arrow
+from lagrotor.pictures import arc, arc_between, arrow, canvas, ground, label, path_arrow
 
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # theta, phi of the two axes before they are brought onto the bar, rad
 TITLE = "Generalized coordinates of the pair"
@@ -79,7 +79,7 @@ def figure() -> Figure:
         label(axes, camera(foot + 1.04 * up), "$z$", BAR, fontsize=10)
         arrow(axes, joints[i], tips[i], ink, 2.6)
         label(axes, tips[i], rf"$\vec r_{i + 1}$", ink, (-18 if i == 0 else 20, 2))
-        theta, phi = between(up, r, 0.5, foot), between(east, flat, 0.32, foot)
+        theta, phi = arc_between(up, r, 0.5, foot), arc_between(east, flat, 0.32, foot)
         across = np.cross(up, r) / np.linalg.norm(np.cross(up, r))
         psi = arc(foot + 0.82 * r, across, np.cross(r, across), 0.09, -0.7 * np.pi, np.pi)
         for curve, name, out in ((theta, "theta", 1.14), (phi, "phi", 1.3)):

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from lagrotor import consistent_scene
 from lagrotor.drawing import BAR, GROUND, INK, MARK, ROTORS
 from lagrotor.pair import axis
-from lagrotor.pictures import arrow, between, ground, label, path_arrow
+from lagrotor.pictures import arc_between, arrow, ground, label, path_arrow
 
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # as in figure 15
 TITLE = "Top view of the coordinates"
@@ -74,7 +74,7 @@ def figure() -> Figure:
         label(axes, (foot + tip) / 2, rf"$R\,\sin\theta_{i + 1}$", ink, (-34, 8 if i == 0 else -8))
         label(axes, tip, rf"$\vec r_{i + 1}$", ink, (-14 if i == 0 else 14, 10 if i == 0 else -12))
         east, flat = np.array([1.0, 0, 0]), np.array([np.cos(d["phi"][i]), np.sin(d["phi"][i]), 0.0])
-        curve = between(east, flat, 0.22)[:, :2] + foot
+        curve = arc_between(east, flat, 0.22)[:, :2] + foot
         path_arrow(axes, curve, MARK)
         label(axes, foot + 1.35 * (curve[len(curve) // 2] - foot), rf"$\phi_{i + 1}$", MARK)
     axes.plot(*d["tips"].T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)

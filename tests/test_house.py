@@ -213,6 +213,57 @@ def test_names_of_modules_are_single() -> None:
     assert [name for name, count in names.items() if count > 1] == []
 
 
+# The programs of a model have the same names in each: derived in `models/programs`, kept for use by the model's own module.
+PROTOCOL = {"lagrotor.models": {"program", "projection", "observation"}}
+# Verifies certificates and shares nothing with what makes them: its names are its own, and only `check` leaves it.
+ALONE = "lagrotor.proved.checking"
+
+
+def public_names(path: Path) -> set[str]:
+    """Functions and classes that a module defines at its top and does not mark as its own."""
+    kinds = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+    return {
+        node.name
+        for node in ast.parse(path.read_text()).body
+        if isinstance(node, kinds) and not node.name.startswith("_")
+    }
+
+
+def repeated(modules: dict[str, Path]) -> dict[str, list[str]]:
+    """Public names that more than one module defines, each with its modules."""
+    homes: dict[str, list[str]] = {}
+    for module, path in modules.items():
+        shared = {name for room, names in PROTOCOL.items() if module.startswith(f"{room}.") for name in names}
+        for name in public_names(path) - shared if module != ALONE else ():
+            homes.setdefault(name, []).append(module)
+    return {name: places for name, places in homes.items() if len(places) > 1}
+
+
+def test_public_names_are_single() -> None:
+    assert repeated(MODULES) == {}
+
+
+def test_a_public_name_in_two_modules_would_be_seen(tmp_path: Path) -> None:
+    (tmp_path / "one.py").write_text("def rate(): ...\ndef _turn(): ...\nclass Run:\n    def rate(self): ...\n")
+    (tmp_path / "two.py").write_text("def _turn(): ...\nclass rate: ...\n")
+    modules = {"one": tmp_path / "one.py", "two": tmp_path / "two.py"}
+    assert repeated(modules) == {"rate": ["one", "two"]}
+    (tmp_path / "two.py").write_text("def program(): ...\n")
+    (tmp_path / "one.py").write_text("def program(): ...\n")
+    assert repeated(modules) == {"program": ["one", "two"]}  # the protocol is that of the models alone
+
+
+def test_only_its_check_is_taken_from_the_program_that_verifies() -> None:
+    taken = {
+        alias.name
+        for path in MODULES.values()
+        for node in nodes(path)
+        if isinstance(node, ast.ImportFrom) and node.module == ALONE
+        for alias in node.names
+    }
+    assert taken == {"check"} and len(public_names(MODULES[ALONE])) > 1
+
+
 CLAIMS = "lagrotor/paper/rotor_pair/claims"
 PLACES = {
     **dict.fromkeys(("shock", "drift", "toppling", "twist", "natural_rate"), ("lagrotor/theory", CLAIMS)),

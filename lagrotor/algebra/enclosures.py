@@ -44,7 +44,7 @@ def enclosed_at(expression: sp.Expr, point: Point, precision: int = _DIGITS) -> 
     Raises NotExactError where none is known.
     """
     with digits(precision):
-        return Enclosure(point).value(expression)
+        return PointEnclosure(point).value(expression)
 
 
 def excludes_zero(value: Any) -> bool:
@@ -59,7 +59,7 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
     """
     with digits(_DIGITS):
         try:
-            enclosure = Enclosure(point)
+            enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
             return _eliminated(rows)
         except (ArithmeticError, ValueError, libmp.ComplexResult) as error:
@@ -71,7 +71,7 @@ def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
     return next((i for i, (x, y) in enumerate(zip(left, right, strict=True)) if x.b < y.a or y.b < x.a), None)
 
 
-class Enclosure:
+class PointEnclosure:
     """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there."""
 
     def __init__(self, point: Mapping[sp.Expr, sp.Expr]) -> None:
@@ -147,7 +147,7 @@ class Enclosure:
             raise NotExactError(f"{e} is not enclosed.")
         total = iv.mpf(0 if isinstance(e, sp.Sum) else 1)
         for k in range(int(start), int(end) + 1):
-            inner = Enclosure({**self.point, index: sp.Integer(k)})
+            inner = PointEnclosure({**self.point, index: sp.Integer(k)})
             inner.free, inner.jets = self.free, self.jets
             term = inner.of(body.xreplace({index: sp.Integer(k)}))
             total = total + term if isinstance(e, sp.Sum) else total * term
@@ -374,7 +374,7 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
     with digits(_DIGITS):
         try:
             ends = {s: value if isinstance(value, tuple) else (value, value) for s, value in point.items()}
-            found = Enclosure({})
+            found = PointEnclosure({})
             found.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in ends.items()}
             value = found.value(e)
             return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))

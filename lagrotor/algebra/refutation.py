@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from lagrotor.algebra.enclosures import Enclosure, Point, digits, enclosed_at, excludes_zero
+from lagrotor.algebra.enclosures import Point, PointEnclosure, digits, enclosed_at, excludes_zero
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import parts
 from lagrotor.algebra.signs import Region
@@ -18,7 +18,7 @@ _LARGE = 2000  # parts of an expression that is looked at four times only
 _SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))
 
 
-class Witness(NamedTuple):
+class _Witness(NamedTuple):
     """A point where an enclosure of the expression excludes zero; `real`: where all it is made of is real."""
 
     point: Point
@@ -28,13 +28,13 @@ class Witness(NamedTuple):
 class Sample(NamedTuple):
     """The first witness, and at how many points the expression was enclosed."""
 
-    witness: Witness | None
+    witness: _Witness | None
     enclosed: int
 
 
 def sample(expression: sp.Expr, where: Region) -> Sample:
     """Look for a witness, one where everything is real first."""
-    found: Witness | None = None
+    found: _Witness | None = None
     enclosed, size = 0, parts(expression)
     letters = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))
     for point in _points(letters, where):
@@ -62,13 +62,13 @@ def _certainly_above(e: sp.Expr, point: Point) -> bool:
         return False
 
 
-def _at(expression: sp.Expr, point: Point) -> tuple[Witness | None, bool]:
+def _at(expression: sp.Expr, point: Point) -> tuple[_Witness | None, bool]:
     with digits(60):
-        enclosure = Enclosure(point)
+        enclosure = PointEnclosure(point)
         try:
             value = enclosure.value(expression)
         except (NotExactError, RecursionError):
             return None, False
         if not excludes_zero(value):
             return None, True
-        return Witness({**point, **enclosure.jets}, enclosure.real), True
+        return _Witness({**point, **enclosure.jets}, enclosure.real), True

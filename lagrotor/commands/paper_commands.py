@@ -113,9 +113,9 @@ def _paper(given: argparse.Namespace) -> "Paper":
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.source.start import begin
+    from lagrotor.paper.source.start import begin_paper
 
-    made = begin(given.folder, given.source)
+    made = begin_paper(given.folder, given.source)
     equations = _some(made.equations, "equation")
     print(f"{made.folder}: {equations}; {made.read} read" if given.source else f"{made.folder}: {equations}")
     for note in made.notes:
@@ -173,9 +173,9 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.source.check import FOUND, WRONG, check
+    from lagrotor.paper.source.check import FOUND, WRONG, check_source_file
 
-    found = [(source, each) for source in given.sources for each in check(source)]
+    found = [(source, each) for source in given.sources for each in check_source_file(source)]
     if given.json:
         several = len(given.sources) > 1
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]
@@ -250,7 +250,7 @@ def audit_command(given: argparse.Namespace) -> int:
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
     waiting = found.waiting if found is not None else ()
     if given.json:
-        print(verdict_text.to_json(shown, paper, waiting))
+        print(verdict_text.verdicts_json(shown, paper, waiting))
     elif identifiers:
         words = "\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown)
         print("\n".join(wrap(line, 13) for line in words.split("\n")))
@@ -319,7 +319,7 @@ def claims_command(given: argparse.Namespace) -> int:
     with progress(len(wanted)) as step:
         results = paper.evaluate(step, wanted)
     if given.json:
-        print(claim_tests.to_json(results, paper.claims))
+        print(claim_tests.claims_json(results, paper.claims))
     else:
         for result in results:
             identifier, finding = result.test.id, result.finding

@@ -65,8 +65,8 @@ class Film(type(Path())):  # type: ignore[misc]
         return f'<video controls loop src="data:video/mp4;base64,{data}"></video>'
 
 
-def animate(
-    moving: "Motion", path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
+def film_motion(
+    moving: "FilmedMotion", path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None
 ) -> Path:
     """Write a motion at its own speed as a film of `fps` frames per second: `.gif`, or `.mp4` where ffmpeg is there.
 
@@ -144,7 +144,7 @@ def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
         raise LagrotorError(f"animate: ffmpeg failed ({said or ffmpeg.returncode}): write a .gif instead")
 
 
-def _frames(moving: "Motion") -> Iterator[Pixels]:
+def _frames(moving: "FilmedMotion") -> Iterator[Pixels]:
     """The frames (height, width, 3). What does not move is drawn once; of the rest only the data change."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
@@ -161,7 +161,7 @@ def _frames(moving: "Motion") -> Iterator[Pixels]:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class FilmedMotion:
     """What is drawn of N rotors at the times t (m,) in s: rotations (N, m, 3, 3), tips, centres (N, m, 3), joints (N, 3) in m.
 
     length: of an axis, m. spins: rad/s. joined: whether a bar is drawn between the tips.
@@ -180,7 +180,7 @@ class Motion:
 class _Stage:
     """The artists, and how they follow the motion: call with a frame's number for those to draw."""
 
-    def __init__(self, moving: Motion, side: Axes, above: Axes) -> None:
+    def __init__(self, moving: FilmedMotion, side: Axes, above: Axes) -> None:
         self.moving, self.camera, length = moving, Camera(), moving.length
         self.points, self.segments = wheel(RADIUS * length, length, SPOKES, ARCS)
         self.paths = self.camera(moving.tips)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from sympy.polys.domains.domain import Domain
 
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant_series
 from lagrotor.mechanics.order_by_order import GrowingSeries, Unknowns
 from lagrotor.mechanics.perturbation import (
     Column,
@@ -119,7 +119,7 @@ def characteristic_exponents(
     parts: Parts = {part: [FourierSeries({}, order) for _ in sines] for part in "pq"}
     fixed = dict(zip("pq", neutral, strict=True))
     for part, i in fixed.items():
-        parts[part][i] = constant(field.one, order)
+        parts[part][i] = constant_series(field.one, order)
     rest = orbit.at_rest(field)
     drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
     value = field.convert if numeric is None else float
@@ -193,7 +193,7 @@ class _Variation:
         """The response at rest of the equations' `part` to a unit of the slow rate: by it the other part drives this one."""
         nothing = FourierSeries({}, self.order)
         other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
-        slow = {part: constant(self.field.one, self.order), _OTHER[part]: nothing}
+        slow = {part: constant_series(self.field.one, self.order), _OTHER[part]: nothing}
         return self.column(self.of(0, other, slow, orbit), part, 0)
 
     def operators(

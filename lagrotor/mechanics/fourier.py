@@ -75,7 +75,7 @@ class FourierSeries:
 
     def constant(self, value: Coefficient) -> "FourierSeries":
         """The constant `value`, through the same order."""
-        return constant(value, self.order)
+        return constant_series(value, self.order)
 
     def through(self, order: int) -> "FourierSeries":
         """The same series truncated at, or meant through, another order."""
@@ -86,6 +86,6 @@ class FourierSeries:
         return {h: v for (m, h), v in self.terms.items() if m == n}
 
 
-def constant(value: Coefficient, order: int, power: int = 0) -> FourierSeries:
+def constant_series(value: Coefficient, order: int, power: int = 0) -> FourierSeries:
     """value eps**power, without a phase."""
     return FourierSeries({(power, 0): value} if value else {}, order)

@@ -8,7 +8,7 @@ from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant_series
 from lagrotor.mechanics.order_by_order import Unknowns, Waves
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
@@ -57,12 +57,12 @@ def lindstedt_poincare(
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]
     begins = [
-        constant(r, order) + FourierSeries({(1, h): v for h, v in m.items()}, order)
+        constant_series(r, order) + FourierSeries({(1, h): v for h, v in m.items()}, order)
         for r, m in zip(rest, mode, strict=True)
     ]
     value = field.convert if numeric is None else float
     growing = Unknowns()
-    *unknowns, frequency = (growing.series(begin.valued(value)) for begin in (*begins, constant(one, order)))
+    *unknowns, frequency = (growing.series(begin.valued(value)) for begin in (*begins, constant_series(one, order)))
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
     drift, solvers = _frequency_column(residual, begins, one), dict[int, Solver]()
@@ -91,11 +91,11 @@ def _columns(
 
     At rest no harmonic acts on another, so that all are put in together.
     """
-    still, found = [constant(r, 1) for r in rest], dict[int, list[Column]]()
+    still, found = [constant_series(r, 1) for r in rest], dict[int, list[Column]]()
     for j, sine in enumerate(sines):
         moved = list(still)
         moved[j] = moved[j] + waves(sine, order, 1, one)
-        for h, column in by_harmonic(residual(moved, constant(one, 1)), order, 1).items():
+        for h, column in by_harmonic(residual(moved, constant_series(one, 1)), order, 1).items():
             found.setdefault(h, []).append(column)
     return found
 
@@ -119,7 +119,7 @@ def _frequency_column(
 ) -> dict[tuple[int, int], Coefficient]:
     """The response of the first order to a unit change of frequency; exact, as the equations are quadratic in it."""
     first = [u.through(1) for u in unknowns]
-    up, down = (residual(first, constant(value, 1)) for value in (one + one, one - one))
+    up, down = (residual(first, constant_series(value, 1)) for value in (one + one, one - one))
     column = {}
     for i, (more, less) in enumerate(zip(up, down, strict=True)):
         for key, v in (more - less).harmonics(1).items():

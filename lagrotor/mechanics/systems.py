@@ -71,4 +71,4 @@ class System(Equations):
         """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s: see `running.simulation`."""
         from lagrotor.mechanics.running import simulation
 
-        return simulation.simulate(self, values, q0, v0, t, tol, engine, events)
+        return simulation.simulate_system(self, values, q0, v0, t, tol, engine, events)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
     from lagrotor.models.orbits.continuation import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.continuation import trace_family as trace_family
+    from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.periodic_orbit import parting as parting
-    from lagrotor.models.orbits.periodic_orbit import periodic_orbit as periodic_orbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
     from lagrotor.models.spring_link.paper_bodies import join_bar as join_bar
     from lagrotor.models.spring_link.paper_bodies import paper_bodies as paper_bodies

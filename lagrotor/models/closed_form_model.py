@@ -11,7 +11,7 @@ from math import pi
 import numpy as np
 
 from lagrotor.errors import DomainError
-from lagrotor.models.model import Array, ClosedForm
+from lagrotor.models.model import Array, ClosedMotion
 from lagrotor.models.orbits.paired_fit import ROUND, paired_answer
 from lagrotor.pair.scene import Scene
 
@@ -20,7 +20,7 @@ FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
 
 
-def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedForm:
+def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """The closed form that holds the scene up to t_end (s); a series through the order that `tol` needs, at most 15.
 
     The answer's error may exceed `tol`; with `best` it is then the least that can be had, from a series through r0^21.
@@ -30,7 +30,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> C
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")
     axes, rates = np.array(scene.axes), np.array(scene.rates)
     if not rates.any():
-        return ClosedForm(0.0, "at rest and left alone: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
+        return ClosedMotion(0.0, "at rest and left alone: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
     if scene.link is None:
         reason = "no bar: each rotor turns about its own angular momentum, exactly"
         return _tops(axes, rates, scene.rotor.J, scene.momenta, t_end, 0.0, reason)
@@ -56,7 +56,7 @@ def _tops(
     t_end: float,
     mismatch: float,
     reason: str,
-) -> ClosedForm:
+) -> ClosedMotion:
     """Two free tops: r turns about L = inertia r × r' + G r at |L|/inertia."""
     turns = (inertia * np.cross(axes, rates) + np.array(momenta)[:, None] * axes) / inertia
     speeds = np.linalg.norm(turns, axis=1)
@@ -72,10 +72,10 @@ def _tops(
 
     fastest = float(speeds.max()) * t_end
     off = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
-    return ClosedForm(mismatch + (off + ROUND) * (1 + fastest), reason, motion)
+    return ClosedMotion(mismatch + (off + ROUND) * (1 + fastest), reason, motion)
 
 
-def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedForm:
+def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMotion:
     """Equal spins, parallel axes: one rotor of inertia a + b; a start that is not quite parallel may twist apart."""
     own, shared = scene.inertias
     mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
@@ -97,7 +97,7 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedFo
             "closed_form: the parallel pair comes near the joint line, where bar and axes are in line and it may part; use "
             "model='minimal' or 'spheres'"
         )
-    return ClosedForm(one.error + (_MAY_PART if apart else 0.0), one.reason, one.motion)
+    return ClosedMotion(one.error + (_MAY_PART if apart else 0.0), one.reason, one.motion)
 
 
 def _twice(vector: Array) -> Array:

@@ -95,7 +95,7 @@ def _toppling_growth() -> str:
     return toppling_growth().code("numpy")
 
 
-def modes(scene: Scene) -> LinearPair:
+def pair_modes(scene: Scene) -> LinearPair:
     """The linear pair of a scene, about the upright rest state. Raises SingularError without a bar."""
     if scene.link is None:
         raise SingularError("linear: the scene has no bar; use model='closed_form' or 'spheres'")
@@ -113,7 +113,7 @@ def linear_states(scene: Scene, t: Array) -> Array:
     Raises SingularError without a bar or for an axis along the joint line, DomainError where the motion leaves
     |U|, |chi| <= pi/3.
     """
-    linear, start = modes(scene), MODEL.start(scene)
+    linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
         pulse, response = _pulsed(scene, linear, _straightened(linear, start, shock), np.append(t, 0.0))
@@ -165,7 +165,7 @@ def linear_error(scene: Scene, t_end: float) -> float:
     2 where that is not small: two axes are at most opposite.
     Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
     """
-    linear, shock = modes(scene), scene.shock_until(t_end)
+    linear, shock = pair_modes(scene), scene.shock_until(t_end)
     points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))
     if points > _MOST:
         raise DomainError(

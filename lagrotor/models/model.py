@@ -35,7 +35,7 @@ class Observed:
 
 
 @dataclass(frozen=True, eq=False)
-class ClosedForm:
+class ClosedMotion:
     """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
 
     motion: times (n,) in s → axes and rates, each (2, n, 3).

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lagrotor.numerics.integrate import Problem as Problem
     from lagrotor.numerics.rotations import between_samples as between_samples
     from lagrotor.numerics.rotations import body_rotations as body_rotations
-    from lagrotor.numerics.rotations import cross_matrix as cross_matrix
+    from lagrotor.numerics.rotations import skew_matrix as skew_matrix
     from lagrotor.numerics.rotations import turn_between as turn_between
 
 __getattr__, __dir__, __all__ = face(__name__)

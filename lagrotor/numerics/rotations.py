@@ -21,7 +21,7 @@ def turn_between(u: Array, v: Array) -> Array:
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis turns round between two samples; take more samples")
-    turned: Array = c * np.eye(3) + cross_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
+    turned: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
     return turned
 
 
@@ -82,12 +82,12 @@ def turn_about(n: Array, angle: Array) -> Array:
     This is 1 + sin(angle) [n]× + (1 − cos(angle)) [n]×².
     """
     half = angle[..., None] / 2
-    crossed = cross_matrix(np.sin(half) * n)
+    crossed = skew_matrix(np.sin(half) * n)
     turned: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
     return turned
 
 
-def cross_matrix(v: Array) -> Array:
+def skew_matrix(v: Array) -> Array:
     """[v]× with [v]× w = v × w: (…, 3) → (…, 3, 3)."""
     return v.dot(_LEVI_CIVITA).reshape(*v.shape, 3)
 

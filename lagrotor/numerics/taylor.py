@@ -75,7 +75,7 @@ def integrate_taylor(
         onto = None if project is None else lambda y, scale=scale: project(y / scale) * scale
         longest = width if driven else np.inf
         try:
-            states, y, more = march(
+            states, y, more = taylor_march(
                 solver, y * scale, inside, (left, right), dummy_size(tol, order), onto, longest_between, longest
             )
         except StopError as stopped:
@@ -190,7 +190,7 @@ def dummy_size(tol: float, order: int) -> float:
     return tol / 10 / _compiled_for(order)
 
 
-def march(
+def taylor_march(
     solver: Any,
     y: Array,
     times: Array,

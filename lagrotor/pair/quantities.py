@@ -10,7 +10,7 @@ Spins = tuple[float, float]  # axial angular velocities of the two rotors, rad/s
 SMALLEST, _LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doubles
 
 
-def number(value: object, where: str, unit: str) -> float:
+def finite_number(value: object, where: str, unit: str) -> float:
     """A finite number, no larger than LARGEST."""
     try:
         given = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
@@ -25,7 +25,7 @@ def number(value: object, where: str, unit: str) -> float:
 
 def not_vanishing(value: object, where: str, unit: str) -> float:
     """Zero, or a number no smaller than SMALLEST."""
-    given = number(value, where, unit)
+    given = finite_number(value, where, unit)
     if 0 < abs(given) < SMALLEST:
         raise InputError(f"{where} = {given:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
     return given
@@ -33,7 +33,7 @@ def not_vanishing(value: object, where: str, unit: str) -> float:
 
 def positive(value: object, where: str, unit: str) -> float:
     """A number above zero, no smaller than SMALLEST."""
-    given = number(value, where, unit)
+    given = finite_number(value, where, unit)
     if given <= 0:
         raise InputError(f"{where} = {given:g} {unit} must be greater than zero")
     return not_vanishing(given, where, unit)
@@ -41,7 +41,7 @@ def positive(value: object, where: str, unit: str) -> float:
 
 def not_negative(value: object, where: str, unit: str) -> float:
     """Zero, or a number above it."""
-    given = number(value, where, unit)
+    given = finite_number(value, where, unit)
     if given < 0:
         raise InputError(f"{where} = {given:g} {unit} must not be negative: give 0 or more")
     return given
@@ -52,10 +52,10 @@ def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ..
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
     if items is None or len(items) != count:
         raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
-    return tuple(number(item, f"{where}[{i}]", unit) for i, item in enumerate(items))
+    return tuple(finite_number(item, f"{where}[{i}]", unit) for i, item in enumerate(items))
 
 
-def vector(value: object, where: str, unit: str) -> Vector:
+def finite_vector(value: object, where: str, unit: str) -> Vector:
     """Three numbers in a row."""
     x, y, z = numbers(value, 3, where, unit)
     return x, y, z
@@ -66,4 +66,4 @@ def two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
     if len(items) != 2:
         raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")
-    return vector(items[0], f"{where}[0]", unit), vector(items[1], f"{where}[1]", unit)
+    return finite_vector(items[0], f"{where}[0]", unit), finite_vector(items[1], f"{where}[1]", unit)

@@ -8,7 +8,16 @@ from math import fsum, hypot, pi, sqrt
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.pulse import PULSE_REACH
-from lagrotor.pair.quantities import Vector, not_negative, not_vanishing, number, numbers, positive, two_vectors, vector
+from lagrotor.pair.quantities import (
+    Vector,
+    finite_number,
+    finite_vector,
+    not_negative,
+    not_vanishing,
+    numbers,
+    positive,
+    two_vectors,
+)
 
 _CLOSE = 1e-9  # how far a given state may lie off its constraints
 
@@ -71,8 +80,8 @@ class Shock:
     body: int = 1
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "force", vector(self.force, "Shock: force", "N"))
-        object.__setattr__(self, "at", number(self.at, "Shock: at", "s"))
+        object.__setattr__(self, "force", finite_vector(self.force, "Shock: force", "N"))
+        object.__setattr__(self, "at", finite_number(self.at, "Shock: at", "s"))
         object.__setattr__(self, "width", positive(self.width, "Shock: width", "s"))
         if isinstance(self.body, bool) or self.body not in (1, 2):
             raise InputError(f"Shock: body = {self.body!r} must be 1 (left rotor) or 2 (right rotor)")

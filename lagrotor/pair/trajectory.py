@@ -15,7 +15,7 @@ from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from lagrotor.drawing.film import Motion
+    from lagrotor.drawing.film import FilmedMotion
 
 Array = NDArray[np.float64]
 
@@ -104,15 +104,15 @@ class Trajectory(Run):
         return run_figure(self.t, self.tips, self.energy, title)
 
     def animate(self, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.drawing.film.animate`."""
-        from lagrotor.drawing.film import animate, check_film, frame_times
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.drawing.film.film_motion`."""
+        from lagrotor.drawing.film import check_film, film_motion, frame_times
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
-        return animate(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
+        return film_motion(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
 
-    def motion(self, times: Array) -> "Motion":
+    def motion(self, times: Array) -> "FilmedMotion":
         """What a film draws at `times` (m,) in s: axes by Hermite cubics, the bodies turned along samples and frames."""
-        from lagrotor.drawing.film import Motion
+        from lagrotor.drawing.film import FilmedMotion
         from lagrotor.numerics.rotations import between_samples, body_rotations
 
         dense = np.union1d(self.t, times)
@@ -122,7 +122,7 @@ class Trajectory(Run):
         length, feet = self.scene.rotor.length, self.joints[:, None, :]
         tips, joined = feet + length * axes[:, at], self.scene.link is not None
         centres = feet + length / 2 * axes[:, at]
-        return Motion(times, rotations, tips, centres, self.joints, length, self.scene.spins, joined)
+        return FilmedMotion(times, rotations, tips, centres, self.joints, length, self.scene.spins, joined)
 
     def summary(self) -> dict[str, str]:
         """What the run is and how well it kept what it should keep, name → words."""

@@ -59,7 +59,7 @@ class Equation:
     @property
     def is_confirmed(self) -> bool:
         """Whether its lines are the author's word: written by hand, or confirmed as they stand."""
-        return not self.read or (self.read == "confirmed" and self.print == digest(self.latex, self.line))
+        return not self.read or (self.read == "confirmed" and self.print == reading_digest(self.latex, self.line))
 
     @property
     def cited(self) -> str:
@@ -100,7 +100,7 @@ class Figure:
         return self.number
 
 
-def digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
+def reading_digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
     """A hash of a print and its lines: what was confirmed is this and nothing else."""
     said = json.dumps([latex, [dict(line) for line in lines]], sort_keys=True, default=str)
     return sha256(said.encode()).hexdigest()[:16]

@@ -103,7 +103,7 @@ class Result:
     seconds: float
 
 
-def as_data(result: Result, entry: Claim) -> dict[str, Any]:
+def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
     """One claim as the JSON object of `lagrotor claims --json`."""
     return {
         "id": entry.id,
@@ -119,6 +119,6 @@ def as_data(result: Result, entry: Claim) -> dict[str, Any]:
     }
 
 
-def to_json(results: Iterable[Result], claims: Mapping[str, Claim]) -> str:
+def claims_json(results: Iterable[Result], claims: Mapping[str, Claim]) -> str:
     """All claims as a JSON list."""
-    return json.dumps([as_data(r, claims[r.test.id]) for r in results], indent=1, ensure_ascii=False)
+    return json.dumps([claim_data(r, claims[r.test.id]) for r in results], indent=1, ensure_ascii=False)

@@ -41,9 +41,8 @@ class Form:
     def tex(self, section: Letters) -> str:
         """The text as LaTeX: vectors with arrows, sums as sums, in the order in which it is written."""
         known, written = {**section.names, **self.letters}, {**section.latex, **self.names}
-        calls: dict[str, Any] = {each.__name__: each for each in (cross, dot, norm, sum_i, transpose, column)}
         own = {name for name, value in known.items() if name in written and inspect.isfunction(value)}
-        local: dict[str, Any] = calls | {name: _named_function(name, written[name]) for name in own}
+        local: dict[str, Any] = _CALLS | {name: _named_function(name, written[name]) for name in own}
         symbols: dict[sp.Symbol, str] = {}
         for name in set(re.findall(r"[A-Za-z_]\w*", self.text)) - set(local) - set(_CONSTANTS):
             kind = known.get(name, known.get(re.sub(r"_i(?=_|$)", "_1", name)))
@@ -94,11 +93,11 @@ def _name(name: str, kind: Any) -> str:
 
 def _bracketed(printer: Any, part: Any) -> str:
     written: str = printer._print(part)
-    loose = isinstance(part, sp.Add | cross) or part.could_extract_minus_sign()
+    loose = isinstance(part, sp.Add | _Cross) or part.could_extract_minus_sign()
     return rf"\left({written}\right)" if loose else written
 
 
-class cross(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Cross(sp.Function):  # type: ignore[misc]
     """u × v, as it is written."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
@@ -106,7 +105,7 @@ class cross(sp.Function):  # type: ignore[misc]  # noqa: N801
         return rf"{u}\times {v}"
 
 
-class dot(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Dot(sp.Function):  # type: ignore[misc]
     """u · v; the square of a vector where both are one."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
@@ -114,7 +113,7 @@ class dot(sp.Function):  # type: ignore[misc]  # noqa: N801
         return rf"{u}^{{2}}" if u == v else rf"{u}\cdot {v}"
 
 
-class norm(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Norm(sp.Function):  # type: ignore[misc]
     """|u|."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
@@ -126,24 +125,34 @@ def _named_function(name: str, tex: str) -> Any:
     return type(name, (sp.Function,), {"_latex": lambda self, printer, exp=None: tex})
 
 
-class transpose(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Transpose(sp.Function):  # type: ignore[misc]
     """A transposed."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
         return rf"{_bracketed(printer, self.args[0])}^{{T}}"
 
 
-class column(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Column(sp.Function):  # type: ignore[misc]
     """A vector of components."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
         return rf"\left({', '.join(map(printer._print, self.args))}\right)"
 
 
-class sum_i(sp.Function):  # type: ignore[misc]  # noqa: N801
+class _Sum(sp.Function):  # type: ignore[misc]
     """Σ over i."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
         inside = self.args[0]
         written = printer._print(inside)
         return rf"\sum_i \left({written}\right)" if isinstance(inside, sp.Add) else rf"\sum_i {written}"
+
+
+_CALLS: dict[str, Any] = {
+    "cross": _Cross,
+    "dot": _Dot,
+    "norm": _Norm,
+    "transpose": _Transpose,
+    "column": _Column,
+    "sum_i": _Sum,
+}

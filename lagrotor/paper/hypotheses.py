@@ -102,7 +102,7 @@ def _collected(
             if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
                 raise InputError(f"premise {premise.says!r}: {left!r} = {right!r} is no equation of two expressions")
             if premise.small is not None and a.is_Symbol and a in b.free_symbols:
-                b = b.xreplace({a: scaled(a, premise.small)})
+                b = b.xreplace({a: _scaled(a, premise.small)})
             e, conditions = _without_inverse(a - b)
             equations.add(e)
             region.update(conditions)
@@ -110,7 +110,7 @@ def _collected(
     return frozenset(equations), frozenset(region)
 
 
-def scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
+def _scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
     """What a letter that is small is of the small quantity."""
     return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
 

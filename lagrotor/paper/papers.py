@@ -225,7 +225,7 @@ class Paper(Catalogue):
         """Write what was found into the record; what else is on record, of ids that the paper still has, stays."""
         rows = self.recorded | self._rows_of(found)
         kept = {i: rows[i] for i in (*self.equations, *self.claims) if i in rows}
-        return write_text(self.record_file, record.as_text(kept))
+        return write_text(self.record_file, record.record_text(kept))
 
 
 @cache

@@ -108,14 +108,14 @@ def parameter_premise(
     """
     off = []
     for left, right in put.items():
-        sides = [(side, written_out(sp.sympify(side), meanings or {}).subs(own)) for side in (left, right)]
+        sides = [(side, with_meanings(sp.sympify(side), meanings or {}).subs(own)) for side in (left, right)]
         (_, here), (_, there) = sides
         if here.is_number and there.is_number and here != there:
             off += [f"{sp.pretty(side)} = {float(value):g}" for side, value in sides if side != value]
     return Premise(says, put, broken=", ".join(off))
 
 
-def written_out(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
+def with_meanings(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
     """The expression with each letter replaced by what it stands for, one after the other: later ones may be in earlier."""
     for letter, meaning in meanings.items():
         expression = expression.xreplace({letter: sp.sympify(meaning)})

@@ -43,7 +43,7 @@ def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnReco
     entry = equations.get(found.id)
     return OnRecord(
         found.verdict,
-        digest(entry) if entry else None,
+        printed_digest(entry) if entry else None,
         tuple(found.statement.depends_on),
         tuple(f"{premise.says}: {premise.formula}" for premise in found.premises),
         tuple(sorted(f"{factor} != 0" for factor in found.domain)),
@@ -52,7 +52,7 @@ def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnReco
     )
 
 
-def digest(entry: Equation) -> str:
+def printed_digest(entry: Equation) -> str:
     """A digest of what the catalogue says is printed."""
     rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
     said = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
@@ -83,7 +83,7 @@ def recorded(file: Path) -> dict[str, OnRecord]:
         raise LagrotorError(f"{file} cannot be read ({error}): restore it") from None
 
 
-def as_text(rows: Mapping[str, OnRecord]) -> str:
+def record_text(rows: Mapping[str, OnRecord]) -> str:
     """A record as TOML: a block for each id, in their order, and in it a line for each item."""
     blocks = []
     for identifier in sorted(rows, key=_in_order):

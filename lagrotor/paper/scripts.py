@@ -28,7 +28,7 @@ def beside(name: str) -> Path:
 
 
 @dataclass(frozen=True)
-class Cell:
+class ScriptCell:
     """One cell of a script: prose in Markdown, or code with the values of its bare expressions, which a notebook shows."""
 
     kind: Literal["prose", "code"]
@@ -40,7 +40,7 @@ class Cell:
 class Script:
     """A script that was run: its cells in order and the names it defines."""
 
-    cells: tuple[Cell, ...]
+    cells: tuple[ScriptCell, ...]
     names: dict[str, Any]
 
     def shown(self, kind: type) -> list[Any]:
@@ -176,12 +176,12 @@ def run_file(path: Path) -> Script:
         text = source[start:end]
         head, _, body = text.partition("\n") if text.startswith("# %%") else ("", "", text)
         if "[markdown]" in head:
-            cells.append(Cell("prose", re.sub(r"^# ?", "", body, flags=re.MULTILINE).strip()))
+            cells.append(ScriptCell("prose", re.sub(r"^# ?", "", body, flags=re.MULTILINE).strip()))
         else:
             first, last = (1 + source.count("\n", 0, place) for place in (start, end))
             here = (statement for statement in statements if first <= statement.lineno <= last)
             shown = (value for statement in here for value in _execute(statement, path, defined))
-            cells.append(Cell("code", body.strip(), tuple(shown)))
+            cells.append(ScriptCell("code", body.strip(), tuple(shown)))
     return Script(tuple(cells), defined)
 
 

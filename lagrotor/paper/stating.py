@@ -16,7 +16,7 @@ from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.form import Form
 from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.letters import Letters, Line, components
-from lagrotor.paper.premises import Premise, written_out
+from lagrotor.paper.premises import Premise, with_meanings
 from lagrotor.paper.proof import Formula
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
 
@@ -168,7 +168,7 @@ def _relations(
         )
     derived = quantities[line.quantity]
     if line.scene:
-        derived = written_out(derived, stands_for)
+        derived = with_meanings(derived, stands_for)
     for member in line.members:
         yield Relation(
             member.xreplace(meanings), derived, line.small, line.order, line.within, line.quantity, line.scene

@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 
 
 @dataclass(frozen=True)
-class Headline:
+class HeadlineEntry:
     """One result that the report begins with: `text` has numbers of the run in braces.
 
     {C02[rate]:.3f} is a number of a claim's test, {figure 3[period (s)]:.2f} one read off a figure, {2.1} the verdict on an
@@ -39,7 +39,7 @@ class Opening:
 
 
 @dataclass(frozen=True)
-class Part:
+class ReportPart:
     """A part of the report: what some derivations, by the beginnings of their names, and figures, by their letter, show.
 
     remarks, tables: beginnings of the names of derivations. figures: the letter before their numbers.
@@ -53,9 +53,9 @@ class Part:
 
 
 USUAL_PARTS = (
-    Part("findings", "Findings", remarks=("",)),
-    Part("figures", "Figures", figures=("",)),
-    Part("tables", "Tables", tables=("",)),
+    ReportPart("findings", "Findings", remarks=("",)),
+    ReportPart("figures", "Figures", figures=("",)),
+    ReportPart("tables", "Tables", tables=("",)),
 )
 
 
@@ -79,8 +79,8 @@ class TitlePage:
     model: str = ""
     letters: tuple[str, ...] = ()
     opening: tuple[Opening, ...] = ()
-    headline: tuple[Headline, ...] = ()
-    part: tuple[Part, ...] = USUAL_PARTS
+    headline: tuple[HeadlineEntry, ...] = ()
+    part: tuple[ReportPart, ...] = USUAL_PARTS
     notation: Mapping[str, Any] = field(default_factory=dict)
     preamble: str = ""
     system: Mapping[str, Any] = field(default_factory=dict)
@@ -122,7 +122,7 @@ def title_page(folder: Path) -> TitlePage:
             f"{folder} is no paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
         )
     given = toml(file)
-    for key, kind in (("opening", Opening), ("headline", Headline), ("part", Part)):
+    for key, kind in (("opening", Opening), ("headline", HeadlineEntry), ("part", ReportPart)):
         if key in given:
             given[key] = [_checked(row(kind, each, f"{file}: {key}"), f"{file}: {key}") for each in given[key]]
     return row(TitlePage, given, str(file))

@@ -113,7 +113,7 @@ def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
     return r" \quad ".join(found) or None
 
 
-def as_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
+def verdict_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
     """One verdict as the JSON object of `lagrotor audit --json`."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     return {
@@ -181,7 +181,7 @@ def waiting(entry: Equation) -> dict[str, Any]:
     return {**printed, "verdict": NOT_YET}
 
 
-def to_json(verdicts: Iterable[Verdict], paper: Paper, not_yet: Iterable[str] = ()) -> str:
+def verdicts_json(verdicts: Iterable[Verdict], paper: Paper, not_yet: Iterable[str] = ()) -> str:
     """Verdicts as a JSON list, then the equations that are not yet judged."""
-    rows = [as_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
+    rows = [verdict_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
     return json.dumps(rows, indent=1, ensure_ascii=False)

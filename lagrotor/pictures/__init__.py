@@ -6,9 +6,9 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.pictures.diagram import arc as arc
+    from lagrotor.pictures.diagram import arc_between as arc_between
     from lagrotor.pictures.diagram import arrow as arrow
     from lagrotor.pictures.diagram import bare as bare
-    from lagrotor.pictures.diagram import between as between
     from lagrotor.pictures.diagram import canvas as canvas
     from lagrotor.pictures.diagram import draw_wheel as draw_wheel
     from lagrotor.pictures.diagram import ground as ground

@@ -61,7 +61,7 @@ def arc(centre: ArrayLike, u: Array, v: Array, radius: float, begin: float, end:
     return np.asarray(centre, dtype=float) + radius * (np.cos(a) * u + np.sin(a) * v)
 
 
-def between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0), n: int = 31) -> Array:
+def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0), n: int = 31) -> Array:
     """Points (n, 3) of the arc of `radius` (m) about `centre` from the direction u to the direction v, unit vectors."""
     angle = float(np.arccos(np.clip(u @ v, -1, 1)))
     across = v - (u @ v) * u

@@ -46,7 +46,7 @@ class Node:
     @property
     def middle(self) -> Balls:
         """Where the motion of the start's middle is."""
-        return column(self.Q * vector(self.s) + vector(self.m))
+        return entries_of(self.Q * column_matrix(self.s) + column_matrix(self.m))
 
     @property
     def derivative(self) -> Matrix:
@@ -55,11 +55,11 @@ class Node:
 
     def box(self, w: Balls) -> Balls:
         """Where every motion is that starts in x_0 + w."""
-        return [a + b for a, b in zip(self.middle, column(self.derivative * vector(w)), strict=True)]
+        return [a + b for a, b in zip(self.middle, entries_of(self.derivative * column_matrix(w)), strict=True)]
 
 
 @dataclass(frozen=True)
-class Step:
+class CarriedStep:
     """From `node` over the time h by n Taylor terms, of which the derivative takes `slope_terms`, to `end`."""
 
     node: Node
@@ -69,12 +69,12 @@ class Step:
     end: Node
 
 
-def vector(values: Balls) -> Matrix:
+def column_matrix(values: Balls) -> Matrix:
     """A column."""
     return arb_mat(len(values), 1, values)
 
 
-def column(matrix: Matrix) -> Balls:
+def entries_of(matrix: Matrix) -> Balls:
     """A column's entries."""
     return matrix.entries()
 
@@ -124,7 +124,7 @@ class Accuracy:
         return ceil(-log10(self.tol) * 3.33) + 40
 
 
-def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: int, rows: Any = None) -> Step:
+def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: int, rows: Any = None) -> CarriedStep:
     """The step of length h. Raises TailError where its rest is not bounded."""
     rows = taylor(motion, node.m, n) if rows is None else rows
     rests, _ = with_rest(motion, at := scaled(rows, h, n), node.m, h, n)
@@ -133,7 +133,7 @@ def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: 
         sum(row, arb(0)) + arb(0, (SLACK * rest + least).abs_upper()) for row, rest in zip(at, rests, strict=True)
     ] + node.m[motion.moving :]
     D = derivative_over(motion, node.m, node.box(w), at, h, slope_terms)
-    return Step(node, h, n, slope_terms, carried(node, h, image, D, frame(D * node.Q, node)))
+    return CarriedStep(node, h, n, slope_terms, carried(node, h, image, D, frame(D * node.Q, node)))
 
 
 def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ball, n: int) -> Matrix:
@@ -146,7 +146,7 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
     _, evaluation = with_rest(motion, wide, box, h, n)
     D, slopes = derivative_of_step(motion, evaluation, h, n)
     if max_of(off) > _WIDE:
-        moved = [column(slope * vector(off)) for slope in slopes]
+        moved = [entries_of(slope * column_matrix(off)) for slope in slopes]
         wide = [
             [narrower(c, a + moved[k][i]) for k, (c, a) in enumerate(zip(row, exactly, strict=False))]
             for i, (row, exactly) in enumerate(zip(wide, at, strict=True))
@@ -187,10 +187,10 @@ def radius_of(x: Ball) -> Any:
 def carried(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
     """The node at the end of a step, in the frame Q."""
     m = [exact(x) for x in image]
-    off = vector([x - y for x, y in zip(image, m, strict=True)])
+    off = column_matrix([x - y for x, y in zip(image, m, strict=True)])
     back = Q.inv()
     turned = back * (D * node.Q)
-    s = column(turned * vector(node.s) + back * off)
+    s = entries_of(turned * column_matrix(node.s) + back * off)
     moved = D * node.C
     C = arb_mat(moved.nrows(), moved.ncols(), [exact(x) for x in moved.entries()])
     S = turned * node.S + back * (moved - C)
@@ -202,7 +202,7 @@ def widened(x: Ball) -> Ball:
     return x if x.is_zero() else x + arb(0, (abs(x) * _WIDER).upper())
 
 
-def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Iterator[Step]:
+def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Iterator[CarriedStep]:
     """Steps from the start to the time t, as long as their rests allow; within `precision`.
 
     Raises NotProved where no step is short enough.

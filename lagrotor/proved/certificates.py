@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagrotor.proved.balls import Ball, Matrix, as_text, exact
-from lagrotor.proved.carried_sets import Node, Start, Step, identity
+from lagrotor.proved.carried_sets import CarriedStep, Node, Start, identity
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import Tape
 
@@ -57,7 +57,7 @@ def node_data(node: Node) -> dict[str, Any]:
     }
 
 
-def step_data(step: Step) -> dict[str, Any]:
+def step_data(step: CarriedStep) -> dict[str, Any]:
     """One step with the node at its end."""
     return {
         "h": ball_data(step.h),
@@ -67,7 +67,7 @@ def step_data(step: Step) -> dict[str, Any]:
     }
 
 
-def flow_data(motion: Motion, start: Start, steps: Sequence[Step], bits: int) -> Certificate:
+def flow_data(motion: Motion, start: Start, steps: Sequence[CarriedStep], bits: int) -> Certificate:
     """What all certificates of a motion have in common."""
     L = identity(len(start.middle)) if start.skew is None else start.skew
     return {

@@ -14,7 +14,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
-from lagrotor.proved.carried_sets import Accuracy, Start, Step, column, steps_of, vector
+from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, matrix_data
 from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
@@ -31,7 +31,7 @@ _NEWTON = 12
 
 
 @dataclass(frozen=True)
-class Problem:
+class OrbitProblem:
     """Which starts are sought: the states and the pace free, the states at the end of one unit of s that must vanish.
 
     first, last: the reversals at the start and at the end, none where the orbit is followed through; then the conditions are
@@ -73,7 +73,7 @@ class PeriodicOrbit(Shown):
     start: tuple[Ball, ...]
     alone: Ball
     multipliers: Multipliers
-    proof: "Proof"
+    proof: "OrbitProof"
 
     @property
     def kind(self) -> Kind:
@@ -110,13 +110,13 @@ class PeriodicOrbit(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class Proof:
+class OrbitProof:
     """The last run of a proof: the problem, the start with its box, A, the steps, and K about the middle."""
 
-    problem: Problem
+    problem: OrbitProblem
     start: Start
     A: Matrix
-    steps: tuple[Step, ...]
+    steps: tuple[CarriedStep, ...]
     found: Balls
     ones: int
     bits: int
@@ -135,7 +135,7 @@ class Proof:
         for i, x in zip(self.problem.free, self.found, strict=True):
             w[i] = x
         L = self.start.node.C
-        return [a + b for a, b in zip(self.start.middle, column(L * vector(w)), strict=True)]
+        return [a + b for a, b in zip(self.start.middle, entries_of(L * column_matrix(w)), strict=True)]
 
     def multipliers(self) -> Multipliers:
         """Of the whole period."""
@@ -168,10 +168,10 @@ class Proof:
             }
 
 
-def prove(problem: Problem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> Proof:
+def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> OrbitProof:
     """From a start and pace near those of an orbit; at the precision in force. Raises NotProved with how far it came."""
     middle, A, miss = refined(problem, list(middle), accuracy, where)
-    sizes = [upper(x) for x in column(A * vector(miss))]
+    sizes = [upper(x) for x in entries_of(A * column_matrix(miss))]
     for grow in (2**10, 2**16, 2**24):
         spread = [arb(0)] * len(middle)
         for i, x in zip(problem.free, sizes, strict=True):
@@ -191,8 +191,14 @@ def prove(problem: Problem, middle: Balls, accuracy: Accuracy, ones: int, where:
 
 
 def closing(
-    problem: Problem, start: Start, A: Matrix, steps: tuple[Step, ...], ones: int, bits: int, held: int | None = None
-) -> Proof | None:
+    problem: OrbitProblem,
+    start: Start,
+    A: Matrix,
+    steps: tuple[CarriedStep, ...],
+    ones: int,
+    bits: int,
+    held: int | None = None,
+) -> OrbitProof | None:
     """The proof, where K lies within the box."""
     last = steps[-1].end
     w = [start.spread[i] for i in problem.free]
@@ -200,10 +206,10 @@ def closing(
     found = krawczyk(
         problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w, by, d
     )
-    return Proof(problem, start, A, steps, found, ones, bits, held) if inside(found, w) else None
+    return OrbitProof(problem, start, A, steps, found, ones, bits, held) if inside(found, w) else None
 
 
-def refined(problem: Problem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
+def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
     """Newton's method on midpoints: the start and pace, A near the inverse of the conditions' derivative, and what they miss."""
     coarse = Accuracy(max(_COARSE, accuracy.tol))
     last = coarse if coarse.tol > accuracy.tol else accuracy
@@ -213,7 +219,7 @@ def refined(problem: Problem, middle: Balls, accuracy: Accuracy, where: str) -> 
         *_, step = steps_of(problem.motion, still, arb(1), last)
         miss = problem.value(middle, step.end.middle)
         A = middle_inverse(problem.slope(step.end.derivative, problem.free))
-        move = column(A * vector(miss))
+        move = entries_of(A * column_matrix(miss))
         size = max(float(upper(x)) for x in move)
         if last is accuracy and (size < 1e3 * accuracy.tol or size > 0.1 * before):
             return middle, A, miss
@@ -256,17 +262,17 @@ def periodic_orbit(
         if made.varying or made.stages or "t" in map(str, made.states):
             raise InputError("periodic_orbit: values are numbers, and the time is not in the equations")
         first, last = reversals_of(system, made, reversals)
-        problem = problem_of(made, first, last, indices(made, held))
+        problem = _problem_of(made, first, last, indices(made, held))
         start = [*made.start, length / problem.turns]
         for i, x in enumerate(start):
             if first and i < n and first[i] < 0:
                 start[i] = arb(0)
             elif i in problem.free:
                 start[i] = exact(x)
-        return orbit_of(prove(problem, start, accuracy, 2 * integrals, where), tuple(map(str, made.states)))
+        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), tuple(map(str, made.states)))
 
 
-def orbit_of(proof: Proof, names: tuple[str, ...]) -> PeriodicOrbit:
+def orbit_of(proof: OrbitProof, names: tuple[str, ...]) -> PeriodicOrbit:
     """What a proof says."""
     states = proof.states()
     period = states[-1] * proof.problem.turns
@@ -284,7 +290,7 @@ def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:
     return tuple(names.index(str(s)) for s in held)
 
 
-def problem_of(made: Field, first: Signs, last: Signs, held: tuple[int, ...]) -> Problem:
+def _problem_of(made: Field, first: Signs, last: Signs, held: tuple[int, ...]) -> OrbitProblem:
     """The free states and the conditions; as many states are held as there are more unknowns than conditions."""
     n = len(made.states)
     free = [i for i in range(n) if not first or first[i] > 0]
@@ -297,7 +303,7 @@ def problem_of(made: Field, first: Signs, last: Signs, held: tuple[int, ...]) ->
         )
     chosen = [*held, *(i for i in free if i not in held)][:spare]
     motion = Motion(paced(made.motion.tape, n), made.motion.parameters)
-    return Problem(motion, (*(i for i in free if i not in chosen), n), tuple(conditions), first, last)
+    return OrbitProblem(motion, (*(i for i in free if i not in chosen), n), tuple(conditions), first, last)
 
 
 def reversals_of(system: Any, made: Field, given: Sequence[Sequence[int]]) -> tuple[Signs, Signs]:

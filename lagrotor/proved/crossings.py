@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor.errors import NotProved
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, exact, precision, printed
-from lagrotor.proved.carried_sets import Start, Step, steps_of
+from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
@@ -51,7 +51,7 @@ class Watch:
             yield from self.signs(middle, high, depth - 1)
 
 
-def watch(motion: Motion, tape: Tape, step: Step, w: Balls) -> Watch:
+def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> Watch:
     """The tape's output along a step, over all starts."""
     box, n = step.node.box(w), step.slope_terms
     rows = scaled(taylor(motion, box, n), step.h, n)
@@ -75,7 +75,7 @@ class Crossing(Shown):
     first: bool
     field: Field
     start: Start
-    steps: tuple[Step, ...]
+    steps: tuple[CarriedStep, ...]
     bits: int
 
     @property
@@ -129,7 +129,7 @@ def crossing(
     with precision(accuracy.bits, accuracy.terms):
         end = time_ball(before, where)
         made, tape, start = prepared(system, values, q0, v0, event)
-        known, since, pending, clear, steps = 0, arb(0), False, True, list[Step]()
+        known, since, pending, clear, steps = 0, arb(0), False, True, list[CarriedStep]()
         for step in steps_of(made.motion, start, end, accuracy):
             steps.append(step)
             for low, high, sign in watch(made.motion, tape, step, start.spread).signs(arb(0), arb(1)):

@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, ball, precision, printed, radius
-from lagrotor.proved.carried_sets import Accuracy, Start, Step, steps_of
+from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data
 from lagrotor.proved.fields import Field, Values, field_of, values_at
 from lagrotor.shown import Shown, scientific
@@ -32,7 +32,7 @@ class Enclosure(Shown):
     derivative: Matrix
     by: tuple[str, ...]
     residual: tuple[Ball, ...]
-    steps: tuple[Step, ...]
+    steps: tuple[CarriedStep, ...]
     start: Start
     bits: int
 
@@ -132,7 +132,7 @@ def enclose(
         return enclosure_of(made, start, steps, end, accuracy.bits)
 
 
-def enclosure_of(made: Field, start: Start, steps: Sequence[Step], t: Ball, bits: int) -> Enclosure:
+def enclosure_of(made: Field, start: Start, steps: Sequence[CarriedStep], t: Ball, bits: int) -> Enclosure:
     """What the last node says."""
     n, last = len(made.states), steps[-1].end
     box = last.box(start.spread)

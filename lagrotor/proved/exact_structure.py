@@ -13,71 +13,71 @@ from lagrotor.numerics.codegen import Program, Stage
 from lagrotor.proved.balls import rational
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients
-from lagrotor.structures.exact.written_out import accelerations
+from lagrotor.structures.exact.written_out import structure_accelerations
 
 Vector = list[sp.Expr]
 
 
-class Recorded:
+class _Recorded:
     """A number of a recorded calculation: each operation becomes a stage of its own."""
 
     def __init__(self, stages: list[Stage], e: sp.Expr) -> None:
         self.stages, self.e = stages, e
 
-    def _keep(self, e: sp.Expr) -> "Recorded":
+    def _keep(self, e: sp.Expr) -> "_Recorded":
         if not e.is_Atom:
             name = sp.Symbol(f"w_{len(self.stages)}", real=True)
             self.stages.append((name, e))
             e = name
-        return Recorded(self.stages, e)
+        return _Recorded(self.stages, e)
 
-    def __add__(self, other: Any) -> "Recorded":
+    def __add__(self, other: Any) -> "_Recorded":
         return self._keep(self.e + expression_of(other))
 
-    def __sub__(self, other: Any) -> "Recorded":
+    def __sub__(self, other: Any) -> "_Recorded":
         return self._keep(self.e - expression_of(other))
 
-    def __rsub__(self, other: Any) -> "Recorded":
+    def __rsub__(self, other: Any) -> "_Recorded":
         return self._keep(expression_of(other) - self.e)
 
-    def __mul__(self, other: Any) -> "Recorded":
+    def __mul__(self, other: Any) -> "_Recorded":
         return self._keep(self.e * expression_of(other))
 
-    def __truediv__(self, other: Any) -> "Recorded":
+    def __truediv__(self, other: Any) -> "_Recorded":
         return self._keep(self.e / expression_of(other))
 
-    def __rtruediv__(self, other: Any) -> "Recorded":
+    def __rtruediv__(self, other: Any) -> "_Recorded":
         return self._keep(expression_of(other) / self.e)
 
-    def __neg__(self) -> "Recorded":
-        return Recorded(self.stages, -self.e)
+    def __neg__(self) -> "_Recorded":
+        return _Recorded(self.stages, -self.e)
 
-    def sqrt(self) -> "Recorded":
+    def sqrt(self) -> "_Recorded":
         return self._keep(sp.sqrt(self.e))
 
     __radd__, __rmul__ = __add__, __mul__
 
 
-class Roots:
+class _Roots:
     """The functions of recorded numbers that a structure's equations take."""
 
     @staticmethod
     def sqrt(x: Any) -> Any:
-        return x.sqrt() if isinstance(x, Recorded) else sp.sqrt(x)
+        return x.sqrt() if isinstance(x, _Recorded) else sp.sqrt(x)
 
 
 def expression_of(x: Any) -> sp.Expr:
     """A recorded number, or a constant as it is meant."""
-    return x.e if isinstance(x, Recorded) else x if isinstance(x, sp.Expr) else number(x)
+    return x.e if isinstance(x, _Recorded) else x if isinstance(x, sp.Expr) else exact_number(x)
 
 
-def number(x: Any) -> sp.Rational:
+def exact_number(x: Any) -> sp.Rational:
     """The rational that a float's decimal means."""
     value = rational(x, "Structure")
     return sp.Rational(value.numerator, value.denominator)
 
 
-_numbers: Callable[[Any], Any] = np.vectorize(number, otypes=[object])
+_numbers: Callable[[Any], Any] = np.vectorize(exact_number, otypes=[object])
 
 
 def exact_coefficients(s: Assembly) -> Coefficients:
@@ -93,7 +93,7 @@ def exact_coefficients(s: Assembly) -> Coefficients:
     bars = [(int(i), int(j)) for i, j in zip(c.i, c.j, strict=True)]
     coupling = []
     for (i, j), ell, link in zip(bars, c.ell, s.link, strict=True):
-        m, K = number(link.mass), number(link.inertia) / number(ell) ** 2
+        m, K = exact_number(link.mass), exact_number(link.inertia) / exact_number(ell) ** 2
         for end in (i, j):
             A[end] += R[end] ** 2 * (m / 4 + K)
             S[end] += R[end] * m / 2
@@ -106,7 +106,7 @@ def exact_coefficients(s: Assembly) -> Coefficients:
         G=I3 * _numbers(s.spins),
         decay=_numbers(s.spin_friction) / I3,
         friction=_numbers(s.friction),
-        gravity=number(s.gravity),
+        gravity=exact_number(s.gravity),
         feet=_numbers(c.feet),
         coupling=np.array(coupling, dtype=object),
         brace_point=_numbers(c.brace_point) if len(c.brace_point) else c.brace_point,
@@ -118,10 +118,10 @@ def exact_coefficients(s: Assembly) -> Coefficients:
 
 def _length(c: Coefficients, k: int) -> sp.Expr:
     i, j = int(c.brace_tip[k]), int(c.brace_to[k])
-    start = [*map(number, c.feet[i])]
-    start[2] += number(c.R[i])
-    other = [*map(number, c.brace_point[k])] if j < 0 else [*map(number, c.feet[j])]
-    other[2] += number(c.R[j]) if j >= 0 else 0
+    start = [*map(exact_number, c.feet[i])]
+    start[2] += exact_number(c.R[i])
+    other = [*map(exact_number, c.brace_point[k])] if j < 0 else [*map(exact_number, c.feet[j])]
+    other[2] += exact_number(c.R[j]) if j >= 0 else 0
     return sp.sqrt(sum((x - y) ** 2 for x, y in zip(start, other, strict=True)))
 
 
@@ -136,11 +136,11 @@ def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
     stages: list[Stage] = []
     N, timed = len(c.R), any(x != 0 for x in c.decay)
     r, v = (
-        [[Recorded(stages, x) for x in letters_of[3 * i : 3 * i + 3]] for i in range(N)]
+        [[_Recorded(stages, x) for x in letters_of[3 * i : 3 * i + 3]] for i in range(N)]
         for letters_of in (letters.q, letters.v)
     )
-    G = [Recorded(stages, G * sp.exp(-k * t)) if k else G for G, k in zip(c.G, c.decay, strict=True)]
-    found = accelerations(c, r, v, G, Roots, _total)
+    G = [_Recorded(stages, G * sp.exp(-k * t)) if k else G for G, k in zip(c.G, c.decay, strict=True)]
+    found = structure_accelerations(c, r, v, G, _Roots, _total)
     rates = [*letters.v, *(expression_of(x) for axis in found for x in axis), *((sp.S.One,) if timed else ())]
     arguments = (*letters.q, *letters.v, *((t,) if timed else ()))
     return Program(arguments, tuple(stages), tuple(rates), shared=True), _held(c, letters)

@@ -18,7 +18,7 @@ from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, J, K, M, R, a, b, ell, k, m
 from lagrotor.pair.scene import Scene
 from lagrotor.proved.balls import Ball, Balls, arb, arb_mat, arb_poly, ball, exact
-from lagrotor.proved.exact_structure import number, structure_program
+from lagrotor.proved.exact_structure import exact_number, structure_program
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tails import ZERO, Evaluation, Tailed
 from lagrotor.proved.tape import Tape, tape_of
@@ -158,9 +158,9 @@ def scene_field(scene: Scene) -> Field:
     ratio = scene_ratio(scene)
     made, put = program(massive, ratio, body), dict(exactly)
     if scene.shock:
-        at, width = number(scene.shock.at), number(scene.shock.width)
+        at, width = exact_number(scene.shock.at), exact_number(scene.shock.width)
         pulse = sp.exp(-(((t - at) / width) ** 2))
-        put |= {F: number(f) * pulse for F, f in zip(FORCE, scene.shock.force, strict=True)}
+        put |= {F: exact_number(f) * pulse for F, f in zip(FORCE, scene.shock.force, strict=True)}
         made = replace(made, outputs=(*made.outputs, sp.S.One))
     timed = (t,) if scene.shock else ()
     states = (*made.arguments[:6], *timed)
@@ -179,9 +179,9 @@ def scene_numbers(scene: Scene) -> dict[sp.Symbol, sp.Rational]:
     if link is None:
         raise SingularError("proved: the scene has no bar")
     of = {M: rotor.mass, R: rotor.length, I1: rotor.I1, I3: rotor.I3, ell: link.length, m: link.mass, K: link.inertia}
-    put = {s: number(x) for s, x in of.items()}
+    put = {s: exact_number(x) for s, x in of.items()}
     put[J] = J_OF.xreplace(put)
-    spins = [number(x) * put[I3] for x in scene.spins]
+    spins = [exact_number(x) * put[I3] for x in scene.spins]
     found = {s: e.xreplace(put) for s, e in INERTIAS.items()}
     return {a: found[a], b: found[b], k: put[ell] / put[R], G_1: spins[0], G_2: spins[1]}
 
@@ -241,9 +241,9 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
 
 def _nearest(s: Assembly, tilt: Any, rates: Any) -> Any:
     """Floats on the bars near the tilt and rates."""
-    from lagrotor.structures.exact.simulating import simulate
+    from lagrotor.structures.exact.simulating import simulate_structure
 
-    run = simulate(s, [0.0], tilt, rates)
+    run = simulate_structure(s, [0.0], tilt, rates)
     return run.axes[:, 0], run.rates[:, 0]
 
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from lagrotor.errors import NotProved
 from lagrotor.proved.balls import Balls, Matrix, arb_mat, exact
-from lagrotor.proved.carried_sets import column, identity, vector
+from lagrotor.proved.carried_sets import column_matrix, entries_of, identity
 
 
 def middle_inverse(slope: Matrix) -> Matrix:
@@ -26,10 +26,10 @@ def krawczyk(
     value: Balls, slope: Matrix, A: Matrix, w: Balls, by: Matrix | None = None, d: Sequence[object] = ()
 ) -> Balls:
     """K − z: from F(z), DF over the box, A, the box w about z, and derivatives by parameters with their box d."""
-    step = -(A * vector(value)) + (identity(len(w)) - A * slope) * vector(w)
+    step = -(A * column_matrix(value)) + (identity(len(w)) - A * slope) * column_matrix(w)
     if by is not None:
         step = step - (A * by) * arb_mat(len(d), 1, list(d))
-    return column(step)
+    return entries_of(step)
 
 
 def inside(found: Balls, w: Balls) -> bool:

@@ -25,11 +25,11 @@ def trace(matrix: Matrix) -> Ball:
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
     """(A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
     A, B = diagonal(first), diagonal(last)
-    part = A * inverse(quarter) * B * quarter
+    part = A * _inverse(quarter) * B * quarter
     return part if first == last else part * part
 
 
-def inverse(matrix: Matrix) -> Matrix:
+def _inverse(matrix: Matrix) -> Matrix:
     """The inverses of all matrices of a ball: X (1 + R + R² + …) with X near the middle's inverse and R = 1 − M X.
 
     Raises NotProved where the sum is not shown to converge.

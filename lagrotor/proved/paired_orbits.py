@@ -17,9 +17,17 @@ from lagrotor.errors import DomainError, NotProved
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.pair.scene import Scene
 from lagrotor.proved.balls import Ball, Balls, arb, ball, exact, precision, printed, radius, upper
-from lagrotor.proved.carried_sets import Accuracy, Start, column, identity, steps_of
+from lagrotor.proved.carried_sets import Accuracy, Start, entries_of, identity, steps_of
 from lagrotor.proved.certificates import Certificate
-from lagrotor.proved.closed_orbits import PeriodicOrbit, Problem, Proof, closing, orbit_of, prove, refined
+from lagrotor.proved.closed_orbits import (
+    OrbitProblem,
+    OrbitProof,
+    PeriodicOrbit,
+    closing,
+    orbit_of,
+    prove_orbit,
+    refined,
+)
 from lagrotor.proved.enclosure import accuracy_of
 from lagrotor.proved.fields import Field, scene_field
 from lagrotor.proved.krawczyk import krawczyk
@@ -145,7 +153,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
         problem = problem_of_pair(made)
         if one:
             start = guess(curve, float(exact(amplitude)), amplitude.atanh())
-            orbit = orbit_of(prove(problem, start, accuracy, _ONES, "precession"), names(made))
+            orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), names(made))
             return Precession(scene, amplitude, ((amplitude, orbit),))
         pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy, names(made)))
         return Precession(scene, amplitude, pieces)
@@ -156,10 +164,10 @@ def names(made: Field) -> tuple[str, ...]:
     return tuple(map(str, made.states))
 
 
-def problem_of_pair(made: Field) -> Problem:
+def problem_of_pair(made: Field) -> OrbitProblem:
     """A quarter of a period in one unit of s."""
     motion = Motion(paced(made.motion.tape, len(made.states)), made.motion.parameters)
-    return Problem(motion, FREE, CONDITIONS, A, B)
+    return OrbitProblem(motion, FREE, CONDITIONS, A, B)
 
 
 def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
@@ -170,7 +178,7 @@ def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
 
 
 def family(
-    problem: Problem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy, states: tuple[str, ...]
+    problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy, states: tuple[str, ...]
 ) -> Iterator[tuple[Ball, PeriodicOrbit]]:
     """Adjoining pieces of the family from r0 = low to high, each as wide as its proof allows.
 
@@ -194,7 +202,7 @@ def family(
         u, width = right, width if tries else 1.1 * width
 
 
-def proof_of_piece(problem: Problem, curve: QuarterPeriod, piece: Ball, accuracy: Accuracy) -> Proof | None:
+def proof_of_piece(problem: OrbitProblem, curve: QuarterPeriod, piece: Ball, accuracy: Accuracy) -> OrbitProof | None:
     """One orbit for every U of a piece; None where the test does not close."""
     u = exact(piece)
     half = radius(piece)
@@ -222,19 +230,19 @@ def proof_of_piece(problem: Problem, curve: QuarterPeriod, piece: Ball, accuracy
     return None
 
 
-def moved(problem: Problem, start: Start, inverse: Any, last: Any) -> Balls:
+def moved(problem: OrbitProblem, start: Start, inverse: Any, last: Any) -> Balls:
     """K about the middle, whether or not it closes."""
     w = [start.spread[i] for i in problem.free]
     slope, by = (problem.slope(last.derivative, columns) for columns in (problem.free, [HELD]))
     return krawczyk(problem.value(start.middle, last.middle), slope, inverse, w, by, [start.spread[HELD]])
 
 
-def tangent_frame(problem: Problem, middle: Balls, accuracy: Accuracy) -> Any:
+def tangent_frame(problem: OrbitProblem, middle: Balls, accuracy: Accuracy) -> Any:
     """The unit matrix, its column of U along the family."""
     *_, step = steps_of(problem.motion, Start(middle, [arb(0)] * len(middle)), arb(1), accuracy)
     D = step.end.derivative
     slope, by = problem.slope(D, problem.free), problem.slope(D, [HELD])
-    along = column(slope.inv() * by)
+    along = entries_of(slope.inv() * by)
     L = identity(len(middle))
     for i, x in zip(problem.free, along, strict=True):
         L[i, HELD] = exact(-x)

@@ -15,7 +15,7 @@ from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
-from lagrotor.proved.carried_sets import column, vector
+from lagrotor.proved.carried_sets import column_matrix, entries_of
 from lagrotor.proved.certificates import Certificate, balls_data, exact_data, matrix_data, tape_data
 from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.fields import Field, Values, system_field, values_at
@@ -71,8 +71,8 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         state = [*q, *[arb(0)] * n, *parameters]
         _, rows = values_at(tape, state, True)
         J = arb_mat([row[: 2 * n] for row in rows])
-        energy = hessian(made, system)
-        found = column_matrix(values_at(energy, state), 2 * n)
+        energy = _energy_hessian(made, system)
+        found = _square_matrix(values_at(energy, state), 2 * n)
         stability, eigenvalues = stability_of(system, J, found)
         names = tuple(map(str, system.c.q))
         at = ", ".join(f"{name} = {printed(x, 25)}" for name, x in zip(names, q, strict=True))
@@ -100,7 +100,7 @@ def located(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Ba
     for _ in range(_NEWTON):
         value, rows = values_at(forces, [*middle, *still, *parameters], True)
         A = middle_inverse(arb_mat([row[:n] for row in rows]))
-        move = column(A * vector(value))
+        move = entries_of(A * column_matrix(value))
         size = max(float(upper(x)) for x in move)
         if size > 0.5 * before or size == 0:
             break
@@ -120,14 +120,14 @@ def located(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Ba
     raise NotProved(f"equilibrium: Newton's method comes within {size:.1g}, but Krawczyk's test does not close there")
 
 
-def hessian(made: Field, system: Equations) -> Tape:
+def _energy_hessian(made: Field, system: Equations) -> Tape:
     """The second derivatives of the Jacobi integral by (q, v), row by row."""
     states = (*system.c.q, *system.c.v)
     first = [sp.diff(system.energy, x) for x in states]
     return made.function([sp.diff(e, x) for e in first for x in states])
 
 
-def column_matrix(values: Balls, n: int) -> Matrix:
+def _square_matrix(values: Balls, n: int) -> Matrix:
     """Values row by row as a matrix."""
     return arb_mat(n, n, values)
 

@@ -32,7 +32,7 @@ class Tailed:
     def norm(self) -> Ball:
         """Bound of the sum of all coefficients' absolute values."""
         if self._norm is None:
-            self._norm = norm(self.poly) + self.tail
+            self._norm = _norm(self.poly) + self.tail
         return self._norm
 
     def series(self) -> Any:
@@ -56,7 +56,7 @@ class Tailed:
         if not self.tail.is_zero():
             tail += self.tail * other.norm
         if not other.tail.is_zero():
-            tail += other.tail * norm(self.poly)
+            tail += other.tail * _norm(self.poly)
         return Tailed(whole.truncate(self.n), tail, self.n)
 
     def __truediv__(self, other: "Tailed") -> "Tailed":
@@ -64,15 +64,15 @@ class Tailed:
 
     def inverse(self) -> "Tailed":
         """1/a: with q the truncated inverse and r = 1 − a q, whose powers begin at n, it is q/(1 − r)."""
-        constant(self, "a denominator")
+        _constant(self, "a denominator")
         q = _poly(self.series().inv())
-        size = norm(q)
+        size = _norm(q)
         r = beyond(self.poly * q, self.n) + size * self.tail
         return Tailed(q, size * r / _left(1 - r), self.n)
 
     def sqrt(self) -> "Tailed":
         """q + s with s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ where σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
-        if not constant(self, "a root's argument") > 0:
+        if not _constant(self, "a root's argument") > 0:
             raise TailError("a root's argument is not shown to be positive")
         q = _poly(self.series().sqrt())
         k = Tailed(q, ZERO, self.n).inverse().norm
@@ -83,20 +83,20 @@ class Tailed:
         """q + s with s' = a' s + (a' q − q'), then the tail's factor exp(e); never more than the whole, exp(a_0 + |a − a_0|)."""
         q = _poly(self.series().exp())
         slope = self.poly.derivative()
-        tail = (self.poly[0] + norm(self.poly - arb_poly([self.poly[0]])) + self.tail).exp()
-        left = 1 - norm(slope) / (self.n + 1)
+        tail = (self.poly[0] + _norm(self.poly - arb_poly([self.poly[0]])) + self.tail).exp()
+        left = 1 - _norm(slope) / (self.n + 1)
         if left > 0:
             s = beyond(slope * q, self.n - 1) / self.n / left
-            tail = tail.min(s + (norm(q) + s) * self.tail.expm1())
+            tail = tail.min(s + (_norm(q) + s) * self.tail.expm1())
         return Tailed(q, upper(tail), self.n)
 
     def sin_cos(self) -> tuple["Tailed", "Tailed"]:
         """Both solve (S, C)' = a' (C, −S); then sin(a + e) = S cos e + C sin e."""
         n, slope = self.n, self.poly.derivative()
         pair = [_poly(q) for q in self.series().sin_cos()]
-        sizes = [norm(q) for q in pair]
+        sizes = [_norm(q) for q in pair]
         s = max_of([beyond(slope * q, n - 1) for q in pair]) / n
-        s /= _left(1 - norm(slope) / (n + 1))
+        s /= _left(1 - _norm(slope) / (n + 1))
         rise, turn = self.tail.cosh() - 1, self.tail.sinh()
         sine, cosine = sizes[0] + s, sizes[1] + s
         return (
@@ -108,18 +108,18 @@ class Tailed:
         """g(a) from its derivative g'(a): g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ."""
         q = _poly(getattr(self.series(), name)())
         rate = self.poly.derivative()
-        left = beyond(rate * slope.poly, self.n - 1) + norm(rate) * slope.tail
+        left = beyond(rate * slope.poly, self.n - 1) + _norm(rate) * slope.tail
         return Tailed(q, left / self.n + self.tail * slope.norm, self.n)
 
 
-def norm(poly: Any) -> Ball:
+def _norm(poly: Any) -> Ball:
     """The sum of the coefficients' absolute values, an upper bound."""
     return upper(sum(map(abs, poly.coeffs()), ZERO))
 
 
 def beyond(poly: Any, n: int) -> Ball:
     """The norm of the terms from s^n on."""
-    return norm(poly.right_shift(n)) if poly.length() > n else ZERO
+    return _norm(poly.right_shift(n)) if poly.length() > n else ZERO
 
 
 def max_of(values: Sequence[Ball]) -> Ball:
@@ -130,7 +130,7 @@ def max_of(values: Sequence[Ball]) -> Ball:
     return most
 
 
-def constant(a: Tailed, what: str) -> Ball:
+def _constant(a: Tailed, what: str) -> Ball:
     """The value at s = 0, which must not be zero."""
     value = a.poly[0]
     if not (value > 0 or value < 0):
@@ -149,7 +149,7 @@ def _poly(series: Any) -> Any:
     return arb_poly(list(series))
 
 
-def number(text: str) -> Ball:
+def _number(text: str) -> Ball:
     """The constant of a tape: a rational number or pi."""
     if text == "pi":
         return arb.pi()
@@ -164,7 +164,7 @@ def series_values(tape: Tape, arguments: Sequence[Any]) -> list[Any]:
         if name == "argument":
             found.append(arguments[on[0]])
         elif name == "number":
-            found.append(number(on[0]))
+            found.append(_number(on[0]))
         elif name == "add":
             found.append(found[on[0]] + found[on[1]])
         elif name == "subtract":
@@ -191,7 +191,7 @@ class Evaluation:
             if name == "argument":
                 self.values.append(arguments[on[0]])
             elif name == "number":
-                self.values.append(self.fixed(number(on[0])))
+                self.values.append(self.fixed(_number(on[0])))
             else:
                 self.values.append(self._value(place, name, on))
 
@@ -239,7 +239,7 @@ class Evaluation:
             self._slopes[place] = (found + found).inverse()
             return found
         if name == "log":
-            if not constant(a, "a logarithm's argument") > 0:
+            if not _constant(a, "a logarithm's argument") > 0:
                 raise TailError("a logarithm's argument is not shown to be positive")
             slope = self._inverse(operand)
         elif name == "asin":

@@ -8,7 +8,7 @@ from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.verdict_text import uncorrected
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
-from lagrotor.report.latex import END, displayed_formula, head, prose, tidy
+from lagrotor.report.latex import END, displayed_formula, head, latex_prose, tidy
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,9 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref: a summary, then an item each."""
     listed = list(verdicts)
     errors = list(errata(listed, paper))
-    title = rf"\section*{{Errata to \emph{{{prose(paper.title)}}}}}"
-    summary = " ".join(prose(text) for text in _summary(listed, errors, paper))
-    items = "\n".join(map(latex_item, errors)) or rf"\item {prose('None.')}"
+    title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
+    summary = " ".join(latex_prose(text) for text in _summary(listed, errors, paper))
+    items = "\n".join(map(latex_item, errors)) or rf"\item {latex_prose('None.')}"
     # Two pages: small print, and no more space between the items than a line of it.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
     return "\n".join([head(f"Errata to {paper.title}", paper.about.preamble) + title, *sheet, r"\end{enumerate}}", END])
@@ -112,9 +112,9 @@ def latex_item(e: Erratum) -> str:
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     put = " (" + ", ".join(f"${tidy(formula)}$" for formula in e.put) + ")" if e.put else ""
-    granted = f" If {prose('; '.join(e.premises))}{put}." if e.premises else ""
+    granted = f" If {latex_prose('; '.join(e.premises))}{put}." if e.premises else ""
     return (
-        rf"\item \textbf{{{prose(e.cited.capitalize())}}}, {prose(e.title)}. {prose(e.wrong)}{reach}{granted}\\"
+        rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"
     )
 
@@ -124,15 +124,15 @@ def latex_block(e: Erratum) -> str:
     used = ", ".join(e.used_by) or "none"
     return "\n\n".join(
         [
-            rf"\subsection*{{{e.id}\quad {prose(e.title)}}}",
+            rf"\subsection*{{{e.id}\quad {latex_prose(e.title)}}}",
             rf"\textbf{{Printed.}} {displayed_formula(e.printed)}",
             rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(displayed_formula, e.corrected)),
-            rf"\textbf{{What was wrong.}} {prose(e.wrong)}",
+            rf"\textbf{{What was wrong.}} {latex_prose(e.wrong)}",
             *(
-                [rf"\textbf{{If:}} {prose('; '.join(e.premises))}", *map(displayed_formula, e.put)]
+                [rf"\textbf{{If:}} {latex_prose('; '.join(e.premises))}", *map(displayed_formula, e.put)]
                 if e.premises
                 else []
             ),
-            rf"Used by: {used}. {prose(e.reach).capitalize()}.",
+            rf"Used by: {used}. {latex_prose(e.reach).capitalize()}.",
         ]
     )

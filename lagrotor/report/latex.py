@@ -65,11 +65,11 @@ _LONGEST = 2_500
 
 def head(title: str, preamble: str = "") -> str:
     """What a document begins with, packages of the paper's own formulas too; its title as plain ASCII, for the PDF's viewer."""
-    about = rf"\hypersetup{{pdftitle={{{prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
+    about = rf"\hypersetup{{pdftitle={{{latex_prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 
 
-def prose(text: str) -> str:
+def latex_prose(text: str) -> str:
     """Plain text for LaTeX, its formulas as people read them: special characters escaped, long words breakable."""
     return " ".join(_word(word) for word in readable(text).split(" "))
 

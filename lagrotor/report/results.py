@@ -75,13 +75,13 @@ class _Numbers(Formatter):
         }
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
-    def has(self, given: title_page.Headline) -> bool:
+    def has(self, given: title_page.HeadlineEntry) -> bool:
         """Whether all that the headline takes its numbers and its formula from is in the report."""
         fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
         needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()
 
-    def headline(self, given: title_page.Headline) -> Headline:
+    def headline(self, given: title_page.HeadlineEntry) -> Headline:
         """The headline with its numbers."""
         known = self.verdicts.keys() | self.measured.keys()
         ids = tuple(identifier for identifier in given.ids if identifier in known)
@@ -104,7 +104,7 @@ class _Numbers(Formatter):
             raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
         return measured[name], identifier
 
-    def _formula(self, given: title_page.Headline) -> str:
+    def _formula(self, given: title_page.HeadlineEntry) -> str:
         """The corrected, or else the derived form of an equation, of the named quantity or the first."""
         if not given.formula:
             return ""

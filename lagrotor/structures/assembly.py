@@ -7,7 +7,7 @@ from operator import index
 from typing import Any
 
 from lagrotor.errors import InputError
-from lagrotor.pair.quantities import not_negative, number, numbers, vector
+from lagrotor.pair.quantities import finite_number, finite_vector, not_negative, numbers
 from lagrotor.pair.scene import Link, Rotor
 
 _Point = tuple[float, float, float]
@@ -60,7 +60,7 @@ class Assembly:
         if not n:
             raise InputError("Structure: joints is empty: give at least one ground joint (x, y) in m")
         put(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
-        put(self, "gravity", number(self.gravity, "Structure: gravity", "m/s²"))
+        put(self, "gravity", finite_number(self.gravity, "Structure: gravity", "m/s²"))
         put(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
         for name, unit in (
             ("load", "kg"),
@@ -91,7 +91,7 @@ class Assembly:
         reach = self.rotor[i].length, self.rotor[j].length
         apart = hypot(self.joints[i][0] - self.joints[j][0], self.joints[i][1] - self.joints[j][1])
         upright = hypot(apart, reach[0] - reach[1])
-        length = number(items[2], f"Structure: bars[{k}] length", "m") if len(items) == 3 else upright
+        length = finite_number(items[2], f"Structure: bars[{k}] length", "m") if len(items) == 3 else upright
         if length <= 0:
             raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart")
         low, high = apart - sum(reach), apart + sum(reach)
@@ -111,7 +111,7 @@ class Assembly:
             raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
         ground = isinstance(brace.to, Iterable)
-        to = vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)
+        to = finite_vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)
         stiffness = not_negative(brace.stiffness, f"Structure: {where} stiffness", "N/m")
         damping = not_negative(brace.damping, f"Structure: {where} damping", "N s/m")
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
@@ -152,7 +152,7 @@ def _row(value: Any) -> list[Any]:
 
 def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
     """One number for all, or n of them; refused below zero unless `signed`."""
-    check = number if signed else not_negative
+    check = finite_number if signed else not_negative
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):
         raise InputError(f"Structure: {where} has {len(items)} numbers for {n} rotors: give one for all, or {n}")

@@ -9,7 +9,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.small_motion import small_motion
-from lagrotor.structures.standing import threshold
+from lagrotor.structures.standing import spin_threshold
 
 _MOST = 12  # rotors
 _SAME = 1e-9  # relative: spins as near as that are one
@@ -40,7 +40,7 @@ def sign_patterns(s: Assembly) -> Patterns:
     needed = {}
     for rest in product((1, -1), repeat=N - 1):
         signs = (1, *rest)
-        needed[signs] = threshold(linear.with_momenta(I3 * np.array(signs)))
+        needed[signs] = spin_threshold(linear.with_momenta(I3 * np.array(signs)))
     least = min(needed.values())
     best = next(signs for signs, spin in needed.items() if spin <= least * (1 + _SAME))
     return Patterns(len(needed), sum(v < inf for v in needed.values()), least, best)

@@ -75,7 +75,7 @@ def _why(linear: SmallMotion, factor: float) -> str:
     if falling % 2:
         return first + "an odd number of them, which no spins hold"
     if linear.damping.any():
-        bare = threshold(_frictionless(linear))
+        bare = spin_threshold(_frictionless(linear))
         return first + (
             f"friction undoes what the spins hold; without it they would from {bare:.4g} times these spins on"
             if bare < inf
@@ -93,10 +93,10 @@ def critical_spin(s: Assembly) -> float:
     that nothing holds and no spin acts on.
     Raises InputError where upright breaks a bar's length.
     """
-    return threshold(small_motion(s))
+    return spin_threshold(small_motion(s))
 
 
-def threshold(linear: SmallMotion) -> float:
+def spin_threshold(linear: SmallMotion) -> float:
     """`critical_spin` of a linear system."""
     K = np.linalg.eigvalsh(_unit(linear))
     falling, factor = int((K < -1e-12).sum()), 0.0

@@ -40,7 +40,7 @@ class Structure(Assembly):
         super().__post_init__()
         check_closure(self)
 
-    simulate = simulating.simulate
+    simulate = simulating.simulate_structure
     modes = small_motion.modes
     stands = standing.stands
     critical_spin = standing.critical_spin

@@ -25,7 +25,7 @@ from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
 from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
 from lagrotor.paper.readable import readable
-from lagrotor.paper.record import OnRecord, as_text
+from lagrotor.paper.record import OnRecord, record_text
 from lagrotor.paper.rotor_pair import own_paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import figures
@@ -104,7 +104,7 @@ def last_report(made_once: Path, work: Path) -> Path:
 
 def record(verdicts: dict[str, str]) -> None:
     rows = {identifier: OnRecord(verdict) for identifier, verdict in verdicts.items()}
-    own_paper.PAPER.record_file.write_text(as_text(rows), encoding="utf-8")
+    own_paper.PAPER.record_file.write_text(record_text(rows), encoding="utf-8")
 
 
 def found() -> dict[str, str]:

@@ -8,7 +8,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.models import closed_form, conservation_defect, euler, minimal, parting, periodic_orbit
+from lagrotor.models import closed_form, conservation_defect, euler, fourier_orbit, minimal, parting
 from lagrotor.models import simulate as simulating
 from lagrotor.models.conserved import pulse_nodes
 from lagrotor.models.natural_units import natural_units, typical_rate
@@ -182,7 +182,7 @@ def test_euler_angles_keep_the_bar_for_long(turns: int) -> None:
 def test_ten_thousand_turns_of_the_paired_precession() -> None:
     """Its start returns to itself: one integrated period, and the monodromy for how far a deviation grows."""
     scene = paired_scene(Scene((10, -10), link=Link(1.0, 0.3, 0.02)), 0.204)
-    orbit = periodic_orbit(scene, closed_form(scene, 1.0, 1e-6).error + 0.8545)
+    orbit = fourier_orbit(scene, closed_form(scene, 1.0, 1e-6).error + 0.8545)
     turns = np.array([0.0, 0.25, 1.0, 1e3, 9_999.25, 1e4])
     run = simulate(scene, orbit.period * turns, tol=1e-6)
     assert run.model == "closed_form" and run.evaluations == 0 and run.error < 1e-7
@@ -193,7 +193,7 @@ def test_ten_thousand_turns_of_the_paired_precession() -> None:
     assert orbit.motion(few.t)[1] == pytest.approx(few.rates, abs=1e-9)
     # Twin: of the light bar the orbit is hyperbolic, and no error is promised.
     light = paired_scene(Scene((10, -10), link=Link(1, 0.01, 0.1)), 0.204)
-    assert parting(periodic_orbit(light, 0.8543), 1e4 * orbit.period) > 1e10
+    assert parting(fourier_orbit(light, 0.8543), 1e4 * orbit.period) > 1e10
     assert closed_form(light, 1e4 * orbit.period, 1e-6).error > 0.1
 
 

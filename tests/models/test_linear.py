@@ -12,7 +12,7 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, LagrotorError, SingularError
 from lagrotor.models import linear_error, linear_run
-from lagrotor.models.linear import LINEAR_MARGIN, modes
+from lagrotor.models.linear import LINEAR_MARGIN, pair_modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import measured_order
 from lagrotor.theory import impulse_matrices
@@ -46,7 +46,7 @@ def test_the_exponential_closes() -> None:
 
 @pytest.mark.parametrize("spins", [(10.0, -7.0), (3.0, 3.0), (5.0, 0.0), (1e-3, -1e-3), (0.0, 0.0)])
 def test_the_exponential_is_the_matrix_exponential(spins: tuple[float, float]) -> None:
-    linear, t = modes(started(0.1, spins)), np.array([0.0, 0.3, 4.0])
+    linear, t = pair_modes(started(0.1, spins)), np.array([0.0, 0.3, 4.0])
     A = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -linear.turning]])
     y = np.array([0.1, -0.2, 0.3, 0.5, 0.7, -0.4])
     assert linear.free(y[:3], y[3:], t) == pytest.approx(np.array([expm(A * s) @ y for s in t]), abs=1e-11)

@@ -28,7 +28,7 @@ from lagrotor.models import (
     step_limit,
 )
 from lagrotor.models.spring_link.recorded_step import step_function
-from lagrotor.numerics import cross_matrix
+from lagrotor.numerics import skew_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)
@@ -73,7 +73,7 @@ def asymmetric(t):
 
     def rate(_, y):
         Omega, R = y[:3], y[3:].reshape(3, 3)
-        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ cross_matrix(Omega[None])[0]).ravel()]
+        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ skew_matrix(Omega[None])[0]).ravel()]
 
     start = [*(TILTED.T @ [1, 2, 3]), *TILTED.ravel()]
     return solve_ivp(rate, (0, t), start, method="DOP853", rtol=1e-12, atol=1e-12).y[3:, -1].reshape(3, 3)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Scene, Shock, simulate
-from lagrotor.paper.claim_tests import as_data
+from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import Pinched
 from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -290,7 +290,7 @@ def test_no_bar_keeps_the_printed_opposite_rate_for_three_cycles(results):
 
 @pytest.mark.parametrize("identifier", TESTS)
 def test_record(results, identifier):
-    row = as_data(results[identifier], PAPER.claims[identifier])
+    row = claim_data(results[identifier], PAPER.claims[identifier])
     keys = "id section text verdict condition parts model measured explanation seconds"
     assert list(row) == keys.split()
     assert row["explanation"].endswith(".")

@@ -8,10 +8,10 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import I1, I3, ROTOR, J, r0
 from lagrotor.paper import Premise, Relation, Statement, chain, decide, judge, letters, verdict
-from lagrotor.paper.record import as_text, changes, reaches_result, recorded
+from lagrotor.paper.record import changes, reaches_result, record_text, recorded
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import about_parameters
-from lagrotor.paper.verdict_text import as_data
+from lagrotor.paper.verdict_text import verdict_data
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)
@@ -214,7 +214,7 @@ def test_errors_are_followed_to_the_results() -> None:
 def test_the_record_is_written_and_read_alike(tmp_path) -> None:
     before, file = PAPER.recorded, tmp_path / "recorded.toml"
     assert recorded(file) == {}
-    file.write_text(as_text(before), encoding="utf-8")
+    file.write_text(record_text(before), encoding="utf-8")
     assert recorded(file) == before
     assert file.read_text() == PAPER.record_file.read_text()
     refuted = {"5.01": replace(before["5.01"], verdict="refuted")}
@@ -232,9 +232,9 @@ def test_a_change_of_any_part_of_a_verdict_is_named(field: str) -> None:
 
 
 def test_a_record_has_the_promised_keys() -> None:
-    row = as_data(verdict_of(x * n, x, premises=(ONE,)), PAPER)
+    row = verdict_data(verdict_of(x * n, x, premises=(ONE,)), PAPER)
     assert row["premises"] == [{"says": "one of them", "put": ["n = 1"], "small": None, "broken": ""}]
-    assert as_data(verdict_of(x, x), PAPER)["premises"] == []
+    assert verdict_data(verdict_of(x, x), PAPER)["premises"] == []
     assert {"id", "printed", "derived", "verdict", "premises", "domain", "correction", "reaches_result"} <= row.keys()
 
 

@@ -28,7 +28,7 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
-from lagrotor.paper.source.usage import declared, notation_of
+from lagrotor.paper.source.usage import declared_notation, notation_of
 
 READ = (
     *("5.01", "5.02", "5.03", "5.04", "5.05", "5.07", "5.08", "5.10", "5.11", "5.12", "5.13", "5.15"),
@@ -47,7 +47,7 @@ PLAIN: dict[str, sp.Expr] = {
 
 
 # I(t) is the inertia as it turns, in section 3; here it is a number.
-NOTATION = notation_of((e.latex for e in PAPER.equations.values()), declared({"letters": "I phi theta"}))
+NOTATION = notation_of((e.latex for e in PAPER.equations.values()), declared_notation({"letters": "I phi theta"}))
 
 
 def reading(entry: Equation) -> list[sp.Expr]:

@@ -16,7 +16,7 @@ from lagrotor.paper import FigureLink, Relation, Statement, Table, chain, claim_
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
-from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_table, prose
+from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose, latex_table
 from lagrotor.report.supplement import supplement
 
 HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
@@ -142,11 +142,13 @@ def test_what_is_wrong_is_found(tmp_path: Path) -> None:
 
 
 def test_text_is_text() -> None:
-    assert prose("50 % of r_0² & more") == r"50 \% of $r_{0}$$^2$ \& more"
-    assert prose("a\\b^c~d") == r"a\textbackslash{}b\^{}c\~{}d"
-    assert prose("phi_dot, theta_1_dot and Omega") == r"$\dot{\phi}$, $\dot{\theta}_{1}$ and $\Omega$"
-    assert prose("☃é") == r"?\'e", "a sign without a word of its own is marked"
-    assert r"\allowbreak" in prose("G_1**2*a-2*G_1*G_2*b+G_2**2*a") and r"\allowbreak" not in prose("a short word")
+    assert latex_prose("50 % of r_0² & more") == r"50 \% of $r_{0}$$^2$ \& more"
+    assert latex_prose("a\\b^c~d") == r"a\textbackslash{}b\^{}c\~{}d"
+    assert latex_prose("phi_dot, theta_1_dot and Omega") == r"$\dot{\phi}$, $\dot{\theta}_{1}$ and $\Omega$"
+    assert latex_prose("☃é") == r"?\'e", "a sign without a word of its own is marked"
+    assert r"\allowbreak" in latex_prose("G_1**2*a-2*G_1*G_2*b+G_2**2*a") and r"\allowbreak" not in latex_prose(
+        "a short word"
+    )
 
 
 def test_brackets_of_a_broken_formula_keep_their_size() -> None:

@@ -13,7 +13,7 @@ from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import compiled_motion, segments
 from lagrotor.structures.exact.lines_passed import LineWatch
-from lagrotor.structures.exact.written_out import accelerations
+from lagrotor.structures.exact.written_out import structure_accelerations
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.test_exact_motion import LOADED, nine, started
@@ -28,9 +28,11 @@ def test_the_equations_written_out_are_those_of_the_exact_motion(s) -> None:
     r /= np.linalg.norm(r, axis=1, keepdims=True)
     v = np.cross(r, draw.standard_normal(r.shape))
     expected = motion.accelerations(0.0, r, v)
-    found = np.array(accelerations(motion.c, r.tolist(), v.tolist(), motion.c.G.tolist(), math))
+    found = np.array(structure_accelerations(motion.c, r.tolist(), v.tolist(), motion.c.G.tolist(), math))
     assert np.abs(found - expected).max() < 1e-13 * np.abs(expected).max()
-    other = np.array(accelerations(replace(motion.c, gravity=1.0), r.tolist(), v.tolist(), motion.c.G.tolist(), math))
+    other = np.array(
+        structure_accelerations(replace(motion.c, gravity=1.0), r.tolist(), v.tolist(), motion.c.G.tolist(), math)
+    )
     assert np.abs(other - expected).max() > 1e-3
 
 
@@ -38,7 +40,7 @@ def test_the_equations_written_out_are_those_of_the_exact_motion(s) -> None:
 def test_the_hinge_is_exact_from_upright_to_hanging(theta: float) -> None:
     s = Structure([(0, 0)], spins=1, hinge=2.0)
     r = [math.sin(theta), 0.0, math.cos(theta)]
-    found = accelerations(exact_motion(s).c, [r], [[0.0] * 3], [0.0], math)[0]
+    found = structure_accelerations(exact_motion(s).c, [r], [[0.0] * 3], [0.0], math)[0]
     assert 1.25 * np.hypot(found[0], found[2]) == pytest.approx(2 * theta, rel=1e-13, abs=1e-22)
 
 

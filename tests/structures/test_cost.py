@@ -11,7 +11,7 @@ from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import segments
 from lagrotor.structures.exact.levels import eliminate_in_levels
 from lagrotor.structures.exact.saddle import saddle
-from lagrotor.structures.exact.written_out import accelerations
+from lagrotor.structures.exact.written_out import structure_accelerations
 
 SIZES = (64, 512, 4096)
 
@@ -130,7 +130,7 @@ def operations(s: Structure) -> int:
     """Of the equations written out, which the fast extra compiles."""
     c, Counted.done = exact_motion(s).c, 0
     upright, N = [[Counted(x) for x in axis] for axis in c.upright.tolist()], len(s.joints)
-    accelerations(c, upright, upright, [Counted(1.0)] * N, math)
+    structure_accelerations(c, upright, upright, [Counted(1.0)] * N, math)
     return Counted.done
 
 

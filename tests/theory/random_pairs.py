@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, natural_rate
-from lagrotor.models.linear import modes
+from lagrotor.models.linear import pair_modes
 
 COUNTS = [8, pytest.param(200, marks=pytest.mark.slow)]
 
@@ -44,7 +44,7 @@ def held(pairs, refusals, count, most_refused):
 
 def swinging(rng, scene, amplitude):
     """The scene on its linear mode, the larger inclination of the two being `amplitude`."""
-    linear = modes(scene)
+    linear = pair_modes(scene)
     values, vectors = np.linalg.eig(linear.upright @ linear.turning @ np.linalg.inv(linear.upright))
     fastest = np.argmax(values.imag)
     mode = vectors[:, fastest] * np.exp(2j * np.pi * rng.uniform())

@@ -15,7 +15,7 @@ from lagrotor.theory import (
     series_orbit,
 )
 from lagrotor.theory.paired_precession.amplitudes import first_harmonic
-from lagrotor.theory.paired_precession.horner import program
+from lagrotor.theory.paired_precession.horner import horner_program
 from lagrotor.theory.paired_precession.series import shape_of
 
 SCENES = {
@@ -49,7 +49,7 @@ def test_axes_are_the_sum_of_the_harmonics():
 
 def test_a_point_of_the_page_costs_few_operations():
     """Horner's rule in cos² Phi: six operations an order for both axes, and no wave but one cosine and one sine."""
-    counts = {order: operations(program(order)) for order in (9, 15)}
+    counts = {order: operations(horner_program(order)) for order in (9, 15)}
     assert counts[15] - counts[9] <= 6 * 6
     assert counts[15] <= 6 * 15 + 16
 

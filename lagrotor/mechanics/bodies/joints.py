@@ -12,7 +12,7 @@ import sympy as sp
 
 from lagrotor.mechanics.bodies.small_matrices import Small, wedge, zeros
 from lagrotor.mechanics.bodies.stages import Stages
-from lagrotor.mechanics.bodies.trees import ZERO, Link, Mass, Pair, Tree
+from lagrotor.mechanics.bodies.trees import ZERO, Mass, Pair, Tree, TreeLink
 
 _EYE = sp.eye(3)
 _STILL = zeros(3, 3)
@@ -84,7 +84,7 @@ class Joint:
     lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the point r has the acceleration a + K r.
     """
 
-    link: Link
+    link: TreeLink
     shift: Small
     rotation: Small | None
     turn: Turn
@@ -123,7 +123,7 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
     return found
 
 
-def _joint(link: Link, carried: Sequence[Link], before: Joint | None, keep: Stages) -> Joint:
+def _joint(link: TreeLink, carried: Sequence[TreeLink], before: Joint | None, keep: Stages) -> Joint:
     """The joint without its motion."""
     turn, own = Turn(), Turn()
     if link.axis is not None and not (link.is_round and not carried):

@@ -34,7 +34,7 @@ class Mass:
 
 
 @dataclass(frozen=True)
-class Link:
+class TreeLink:
     """A joint and what it carries.
 
     parent: its number, −1 for the ground. shift: the link's origin from the parent's, in the parent's axes. rotation, then a
@@ -76,7 +76,7 @@ class Link:
 class Tree:
     """Links, parents first; the field (3, 1) that all bodies are in; the rest of the Lagrangian, at most linear in v."""
 
-    links: tuple[Link, ...]
+    links: tuple[TreeLink, ...]
     field: sp.Matrix
     rest: sp.Expr
 
@@ -119,7 +119,7 @@ class _NoTreeError(Exception):
     """A step by coordinates that another joint has, or by velocities."""
 
 
-def _links(c: Coordinates, bodies: list[Body]) -> tuple[Link, ...] | None:
+def _links(c: Coordinates, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
     """The links on the way to the bodies; None where they do not make a tree of joints."""
     walk = _Walk(c)
     try:
@@ -134,7 +134,7 @@ def _links(c: Coordinates, bodies: list[Body]) -> tuple[Link, ...] | None:
     return _parted([replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)])
 
 
-def _parted(links: list[Link]) -> tuple[Link, ...]:
+def _parted(links: list[TreeLink]) -> tuple[TreeLink, ...]:
     """The links, each with the bodies that cost it least.
 
     A point at the joint of a link that turns is that link's. A round link that carries nothing keeps the inertia about its
@@ -156,7 +156,7 @@ def _parted(links: list[Link]) -> tuple[Link, ...]:
     return tuple(links)
 
 
-def _split(mass: Mass, link: Link) -> tuple[Mass, Mass]:
+def _split(mass: Mass, link: TreeLink) -> tuple[Mass, Mass]:
     """A body's inertia about the axis of a round link, and the rest of it in the axes of the link's parent."""
     k = link.axis
     axial = sp.Matrix(3, 3, lambda i, j: mass.inertia[k, k] if i == j == k else sp.S.Zero)
@@ -173,7 +173,7 @@ class _Walk:
         self.c = c
         self.number = {q: i for i, q in enumerate(c.q)}
         self.moving = {*c.q, *c.v, t}
-        self.links: list[Link] = []
+        self.links: list[TreeLink] = []
         self.masses: list[list[Mass]] = []
         self.known: dict[MovingFrame, Place] = {}
         self.used: set[sp.Symbol] = set()
@@ -203,7 +203,7 @@ class _Walk:
             d = d + R * frame.amount
         elif frame.axis is None:
             R = R * frame.amount
-        self.links.append(Link(parent, d, R, frame.axis, angle, own, columns[:-1], rate, swing))
+        self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, columns[:-1], rate, swing))
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
 

@@ -43,7 +43,7 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
     return lambda t, y: function(t, np.append(y, t))[:-1]
 
 
-def projection(system: Equations, values: Values) -> Callable[[Array], Array]:
+def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:
     """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ."""
     program = projection_program(system)
     function, parameters = program.function, parameter_values(program, values)
@@ -57,7 +57,7 @@ def projection(system: Equations, values: Values) -> Callable[[Array], Array]:
     return project
 
 
-def scaled(bare: Rhs, scale: Array) -> Rhs:
+def scaled_rhs(bare: Rhs, scale: Array) -> Rhs:
     """The right-hand side for the state z, y = scale z."""
     if (scale == 1).all():
         return bare
@@ -66,7 +66,7 @@ def scaled(bare: Rhs, scale: Array) -> Rhs:
         return (np.asarray(bare(s, z * scale)) / scale).tolist()
 
     if inner := getattr(bare, "bare", None):
-        rate.bare = scaled(inner, scale)  # type: ignore[attr-defined]
+        rate.bare = scaled_rhs(inner, scale)  # type: ignore[attr-defined]
     return rate
 
 
@@ -75,7 +75,7 @@ def unscaled(stretch: Stretch, scale: Array) -> Stretch:
     return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
 
 
-def between(project: Projection | None, scale: Array) -> Projection | None:
+def scaled_projection(project: Projection | None, scale: Array) -> Projection | None:
     """The projection of a state z, or states (d, n), y = scale z."""
     return None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
 
@@ -96,7 +96,7 @@ def smooth_motion(
     """
     program, n = motion_program(system), len(system.c.q)
     parameters, d = parameter_values(program, values), len(program.states)
-    project = projection(system, values) if system.multipliers else None
+    project = projection_of(system, values) if system.multipliers else None
     scale = np.append(powers_of_two(sizes), np.ones(d - 2 * n))
     words = singular_position(system, values, start)
 
@@ -113,8 +113,8 @@ def smooth_motion(
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
         rate = 2 * np.pi / turn
-        bare = scaled(program.rhs(*parameters), scale)
-        problem = Problem(bare, start / scale, budget, project=between(project, scale), typical_rate=rate)
+        bare = scaled_rhs(program.rhs(*parameters), scale)
+        problem = Problem(bare, start / scale, budget, project=scaled_projection(project, scale), typical_rate=rate)
         try:
             if companion and stiff and local >= CROSSOVER.value:
                 segment = Segment(

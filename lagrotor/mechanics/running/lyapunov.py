@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.running.flow import Array, projection
+from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
 from lagrotor.numerics.integrate import Problem, integrate
@@ -50,7 +50,7 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         )
     given, n = tangent_program(motion_program(run.system)), 2 * run.q.shape[1]
     rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
-    project = projection(run.system, run.values) if run.system.multipliers else None
+    project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
     y = np.concatenate([run.q[0], run.v[0], [run.t[0]] * (d - n)])
     tangent = np.append(np.random.default_rng(1).normal(size=n), [0.0] * (d - n))  # time is not displaced

@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
-from lagrotor.mechanics.running.flow import Array, between, projection, scaled
+from lagrotor.mechanics.running.flow import Array, projection_of, scaled_projection, scaled_rhs
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -40,7 +40,7 @@ _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to
 SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
 
 
-class Mode(NamedTuple):
+class ContactMode(NamedTuple):
     """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
     motion, counted from 1. Components of the state of a run, after q, v and t."""
 
@@ -104,30 +104,30 @@ class Switched:
         return not (self.surfaces or self.events)
 
     @property
-    def slipping(self) -> Mode:
+    def slipping(self) -> ContactMode:
         """The mode in which nothing sticks and no gap is closed."""
-        return Mode((1,) * len(self.surfaces), (0,) * len(self.impacts))
+        return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 
     @property
     def impacts(self) -> tuple[Impact, ...]:
         return tuple(e for e in self.events if isinstance(e, Impact))
 
-    def mode(self, state: Array) -> Mode:
+    def mode(self, state: Array) -> ContactMode:
         parts = tuple(int(x) for x in np.rint(state[2 * self.n + 1 :]))
-        return Mode(parts[: len(self.surfaces)], parts[len(self.surfaces) : -1], parts[-1])
+        return ContactMode(parts[: len(self.surfaces)], parts[len(self.surfaces) : -1], parts[-1])
 
-    def state(self, y: Array, time: float, mode: Mode) -> Array:
+    def state(self, y: Array, time: float, mode: ContactMode) -> Array:
         """(q, v, t, mode): what a run carries from stage to stage."""
         return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, [mode.ended]])
 
-    def numbers(self, mode: Mode) -> dict[str, Any]:
+    def numbers(self, mode: ContactMode) -> dict[str, Any]:
         """The values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
         signs = {str(s.sign): float(k) for s, k in zip(self.surfaces, mode.signs, strict=True)}
         return {str(k): v for k, v in self.values.items()} | signs
 
-    def phase(self, mode: Mode) -> Phase:
+    def phase(self, mode: ContactMode) -> Phase:
         """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
@@ -235,7 +235,7 @@ def march(
     return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
 
 
-def _ended(h: Switched, mode: Mode, ending: Ending) -> Mode:
+def _ended(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
     """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
     same = [i for i, each in enumerate(h.endings) if (each.kind, each.reason) == (ending.kind, ending.reason)]
     if not same:
@@ -247,7 +247,7 @@ def _smooth(
     h: Switched,
     y: Array,
     now: float,
-    mode: Mode,
+    mode: ContactMode,
     times: Array,
     local: float,
     budget: float,
@@ -260,13 +260,15 @@ def _smooth(
     system, scale = phase.system, h.scale
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
-    project = projection(system, numbers) if system.multipliers else None
+    project = projection_of(system, numbers) if system.multipliers else None
     y = y if project is None else project(y)
     program, n = phase.watched, h.n
     parameters = parameter_values(program, numbers)
 
-    rhs = scaled(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
-    segment = Segment(rhs, y / scale, 0.0, times[-1] - now, times, budget=budget, project=between(project, scale))
+    rhs = scaled_rhs(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
+    segment = Segment(
+        rhs, y / scale, 0.0, times[-1] - now, times, budget=budget, project=scaled_projection(project, scale)
+    )
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in dop853_steps(segment, local / SAFETY):
@@ -339,7 +341,9 @@ def polished(functions: Any, k: int, t: float, left: float, right: float) -> flo
     return t
 
 
-def _switch(h: Switched, y: Array, now: float, mode: Mode, hit: Hit, gone: float | None) -> tuple[Array, Mode]:
+def _switch(
+    h: Switched, y: Array, now: float, mode: ContactMode, hit: Hit, gone: float | None
+) -> tuple[Array, ContactMode]:
     """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
     kind, i = hit.kind, hit.i
     n, signs, closed = h.n, list(mode.signs), list(mode.closed)
@@ -371,12 +375,12 @@ def _switch(h: Switched, y: Array, now: float, mode: Mode, hit: Hit, gone: float
     )
 
 
-def _rebound(h: Switched, y: Array, now: float, mode: Mode, i: int, e: float) -> tuple[Array, bool]:
+def _rebound(h: Switched, y: Array, now: float, mode: ContactMode, i: int, e: float) -> tuple[Array, bool]:
     """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
     there was no velocity of approach."""
     closed = tuple(1 if k == i else each for k, each in enumerate(mode.closed))
     slipping = tuple(s or 1 for s in mode.signs)
-    phase = h.phase(Mode(slipping, closed))
+    phase = h.phase(ContactMode(slipping, closed))
     n, system = h.n, phase.system
     program = start_program(system)
     numbers = parameter_values(program, h.numbers(mode))
@@ -392,14 +396,16 @@ def _rebound(h: Switched, y: Array, now: float, mode: Mode, i: int, e: float) ->
     return np.asarray(y[n : 2 * n] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
 
 
-def _numbers(h: Switched, system: Equations, expressions: list[sp.Expr], y: Array, now: float, mode: Mode) -> Array:
+def _numbers(
+    h: Switched, system: Equations, expressions: list[sp.Expr], y: Array, now: float, mode: ContactMode
+) -> Array:
     """Expressions at one state."""
     n, program = h.n, function_program(system, *expressions)
     parameters = parameter_values(program, h.numbers(mode))
     return values_of(program, y[:n, None], y[n : 2 * n, None], np.array([now]), parameters)[:, 0]
 
 
-def _decided(h: Switched, y: Array, now: float, mode: Mode, i: int) -> int:
+def _decided(h: Switched, y: Array, now: float, mode: ContactMode, i: int) -> int:
     """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
     rates = []
     for s in (1, -1):
@@ -423,7 +429,7 @@ def _decided(h: Switched, y: Array, now: float, mode: Mode, i: int) -> int:
     return 0
 
 
-def _settled(h: Switched, y: Array, now: float, mode: Mode, fixed: bool = False) -> Mode:
+def _settled(h: Switched, y: Array, now: float, mode: ContactMode, fixed: bool = False) -> ContactMode:
     """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
     signs, closed = list(mode.signs), list(mode.closed)
     if h.surfaces and not fixed:

@@ -64,7 +64,7 @@ def motion_program(system: Equations) -> Generated:
     """
     stages, a, _ = constrained_motion(system)
     states = state_symbols(system)
-    return generated(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
+    return _generated(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
@@ -72,7 +72,7 @@ def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
     return (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
 
 
-def generated(
+def _generated(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
     """A program of a state and parameters, its symbols renamed where a language would not take their names.
@@ -116,10 +116,10 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     """(q, v, t) → expressions in q, v, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.c.v, t)
     if not set().union(*(e.free_symbols for e in expressions)) & {*system.c.a, *system.multipliers}:
-        return generated(states, (), expressions)
+        return _generated(states, (), expressions)
     stages, a, lam = constrained_motion(system)
     made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
-    return generated(states, stages, [e.xreplace(made) for e in expressions])
+    return _generated(states, stages, [e.xreplace(made) for e in expressions])
 
 
 @lru_cache(maxsize=64)
@@ -130,7 +130,7 @@ def energy_program(system: Equations) -> Generated:
         return function_program(system, system.energy)
     keep = Stages()
     energy = tree_energy(tree, joints(tree, keep), system.c, keep)
-    return generated((*system.c.q, *system.c.v, t), keep.made, [energy])
+    return _generated((*system.c.q, *system.c.v, t), keep.made, [energy])
 
 
 def _is_plain(name: str) -> bool:
@@ -201,7 +201,7 @@ def projection_program(system: Equations) -> Generated:
     moves[:, 1] = W * x
     state = sp.Matrix([*system.c.q, *system.c.v]) - moves[:, 0].col_join(moves[:, 1])
     states = state_symbols(system)
-    return generated(states, [*stages, *more], [*state, *states[len(state) :]])
+    return _generated(states, [*stages, *more], [*state, *states[len(state) :]])
 
 
 def tangent_program(given: Generated) -> Generated:

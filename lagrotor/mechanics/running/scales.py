@@ -6,7 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.flow import Array, Integrate, Rhs, Values, between, projection, scaled, unscaled
+from lagrotor.mechanics.running.flow import (
+    Array,
+    Integrate,
+    Rhs,
+    Values,
+    projection_of,
+    scaled_projection,
+    scaled_rhs,
+    unscaled,
+)
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, values_of
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.segment import Segment, StopError, Stretch
@@ -36,7 +45,9 @@ class Scales:
         return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
 
 
-def survey(system: Equations, values: Values, start: Array, times: Array, motion: Integrate | None = None) -> Scales:
+def motion_scales(
+    system: Equations, values: Values, start: Array, times: Array, motion: Integrate | None = None
+) -> Scales:
     """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
 
     motion: where it is not smooth.
@@ -68,12 +79,18 @@ def _coarsely(system: Equations, values: Values, start: Array, span: float) -> I
     n, program = len(system.c.q), motion_program(system)
     bare = program.rhs(*parameter_values(program, values))
     scale = np.append(first_sizes(bare, start, span, n), np.ones(len(start) - 2 * n))
-    project = projection(system, values) if system.multipliers else None
+    project = projection_of(system, values) if system.multipliers else None
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         since = times - times[0]
         segment = Segment(
-            scaled(bare, scale), start / scale, 0.0, span, since[1:], budget=budget, project=between(project, scale)
+            scaled_rhs(bare, scale),
+            start / scale,
+            0.0,
+            span,
+            since[1:],
+            budget=budget,
+            project=scaled_projection(project, scale),
         )
         try:
             return unscaled(dop853(segment, local), scale)

@@ -14,7 +14,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_pictures, sections
 from lagrotor.mechanics.running.first_integrals import defect_of
-from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection
+from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import begin, switched
@@ -25,8 +25,8 @@ from lagrotor.mechanics.running.programs import (
     rows_program,
     values_of,
 )
-from lagrotor.mechanics.running.scales import Scales, survey
-from lagrotor.mechanics.running.starts import consistent, increasing, vector
+from lagrotor.mechanics.running.scales import Scales, motion_scales
+from lagrotor.mechanics.running.starts import consistent, increasing, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
@@ -83,7 +83,7 @@ class SystemRun(SampledMotion):
         )  # fmt: skip
 
 
-def simulate(
+def simulate_system(
     system: Equations,
     values: Values,
     q0: ArrayLike,
@@ -109,7 +109,7 @@ def simulate(
     times, tol = increasing("simulate", t), check_tolerance(tol)
     check_engine(engine)
     h, n = switched(system, values, check_events(system, events)), len(system.c.q)
-    q, v = vector("q0", q0, n), vector("v0", v0, n)
+    q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     for event in h.events:
         wanted = (
@@ -120,12 +120,12 @@ def simulate(
         q, v = _on_constraints(system, values, q, v, times[0])
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
-        scales = survey(system, values, start, times)
+        scales = motion_scales(system, values, start, times)
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:
         start = begin(h, q, v, times[0])
-        scales = survey(system, values, start, times, integration_of(system, values, engine, None, h, start))
+        scales = motion_scales(system, values, start, times, integration_of(system, values, engine, None, h, start))
         h = replace(h, scale=powers_of_two(scales.sizes))
     evolution = Evolution(
         start=start,
@@ -133,7 +133,7 @@ def simulate(
         distance=scales.distance,
         turn=scales.turn,
         patience=_PATIENCE,
-        project=projection(system, values) if system.multipliers and h.smooth else None,
+        project=projection_of(system, values) if system.multipliers and h.smooth else None,
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
     )
     found = estimate_run(evolution, times, tol)

@@ -16,7 +16,7 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
     """
     n, h = len(system.c.q), len(system.constraints)
-    q, v = vector("q0", q0, n), vector("v0", v0, n)
+    q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
     given = start_program(system)
     rest = (t, *parameter_values(given, values, "consistent"))
     ends = np.cumsum([n * n, h, n * len(system.multipliers)])
@@ -36,7 +36,7 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
 
 
-def vector(name: str, given: ArrayLike, n: int) -> Array:
+def state_vector(name: str, given: ArrayLike, n: int) -> Array:
     try:
         found = np.asarray(given, dtype=float)
     except (TypeError, ValueError):

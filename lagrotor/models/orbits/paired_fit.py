@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.models.model import Array, ClosedForm
-from lagrotor.models.orbits.periodic_orbit import parting, periodic_orbit
+from lagrotor.models.model import Array, ClosedMotion
+from lagrotor.models.orbits.periodic_orbit import fourier_orbit, parting
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.shown import superscript
@@ -114,7 +114,7 @@ def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tupl
     return unknowns, float(np.linalg.norm(left))
 
 
-def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedForm:
+def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedMotion:
     """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
 
     The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
@@ -152,16 +152,16 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)
 
 
-def _over_periods(scene: Scene, series: ClosedForm, frequency: float, t_end: float) -> ClosedForm:
+def _over_periods(scene: Scene, series: ClosedMotion, frequency: float, t_end: float) -> ClosedMotion:
     """For a long run that the series cannot follow: one period integrated, where the start returns to itself."""
     try:
-        orbit = periodic_orbit(replace(scene, shock=None), 2 * pi / abs(frequency))
+        orbit = fourier_orbit(replace(scene, shock=None), 2 * pi / abs(frequency))
     except LagrotorError:
         return series
     error = (orbit.mismatch + ROUND) * (abs(frequency) * t_end + parting(orbit, t_end))
     if not error < min(series.error, _SMALL):
         return series
-    return ClosedForm(error, "on its paired precession: Fourier series of one integrated period", orbit.motion)
+    return ClosedMotion(error, "on its paired precession: Fourier series of one integrated period", orbit.motion)
 
 
 @lru_cache(maxsize=64)
@@ -186,7 +186,7 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     return np.array([r0, phase, azimuth])
 
 
-def _orbit_answer(waves: _Waves, frequency: float, unknowns: Array, order: int, error: float) -> ClosedForm:
+def _orbit_answer(waves: _Waves, frequency: float, unknowns: Array, order: int, error: float) -> ClosedMotion:
     r0, phase, azimuth = (float(u) for u in unknowns)
     h = np.arange(order + 1)[:, None]
     # Both axes and both rates as one real matrix over cos(h Phi) and sin(h Phi); half a period later odd waves change sign.
@@ -204,4 +204,4 @@ def _orbit_answer(waves: _Waves, frequency: float, unknowns: Array, order: int, 
         return seen[0], seen[1]
 
     reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{superscript(order)}"
-    return ClosedForm(error, reason, motion)
+    return ClosedMotion(error, reason, motion)

@@ -18,7 +18,7 @@ _LEAST = 1e-16  # of a harmonic that is kept
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodicOrbit:
+class FourierOrbit:
     """period (s); mismatch: how far axes, and rates over the frequency, are from the start after one period, and what the
     series leaves out; monodromy (6, 6): of small deviations over one period, in the minimal model's natural units; motion:
     times (n,) in s → axes and rates, each (2, n, 3)."""
@@ -29,7 +29,7 @@ class PeriodicOrbit:
     motion: Callable[[Array], tuple[Array, Array]]
 
 
-def periodic_orbit(scene: Scene, period: float) -> PeriodicOrbit:
+def fourier_orbit(scene: Scene, period: float) -> FourierOrbit:
     """The scene's motion, its period known to a small share, as the Fourier series of one integrated period.
 
     The period is corrected so that the axes return as nearly as they do: r(T) − r(0) + r'(0) dT is least. Raises
@@ -48,7 +48,7 @@ def periodic_orbit(scene: Scene, period: float) -> PeriodicOrbit:
     sizes = np.abs(waves).max(axis=(0, 2))
     kept = int(np.flatnonzero(sizes > _LEAST).max()) + 1
     tail = float(sizes[_SAMPLES // 4 :].sum())
-    return PeriodicOrbit(
+    return FourierOrbit(
         last / units.rate,
         float(np.abs(off).max() + np.abs(turning).max()) + tail,
         _monodromy(units.scene, last),
@@ -56,7 +56,7 @@ def periodic_orbit(scene: Scene, period: float) -> PeriodicOrbit:
     )
 
 
-def parting(orbit: PeriodicOrbit, t_end: float) -> float:
+def parting(orbit: FourierOrbit, t_end: float) -> float:
     """How far deviations from the orbit grow up to t_end (s): the largest norm of the monodromy's powers of 2ⁿ periods."""
     power, most, count = orbit.monodromy, 1.0, t_end / orbit.period
     while count >= 1 and most < 1e20:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
+def _tangent_program(source: Program, by: Sequence[sp.Symbol]) -> Program:
     """The program that also gives the Jacobian of its outputs by the arguments `by`: outputs, then rows of the Jacobian.
 
     Forward differentiation, stage by stage: exact, and no longer than len(by) times the program.
@@ -62,7 +62,7 @@ def _tangents(massive: bool, ratio: Ratio) -> str:
     from lagrotor.numerics.rhs import rhs_source
 
     whole = program(massive, ratio, 0)
-    return rhs_source(tangent_program(replace(whole, outputs=whole.outputs[3:]), whole.arguments[:6]), 6)
+    return rhs_source(_tangent_program(replace(whole, outputs=whole.outputs[3:]), whole.arguments[:6]), 6)
 
 
 @dataclass(frozen=True)

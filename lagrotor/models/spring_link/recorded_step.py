@@ -12,7 +12,7 @@ from lagrotor.models.spring_link.system import RigidBodySystem, link_force
 from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.recorded_numbers import Recorded
-from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
@@ -34,7 +34,7 @@ def rate_function(system: RigidBodySystem, shock: Shock | None) -> OfState:
     """The state y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
-        turning = cross_matrix(moving.Omega) @ moving.R
+        turning = skew_matrix(moving.Omega) @ moving.R
         changes = moving.U, moving.F * moving.inverse_mass, moving.tau, turning
         return np.concatenate([change[:-1].ravel() for change in changes])
 

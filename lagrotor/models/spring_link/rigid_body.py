@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.rotations import cross_matrix, turn_about
+from lagrotor.numerics.rotations import skew_matrix, turn_about
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def printed_rotation(Omega: Array, dt: float) -> Array:
         P = Omega[:, :, None] * Omega[:, None, :] / (Omega**2).sum(1)[:, None, None]
         n = Omega / size[:, None]
         angle = (size * dt)[:, None, None]
-        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * cross_matrix(n)
+        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew_matrix(n)
     return np.where(size[:, None, None] == 0, np.eye(3), turned)
 
 

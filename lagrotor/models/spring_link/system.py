@@ -21,7 +21,7 @@ from lagrotor.models.spring_link.rigid_body import (
     finite_rotation,
     inertia_transform,
 )
-from lagrotor.numerics.rotations import cross_matrix, turning_sum
+from lagrotor.numerics.rotations import skew_matrix, turning_sum
 
 LinkForce = Callable[[Array, Array, float, float], Array]
 
@@ -107,7 +107,7 @@ class RigidBodySystem:
         i, arm = self._end(body, vertex)
         given = finite_array(force, (3,), "push: force") * strength
         self.F[i] += given
-        self.tau[i] += cross_matrix(self.R[i] @ arm) @ given
+        self.tau[i] += skew_matrix(self.R[i] @ arm) @ given
 
     def angular_velocity(self) -> Array:
         """Omega = R I₀⁻¹ Rᵀ L, (n + 1, 3) in rad/s: 3.17 in the right frames, from the stored I₀⁻¹."""
@@ -115,7 +115,7 @@ class RigidBodySystem:
 
     def compute_forces(self) -> None:
         """F and tau (n + 1, 3): sums of the external and the link forces, and of X_r × F (3.02, 3.06)."""
-        gap, rate = self.gaps(self.X, self.R), self.gaps(self.U, cross_matrix(self.Omega) @ self.R)
+        gap, rate = self.gaps(self.X, self.R), self.gaps(self.U, skew_matrix(self.Omega) @ self.R)
         pull = self.force(gap, rate, self.stiffness, self.damping)
         # Σ ±F for each body, then Σ ±a_k F for each of its axes e_k: X_r = Σ a_k e_k.
         on_bodies = self._incidence.T.dot(pull).reshape(-1, 4, 3)
@@ -159,7 +159,7 @@ class RigidBodySystem:
         3 × 3 blocks on the diagonal are the sums over both ends of 1/M − [r]× I⁻¹ [r]×.
         """
         n, ends = len(self._incidence), self._incidence.reshape(-1, len(self.X), 4)
-        share, crossed = ends[..., 0], cross_matrix((self.R @ ends[..., 1:, None])[..., 0])
+        share, crossed = ends[..., 0], skew_matrix((self.R @ ends[..., 1:, None])[..., 0])
         turning = self.transform(self.R, self.inverse_inertia)
         pushed = np.einsum("lb,b,mb,ij->limj", share, self.inverse_mass[:, 0], share, np.eye(3))
         turned = np.einsum("lbij,bjk,mbkn->limn", crossed, turning, crossed)

@@ -46,7 +46,7 @@ class Swarm:
         )
 
 
-def march(swarm: Swarm, times: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
+def march_swarm(swarm: Swarm, times: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
     """States (n, m, d) at the times (m,), increasing from 0 or later, and evaluations (n,).
 
     DOP853 (Hairer, Nørsett & Wanner, II.5) with the error norm of scipy's, taken for each trajectory by itself, and a

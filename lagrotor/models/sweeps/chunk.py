@@ -15,7 +15,7 @@ from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
 from lagrotor.models.model import Observed, check_range, constant_momenta
 from lagrotor.models.natural_units import natural_units, typical_rate
 from lagrotor.models.simulate import simulate
-from lagrotor.models.sweeps.batch_dop853 import LEAST_TOLERANCE, Index, Rates, Swarm, march
+from lagrotor.models.sweeps.batch_dop853 import LEAST_TOLERANCE, Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.estimate_constants import APART, FIRST, LEAST, RESOLVED, ROUNDING, SAFETY, START
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import TIGHTEST
@@ -121,7 +121,7 @@ def _by_minimal(
         else:
             # A step ends at each time: a companion has others between them, so that no two take the same few steps.
             t = np.union1d(times, times[:-1] + _BETWEEN * np.diff(times)) if companion else times
-            states, spent = march(replace(swarm.part(who), start=begun), t, local)
+            states, spent = march_swarm(replace(swarm.part(who), start=begun), t, local)
             states = states[:, np.isin(t, times)]
         chunk.evaluations[places[who]] += spent
         whole = np.isfinite(states).all((1, 2))

@@ -6,7 +6,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
-from lagrotor.paper.premises import Premise, parameter_premise, written_out
+from lagrotor.paper.premises import Premise, parameter_premise, with_meanings
 from lagrotor.paper.rotor_pair.symbols import WRITTEN_OUT
 
 # The paper's own rotor and bar (section 4.1), SI units, and the lighter bar of section 5.2.1.
@@ -16,7 +16,7 @@ LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational
 
 def in_parameters(expression: Any) -> Any:
     """The expression in the rotor's and the bar's own parameters: a, b, k, J by what they are."""
-    return written_out(expression, WRITTEN_OUT)
+    return with_meanings(expression, WRITTEN_OUT)
 
 
 def about_parameters(says: str, put: Mapping[sp.Symbol, Any]) -> Premise:

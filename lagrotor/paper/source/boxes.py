@@ -89,7 +89,7 @@ _CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
 _MOST = 200  # brackets within brackets
 
 
-class StopError(Exception):
+class FormulaError(Exception):
     """Where the reading stops: the place in the LaTeX, what stands there, and what would help."""
 
     def __init__(self, at: int, what: str, help_: str) -> None:
@@ -121,7 +121,7 @@ class Box:
 
 
 def boxes(latex: str) -> list[Box]:
-    """The boxes of a formula. Raises StopError at a token that has no place."""
+    """The boxes of a formula. Raises FormulaError at a token that has no place."""
     reader = _Reader(latex)
     found = reader.sequence(())
     if reader.place < len(reader.items):
@@ -146,7 +146,7 @@ class _Reader:
 
     def stop(self, what: str, help_: str) -> None:
         item = self.items[min(self.place, len(self.items) - 1)] if self.items else Token("text", "", 0)
-        raise StopError(item.at, f"{item.text} {what}", help_)
+        raise FormulaError(item.at, f"{item.text} {what}", help_)
 
     def peek(self) -> Token | None:
         return self.items[self.place] if self.place < len(self.items) else None
@@ -179,7 +179,7 @@ class _Reader:
         opened = self.take()
         found = self.sequence(("}",), style)
         if self.peek() is None:
-            raise StopError(opened.at, "{ is not closed", "write the brace that closes it")
+            raise FormulaError(opened.at, "{ is not closed", "write the brace that closes it")
         self.take()
         return found
 
@@ -276,7 +276,7 @@ class _Reader:
 
     def prime(self, found: list[Box], item: Token) -> None:
         if not found:
-            raise StopError(item.at, "' has nothing before it", "write the letter that it belongs to")
+            raise FormulaError(item.at, "' has nothing before it", "write the letter that it belongs to")
         found[-1].primes += 1
         found[-1].end = item.at + 1
 
@@ -284,7 +284,7 @@ class _Reader:
         item = self.take()
         target = found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
-            raise StopError(
+            raise FormulaError(
                 item.at, f"{item.text} has nothing before it", "write the letter that the script belongs to"
             )
         content = self.argument()
@@ -292,11 +292,11 @@ class _Reader:
             if content and all(b.kind == "letter" and b.name == "prime" for b in content):
                 target.primes += len(content)
             elif target.sup is not None:
-                raise StopError(item.at, "two powers follow each other", "write braces around the first")
+                raise FormulaError(item.at, "two powers follow each other", "write braces around the first")
             else:
                 target.sup = content
         elif target.sub is not None:
-            raise StopError(item.at, "two indices follow each other", "write them in one pair of braces")
+            raise FormulaError(item.at, "two indices follow each other", "write them in one pair of braces")
         else:
             target.sub = content
         target.end = self.end
@@ -464,10 +464,10 @@ class _Reader:
         opening = self.take().text
         parts: list[list[Box]] = [self.sequence((r"\right",))]
         if self.peek() is None:
-            raise StopError(item.at, r"\left is not closed", r"write \right with its bracket")
+            raise FormulaError(item.at, r"\left is not closed", r"write \right with its bracket")
         self.take()
         if self.peek() is None:
-            raise StopError(item.at, r"\right has no bracket", "write one, or a full stop")
+            raise FormulaError(item.at, r"\right has no bracket", "write one, or a full stop")
         closing = self.take().text
         return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
 
@@ -479,7 +479,7 @@ class _Reader:
             self.take()
             after = self.peek()
         if after is None or after.text != closing:
-            raise StopError(item.at, f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+            raise FormulaError(item.at, f"{opening} is not closed by {closing}", f"write {closing} where it ends")
         self.take()
         return Box("bracket", opening, item.at, self.end, [content], closing=closing)
 
@@ -504,7 +504,7 @@ class _Reader:
             kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
             rows = self.rows(name, item)
             return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
-        raise StopError(item.at, rf"\begin{{{name}}} is not known", "write the formula without this environment")
+        raise FormulaError(item.at, rf"\begin{{{name}}} is not known", "write the formula without this environment")
 
     def rows(self, name: str, item: Token) -> list[list[list[Box]]]:
         """Rows of cells until the environment ends."""
@@ -513,7 +513,7 @@ class _Reader:
             rows[-1][-1] += self.sequence(("&", r"\\", r"\end", r"\hline", r"\cr"))
             after = self.peek()
             if after is None or after.text not in ("&", r"\\", r"\end", r"\hline", r"\cr"):
-                raise StopError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
+                raise FormulaError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
             self.take()
             if after.text == "&":
                 if name in _PAIRS and len(rows[-1]) % 2 == 0:  # every second & begins another equation
@@ -548,7 +548,7 @@ class _Reader:
         return [Box("relation", "->", item.at, self.end)]
 
     def _substack(self, item: Token, style: str) -> list[Box]:
-        raise StopError(item.at, r"\substack is not read", "write the condition in one line")
+        raise FormulaError(item.at, r"\substack is not read", "write the condition in one line")
 
     def _label(self, item: Token, style: str) -> list[Box]:
         self.plain()
@@ -559,7 +559,7 @@ class _Reader:
         return [Box("thin", "", item.at, self.end)]
 
     def _pmod(self, item: Token, style: str) -> list[Box]:
-        raise StopError(item.at, r"\pmod is not read", "keep it aside")
+        raise FormulaError(item.at, r"\pmod is not read", "keep it aside")
 
 
 def _joins(before: Box, made: list[Box]) -> bool:

@@ -19,9 +19,9 @@ from lagrotor.algebra import agreement_order, decide_equal
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.source.dimensions import Dimensions
 from lagrotor.paper.source.displays import Displayed, Source
-from lagrotor.paper.source.formula import Reading, Side, Statement, read_formula
+from lagrotor.paper.source.formula import PrintedStatement, Reading, Side, read_formula
 from lagrotor.paper.source.markup import read_source
-from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, expression, letters_of, text_of, walk
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, letters_of, sympy_expression, text_of, walk
 from lagrotor.paper.source.usage import Notation, notation_of
 
 HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
@@ -38,7 +38,7 @@ _FEW, _SHARE = 3, 0.05
 
 
 @dataclass(frozen=True)
-class Finding:
+class StepFinding:
     """What was found of one equation: `step` counts the relations of its chain from 1; 0: of the whole."""
 
     equation: str
@@ -59,15 +59,15 @@ class _Read:
     """One statement of an equation."""
 
     equation: Displayed
-    statement: Statement
+    statement: PrintedStatement
 
 
-def check(source: Path) -> list[Finding]:
+def check_source_file(source: Path) -> list[StepFinding]:
     """The findings on a source, in its order. Raises InputError for a file that cannot be read."""
     return check_source(read_source(source))
 
 
-def check_source(source: Source) -> list[Finding]:
+def check_source(source: Source) -> list[StepFinding]:
     """The findings on the displayed equations of a source."""
     notation = notation_of([*(each.latex for each in source.equations), *source.inline])
     readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
@@ -83,7 +83,7 @@ class _Checker:
         self.before: list[_Read] = []
         self.statements = [_Read(each, s) for each, reading in readings for s in reading.statements]
 
-    def findings(self) -> Iterator[Finding]:
+    def findings(self) -> Iterator[StepFinding]:
         """Every finding."""
         for each, reading in self.readings:
             if not reading.whole:
@@ -97,17 +97,17 @@ class _Checker:
         yield from self._dimensions()
         yield from self._letters()
 
-    def _finding(self, each: Displayed, step: int, side: Side | None, verdict: str, why: str) -> Finding:
+    def _finding(self, each: Displayed, step: int, side: Side | None, verdict: str, why: str) -> StepFinding:
         line = each.place[1]
         if side is not None and len(each.rows) > 1:
             line = each.rows[min(each.latex[: side.at].count(r"\\"), len(each.rows) - 1)]
         own = Path(each.place[0]).name
         main = self.source.equations[0].place[0]
-        return Finding(each.id, step, line, verdict, why, own if own != main else "")
+        return StepFinding(each.id, step, line, verdict, why, own if own != main else "")
 
     # ---- chains
 
-    def _steps(self, each: Displayed, statement: Statement, reading: Reading) -> Iterator[Finding]:
+    def _steps(self, each: Displayed, statement: PrintedStatement, reading: Reading) -> Iterator[StepFinding]:
         """Each step of a chain but the first, which says what is meant."""
         sides = statement.sides
         for step in range(1, len(sides)):
@@ -124,7 +124,7 @@ class _Checker:
             if step > 1 or verdict == HOLDS:
                 yield self._finding(each, step, right, verdict, why)
 
-    def _continued(self, each: Displayed, statement: Statement) -> Statement:
+    def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """A row that continues the one before, with the last side of that row in its place."""
         place = self.source.equations.index(each)
         before = self.readings[place - 1][1] if each.lead and place else None
@@ -151,7 +151,7 @@ class _Checker:
 
     def _step(self, left: Node, right: Node, first: bool) -> tuple[str, str]:
         try:
-            a, b = expression(left, self.opaque), expression(right, self.opaque)
+            a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
         except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
             return "undecided", f"the two sides cannot be compared: {error}"
         answer = decided(a, b)
@@ -190,7 +190,7 @@ class _Checker:
             value = _number(fixed, point)
             for mutant, said in islice(slips(changing), _MOST_SLIPS):
                 try:
-                    other = expression(mutant, self.opaque)
+                    other = sympy_expression(mutant, self.opaque)
                 except (TypeError, ValueError, ArithmeticError, AttributeError):
                     continue
                 if _near(value, _number(other, point)) and decided(fixed, other) == "zero":
@@ -243,7 +243,7 @@ class _Checker:
                 if first.name in letters_of(last):
                     continue
                 try:
-                    value = expression(last, self.opaque)
+                    value = sympy_expression(last, self.opaque)
                 except (TypeError, ValueError, ArithmeticError, AttributeError):
                     continue
                 if isinstance(value, sp.MatrixBase):
@@ -256,12 +256,14 @@ class _Checker:
             a, b = a.subs(values), b.subs(values)
         return (a, b), list(dict.fromkeys(used))
 
-    def _order(self, each: Displayed, step: int, left: Side, right: Side, order: tuple[str, int]) -> Iterator[Finding]:
+    def _order(
+        self, each: Displayed, step: int, left: Side, right: Side, order: tuple[str, int]
+    ) -> Iterator[StepFinding]:
         """A step that is claimed through an order of a small letter."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
-            a, b = expression(left.node, self.opaque), expression(right.node, self.opaque)
+            a, b = sympy_expression(left.node, self.opaque), sympy_expression(right.node, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return
             term = agreement_order(a, b, small, power - 1)
@@ -281,7 +283,7 @@ class _Checker:
 
     # ---- equations and what they cite
 
-    def _against_cited(self, each: Displayed, reading: Reading) -> Iterator[Finding]:
+    def _against_cited(self, each: Displayed, reading: Reading) -> Iterator[StepFinding]:
         """An equation against two that the text before it names, where the one is a definition in the other."""
         if len(each.cites) < 2 or len(reading.statements) != 1:
             return
@@ -293,7 +295,7 @@ class _Checker:
             first = definition.statement.sides[0].node
             if not isinstance(first, Letter) or len(definition.statement.sides) != 2:
                 continue
-            value = expression(definition.statement.sides[1].node, self.opaque)
+            value = sympy_expression(definition.statement.sides[1].node, self.opaque)
             for other in named:
                 old = self._difference(other.statement)
                 symbol = sp.Symbol(first.name, real=True)
@@ -318,7 +320,7 @@ class _Checker:
                     yield self._finding(each, 0, None, "undecided", f"it is not {names} alone")
                 return
 
-    def _difference(self, statement: Statement) -> sp.Expr | None:
+    def _difference(self, statement: PrintedStatement) -> sp.Expr | None:
         if (
             statement.kind != "equation"
             or len(statement.sides) != 2
@@ -326,14 +328,14 @@ class _Checker:
         ):
             return None
         try:
-            left, right = (expression(side.node, self.opaque) for side in statement.sides)
+            left, right = (sympy_expression(side.node, self.opaque) for side in statement.sides)
         except (TypeError, ValueError, ArithmeticError, AttributeError):
             return None
         return None if isinstance(left, sp.MatrixBase) or isinstance(right, sp.MatrixBase) else left - right
 
     # ---- dimensions and letters
 
-    def _dimensions(self) -> Iterator[Finding]:
+    def _dimensions(self) -> Iterator[StepFinding]:
         """Equations whose dimensions contradict those of the others."""
         known = Dimensions()
         broken = []
@@ -345,7 +347,7 @@ class _Checker:
             for read, why in broken:
                 yield self._finding(read.equation, 0, None, UNITS, why)
 
-    def _letters(self) -> Iterator[Finding]:
+    def _letters(self) -> Iterator[StepFinding]:
         """Letters that are defined twice, used before they are given, or have two meanings."""
         definitions: dict[str, tuple[int, _Read]] = {}
         for place, read in enumerate(self.statements):
@@ -354,7 +356,7 @@ class _Checker:
                 continue
             if first.name in definitions:
                 _, other = definitions[first.name]
-                a, b = (expression(r.statement.sides[1].node, self.opaque) for r in (other, read))
+                a, b = (sympy_expression(r.statement.sides[1].node, self.opaque) for r in (other, read))
                 if decided(a, b) == "nonzero" and decided(*self._put_in(a, b)[0]) == "nonzero":
                     yield self._finding(
                         read.equation, 0, None, MEANINGS, f"{first.name} is defined in ({other.equation.id}) otherwise"

@@ -8,14 +8,14 @@ import re
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box, StopError, boxes
+from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box, FormulaError, boxes
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, number, walk
 from lagrotor.paper.source.tree import is_vector as vector_valued
 from lagrotor.paper.source.usage import (
     Notation,
     arguments,
     index_of,
-    is_vector,
+    is_printed_as_vector,
     name_of,
     simple_argument,
 )
@@ -37,7 +37,7 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Statement:
+class PrintedStatement:
     """Sides and the relations between them; `order`: (small letter, power) of a term O(…) that the last side had.
 
     kind: equation, approximation, inequality, range, expression or other.
@@ -53,7 +53,7 @@ class Statement:
 class Reading:
     """The statements of a formula; none where it is not read. stop: (token, what would help); guesses: what custom settled."""
 
-    statements: tuple[Statement, ...] = ()
+    statements: tuple[PrintedStatement, ...] = ()
     guesses: tuple[str, ...] = ()
     stop: tuple[str, str] | None = None
 
@@ -69,7 +69,7 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
     reader = _Formula(source, notation or Notation())
     try:
         statements = tuple(reader.statements(boxes(source)))
-    except StopError as stop:
+    except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:
         return Reading(stop=("the formula is nested too deeply", "write it in parts"))
@@ -99,9 +99,9 @@ class _Formula:
 
     # ---- statements
 
-    def statements(self, row: list[Box]) -> list[Statement]:
+    def statements(self, row: list[Box]) -> list[PrintedStatement]:
         """The statements of a formula, its rows joined where one continues the other."""
-        found: list[Statement] = []
+        found: list[PrintedStatement] = []
         for piece in self._pieces(_trimmed(row)):
             found += self._statements(piece)
         return found
@@ -153,10 +153,12 @@ class _Formula:
         if first.kind in ("arrow", "text"):
             return False
         if not any(box.kind == "relation" for box in line) and last.kind != "comma":
-            raise StopError(first.at, "a row has no relation", "begin it with the sign that joins it to the row before")
+            raise FormulaError(
+                first.at, "a row has no relation", "begin it with the sign that joins it to the row before"
+            )
         return False
 
-    def _statements(self, row: list[Box]) -> list[Statement]:
+    def _statements(self, row: list[Box]) -> list[PrintedStatement]:
         """The statements of one piece, parted by wide spaces, words, arrows and commas."""
         parts: list[tuple[str, list[Box]]] = [("", [])]
         for place, box in enumerate(row):
@@ -168,7 +170,7 @@ class _Formula:
                 and any(b.kind not in ("thin", "wide", "comma") for b in row[place + 1 :])
                 and (row[place + 1].kind not in ("wide", "arrow", "text"))
             ):
-                raise StopError(box.at, "a full stop stands within the formula", "write \\cdot for a product")
+                raise FormulaError(box.at, "a full stop stands within the formula", "write \\cdot for a product")
             elif box.kind == "wide" or box.kind == "comma":
                 if box.kind == "wide" and self._goes_on(row, place, parts[-1][1]):
                     continue
@@ -177,7 +179,7 @@ class _Formula:
                 continue
             else:
                 parts[-1][1].append(box)
-        found: list[Statement] = []
+        found: list[PrintedStatement] = []
         for parted, part in parts:
             part = [box for box in part if box.kind != "thin"] if not part or part[0].kind == "thin" else part
             if not _trimmed(part):
@@ -206,7 +208,7 @@ class _Formula:
         edges = (before is None or before.kind == "relation") and (after is None or after.kind == "relation")
         return edges and not (before is None and after is None)
 
-    def _further(self, found: list[Statement], part: list[Box]) -> None:
+    def _further(self, found: list[PrintedStatement], part: list[Box]) -> None:
         """What follows a comma without a relation: n = 1, 2, …."""
         last = found[-1]
         simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
@@ -218,9 +220,9 @@ class _Formula:
         if last.kind == "expression" or (last.relations and last.relations[-1] in ("in", "->", "!=")):
             found.append(self._statement(part))
             return
-        raise StopError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
+        raise FormulaError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
 
-    def _statement(self, row: list[Box]) -> Statement:
+    def _statement(self, row: list[Box]) -> PrintedStatement:
         sides: list[list[Box]] = [[]]
         relations: list[str] = []
         for box in row:
@@ -230,12 +232,14 @@ class _Formula:
             else:
                 sides[-1].append(box)
         if len(sides) > 1 and not _trimmed(sides[0]):
-            raise StopError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
+            raise FormulaError(
+                row[0].at, "the left side is missing", "write what is equal, or join it to the row before"
+            )
         read: list[Side] = []
         for place, side in enumerate(sides):
             side = _trimmed(side)
             if not side:
-                raise StopError(row[-1].at, "a side of the relation is missing", "write it")
+                raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
             if len(side) == 1 and side[0].kind == "dots" and relations and place == len(sides) - 1:
                 relations.pop()
                 continue
@@ -243,7 +247,7 @@ class _Formula:
             read.append(Side(self._side(side), latex, side[0].at))
         degrees = {_degree(side.node, side.at) for side in read if not _zero(side.node)}
         if len(degrees) > 1 and not any(relation in ("->", "in") for relation in relations):
-            raise StopError(
+            raise FormulaError(
                 row[0].at, "a differential stands on one side only", "write the derivative, or both differentials"
             )
         order = None
@@ -252,23 +256,23 @@ class _Formula:
             order, kept = _order_term(final)
             if order is not None:
                 read[-1] = replace(read[-1], node=kept)
-        return Statement(tuple(read), tuple(relations), _kind(relations), order)
+        return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
     def _side(self, row: list[Box]) -> Node:
         if len(row) == 1 and row[0].kind == "text":
             name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
             if not re.match(r"[A-Za-z]\w*$", name):
-                raise StopError(row[0].at, "words stand for a side", "give it a letter")
+                raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
             return Letter(name)
         return self.expression(row)
 
     # ---- expressions
 
     def expression(self, row: list[Box]) -> Node:
-        """The sum that a row of boxes is. Raises StopError where it is none."""
+        """The sum that a row of boxes is. Raises FormulaError where it is none."""
         row = _paired(_trimmed(row))
         if not row:
-            raise StopError(0, "nothing stands here", "write what is meant")
+            raise FormulaError(0, "nothing stands here", "write what is meant")
         terms: list[tuple[str, list[Box]]] = []
         sign = "+"
         part: list[Box] = []
@@ -276,14 +280,14 @@ class _Formula:
             if box.kind == "operator" and box.name in ("+", "-", "pm", "mp"):
                 if not part:
                     if terms or (place and not (sign == "+" and not terms)):
-                        raise StopError(box.at, "two signs follow each other", "write brackets around the second")
+                        raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
                     sign = box.name
                     continue
                 if part[-1].kind == "operator" and part[-1].name != "!":
                     if box.name in ("+", "-") and part[-1].name in ("cdot", "times"):
                         part.append(box)  # a factor with its sign: 3 \cdot -2
                         continue
-                    raise StopError(box.at, "two signs follow each other", "write brackets around the second")
+                    raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
                 if self._open_integral(part):
                     part.append(box)
                     continue
@@ -292,10 +296,10 @@ class _Formula:
             else:
                 part.append(box)
         if not _trimmed(part):
-            raise StopError(row[-1].at, "nothing follows the sign", "write what is added")
+            raise FormulaError(row[-1].at, "nothing follows the sign", "write what is added")
         terms.append((sign, part))
         if any(p and p[0].kind == "dots" for _, p in terms):
-            raise StopError(row[0].at, "dots stand for terms", "write them, or as a sum")
+            raise FormulaError(row[0].at, "dots stand for terms", "write them, or as a sum")
         return self._added(terms)
 
     def _added(self, terms: list[tuple[str, list[Box]]]) -> Node:
@@ -314,7 +318,7 @@ class _Formula:
         self._check_sums(terms)
         kinds = {vector_valued(each) for each in made if not _zero(each)}
         if len(kinds) > 1 and not any(isinstance(n, Call) and n.name == "order" for n in made):
-            raise StopError(terms[1][1][0].at, "a vector and a number are added", "mark the vectors alike")
+            raise FormulaError(terms[1][1][0].at, "a vector and a number are added", "mark the vectors alike")
         return Call("sum", tuple(made))
 
     def _check_sums(self, terms: list[tuple[str, list[Box]]]) -> None:
@@ -323,7 +327,9 @@ class _Formula:
         for _, part in terms:
             indexed = any(b.kind == "letter" and b.sub and any(s.name in indices for s in b.sub) for b in part)
             if indexed and not any(b.kind == "big" for b in part):
-                raise StopError(part[0].at, "whether the sum ends here is open", "write brackets around what is summed")
+                raise FormulaError(
+                    part[0].at, "whether the sum ends here is open", "write brackets around what is summed"
+                )
             for box in part:
                 if box.kind == "big" and box.name in ("sum", "prod") and box.sub:
                     indices |= {s.name for s in box.sub if s.kind == "letter"}
@@ -345,7 +351,7 @@ class _Formula:
         """The product that a row of boxes is."""
         row = list(row)
         if row and row[-1].kind == "operator" and row[-1].name != "!":
-            raise StopError(row[-1].at, f"nothing follows {row[-1].name}", "write the second factor")
+            raise FormulaError(row[-1].at, f"nothing follows {row[-1].name}", "write the second factor")
         groups: list[tuple[str, list[Box]]] = [("", [])]
         for box in row:
             if (
@@ -354,7 +360,7 @@ class _Formula:
                 and not self._in_integral(groups[-1][1])
             ):
                 if not _trimmed(groups[-1][1]):
-                    raise StopError(box.at, f"nothing is before {box.name}", "write the first factor")
+                    raise FormulaError(box.at, f"nothing is before {box.name}", "write the first factor")
                 groups.append((box.name, []))
             else:
                 groups[-1][1].append(box)
@@ -377,11 +383,11 @@ class _Formula:
             factors = self._count(part)
             assert made is not None
             if factors > 1:
-                raise StopError(part[0].at, "what the slash divides by is open", "write \\frac or brackets")
+                raise FormulaError(part[0].at, "what the slash divides by is open", "write \\frac or brackets")
             if len([b for b in before if b.kind == "function"]) and not _bracket_last(before):
-                raise StopError(part[0].at, "whether the slash is within the function is open", "write brackets")
+                raise FormulaError(part[0].at, "whether the slash is within the function is open", "write brackets")
             if vector_valued(right):
-                raise StopError(part[0].at, "a vector is divided by", "write its length")
+                raise FormulaError(part[0].at, "a vector is divided by", "write its length")
             differentials = [_differential_of(each) for each in (made, right)]
             if all(differentials):
                 return self._total(differentials[0], differentials[1], 1, part[0])  # type: ignore[arg-type]
@@ -397,10 +403,10 @@ class _Formula:
         left_vector, right_vector = vector_valued(made), vector_valued(right)
         if left_vector and right_vector:
             if operator not in ("cdot", "times"):
-                raise StopError(part[0].at, "two vectors are multiplied by *", "write \\cdot or \\times")
+                raise FormulaError(part[0].at, "two vectors are multiplied by *", "write \\cdot or \\times")
             return Call("dot" if operator == "cdot" else "cross", (made, right))
         if operator == "times" and not (_numeric(made) or _numeric(right)):
-            raise StopError(
+            raise FormulaError(
                 part[0].at, "whether × is of vectors or of numbers is open", "mark the vectors, or write \\cdot"
             )
         return _product([made, right])
@@ -426,7 +432,7 @@ class _Formula:
         """Factors side by side."""
         row = _trimmed(row)
         if not row:
-            raise StopError(0, "a factor is missing", "write it")
+            raise FormulaError(0, "a factor is missing", "write it")
         _no_word(row)
         factors: list[Node] = []
         place = 0
@@ -458,7 +464,7 @@ class _Formula:
         variables = self._variables(_without_thin(box.parts[1]), mark)
         if len(bracket.parts[0]) == 1 and self.expression(bracket.parts[0]) == variables[0][0]:
             return behind + 1
-        raise StopError(
+        raise FormulaError(
             bracket.at, "whether a derivative is taken there or multiplied is open", "write |_{t = 0} or \\cdot"
         )
 
@@ -467,7 +473,7 @@ class _Formula:
         scalars = [each for each in factors if not vector_valued(each)]
         others = [each for each in factors if vector_valued(each)]
         if not all(map(_is_matrix, others[:-1])):
-            raise StopError(row[0].at, "two vectors stand side by side", "write \\cdot or \\times between them")
+            raise FormulaError(row[0].at, "two vectors stand side by side", "write \\cdot or \\times between them")
         made = Call("matmul", tuple(others))
         return _product([*scalars, made])
 
@@ -475,7 +481,7 @@ class _Formula:
     def _numbers_apart(row: list[Box], place: int) -> None:
         """Numbers side by side are groups of digits, or not read."""
         if place and row[place].kind == "number" and row[place - 1].kind == "number":
-            raise StopError(row[place].at, "two numbers stand side by side", "write \\cdot between them")
+            raise FormulaError(row[place].at, "two numbers stand side by side", "write \\cdot between them")
 
     # ---- factors
 
@@ -484,7 +490,7 @@ class _Formula:
         box = row[place]
         reader = getattr(self, f"_{box.kind}", None)
         if reader is None:
-            raise StopError(
+            raise FormulaError(
                 box.at, f"{self.source[box.at : box.end] or box.name} is not read here", "write what it stands for"
             )
         node, behind = reader(row, place)
@@ -508,7 +514,7 @@ class _Formula:
             behind += 2
         node: Node = Number(self._value(text, box))
         if box.sub is not None:
-            raise StopError(box.at, "a number has an index", "write the letter that it belongs to")
+            raise FormulaError(box.at, "a number has an index", "write the letter that it belongs to")
         if box.sup and len(box.sup) == 1 and (box.sup[0].name in ("circ", "degree")):
             return Call("quotient", (_product([node, Letter("pi")]), number(180))), behind
         node = self._raised(node, box)
@@ -530,28 +536,28 @@ class _Formula:
             if comma and len(groups) == 1 and "." not in text:
                 return Fraction(f"{whole}.{groups[0]}")
             if not all(len(each.partition(".")[0]) == 3 for each in groups):
-                raise StopError(box.at, f"{text} is no number", "write a decimal point")
+                raise FormulaError(box.at, f"{text} is no number", "write a decimal point")
             return Fraction(whole + "".join(groups))
         return Fraction(text if not text.startswith(".") else f"0{text}")
 
     def _unit(self, row: list[Box], place: int) -> tuple[Node, int]:
-        raise StopError(row[place].at, "upright letters are no letter of a formula", "write \\text{…} for words")
+        raise FormulaError(row[place].at, "upright letters are no letter of a formula", "write \\text{…} for words")
 
     def _units(self, box: Box) -> Node:
         """A unit such as m/s^2 as letters unit_m, unit_s."""
         parts = _UNIT.findall(box.name)
         if "".join(parts).replace(" ", "") != box.name.replace(" ", "") or not parts:
-            raise StopError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
+            raise FormulaError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
         factors: list[Node] = []
         below = False
         for part in parts:
             if part == "/":
                 if below:
-                    raise StopError(box.at, f"{box.name} has two slashes", "write powers")
+                    raise FormulaError(box.at, f"{box.name} has two slashes", "write powers")
                 below = True
             elif part[0] in "^-" or part.isdigit():
                 if not factors:
-                    raise StopError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
+                    raise FormulaError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
                 power = number(int(part.strip("^{}")))
                 last = factors[-1]
                 inverse = isinstance(last, Call)
@@ -586,7 +592,7 @@ class _Formula:
         if self._may_call(row, place):
             called = self._called(box, row[place + 1])
             if called is None:
-                raise StopError(
+                raise FormulaError(
                     box.at,
                     f"whether {box.name}(…) is a function or a product is open",
                     f'write \\cdot, or in paper.toml [notation] functions = "{box.name}" or letters = "{box.name}"',
@@ -600,7 +606,7 @@ class _Formula:
                 and not any(b.kind == "operator" for b in inside[1:])
                 and not any(b.kind == "comma" for b in inside)
             ):
-                raise StopError(
+                raise FormulaError(
                     box.at,
                     f"whether {box.name}[…] is a functional or a product is open",
                     "write \\cdot, or round brackets",
@@ -608,7 +614,7 @@ class _Formula:
         if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
             after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
             if after is not None and after.kind not in _ENDING:
-                raise StopError(
+                raise FormulaError(
                     box.at,
                     f"whether {box.name} acts on what follows is open",
                     f"write \\operatorname{{{box.name}}}(…) or \\cdot",
@@ -657,7 +663,7 @@ class _Formula:
         if box.name == "O" or (box.name == "o" and not box.sub):
             return Call("order", tuple(given))
         if not given:
-            raise StopError(bracket.at, "a function has no argument", "write it")
+            raise FormulaError(bracket.at, "a function has no argument", "write it")
         name = name_of(box, self._index(box))
         named, _ = self._named(replace(box, sup=None))
         if tuple(given) == (Letter("t"),) and not (self.notation.called.get(name, {"t"}) - {"t"}):
@@ -672,7 +678,7 @@ class _Formula:
         found = index_of(box)
         if found is None:
             part = (box.sub or [box])[0]
-            raise StopError(part.at, "an index is not letters and numbers", "give the letter another index")
+            raise FormulaError(part.at, "an index is not letters and numbers", "give the letter another index")
         return found
 
     def _mark(self, box: Box) -> bool:
@@ -708,7 +714,11 @@ class _Formula:
         if raised is not None and raised[0] in _TENSOR and len(raised) > 0:
             self.guesses.append("an index that is repeated, up and down, is summed over")
         name = name_of(box, self._index(box), raised or ())
-        vector = is_vector(box) and not box.sub_is_component if hasattr(box, "sub_is_component") else is_vector(box)
+        vector = (
+            is_printed_as_vector(box) and not box.sub_is_component
+            if hasattr(box, "sub_is_component")
+            else is_printed_as_vector(box)
+        )
         hat = "hat" in box.marks and box.style == "bold"
         return Letter(name, vector or hat), raised is not None
 
@@ -718,13 +728,13 @@ class _Formula:
             name = row[0].name
             if (name in _GREEK or name in ("i", "j", "k", "a", "b")) and name in self.notation.lowered:
                 raise (
-                    StopError(
+                    FormulaError(
                         row[0].at,
                         f"whether {name} is an upper index or a power is open",
                         f'write brackets around the power, or in paper.toml [notation] letters = "{name}"',
                     )
                     if name not in self.notation.letters
-                    else StopError(0, "", "")
+                    else FormulaError(0, "", "")
                 )
         if (
             len(row) == 1
@@ -733,11 +743,11 @@ class _Formula:
             and row[0].name.isupper()
             and not row[0].marks
         ):
-            raise StopError(
+            raise FormulaError(
                 row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"
             )
         if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":
-            raise StopError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
+            raise FormulaError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
 
     def _raised(self, node: Node, box: Box) -> Node:
         """The node to the power that its box has."""
@@ -745,7 +755,7 @@ class _Formula:
             return node
         row = [b for b in box.sup if b.kind != "thin"]
         if not row:
-            raise StopError(box.at, "a power is empty", "write it")
+            raise FormulaError(box.at, "a power is empty", "write it")
         if (
             len(row) == 1
             and row[0].kind == "letter"
@@ -754,7 +764,7 @@ class _Formula:
         ):
             return Call("transpose", (node,))
         if len(row) == 1 and row[0].kind == "letter" and row[0].name == "T" and "T" not in self.notation.letters:
-            raise StopError(
+            raise FormulaError(
                 row[0].at, "whether T is a power or transposes is open", "write \\top, or the letter in bold"
             )
         if vector_valued(node):
@@ -763,15 +773,17 @@ class _Formula:
                 return Call("dot", (node, node))
             if power == Call("negative", (number(1),)) and _is_matrix(node):
                 return Call("inverse", (node,))
-            raise StopError(row[0].at, "a vector has a power", "write its length")
+            raise FormulaError(row[0].at, "a vector has a power", "write its length")
         if any(b.kind == "letter" and b.name in ("dagger", "prime") for b in row) or (
             row[0].kind == "operator" and len(row) == 1
         ):
-            raise StopError(row[0].at, "a mark stands over what is no letter", "write what it means")
+            raise FormulaError(row[0].at, "a mark stands over what is no letter", "write what it means")
         if len(row) == 1 and row[0].kind in ("text", "relation", "comma"):
-            raise StopError(row[0].at, "words stand as a power", "write them as an index")
+            raise FormulaError(row[0].at, "words stand as a power", "write them as an index")
         if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and isinstance(node, Call):
-            raise StopError(row[0].at, "whether it is an order of derivative or a power is open", "write what it means")
+            raise FormulaError(
+                row[0].at, "whether it is an order of derivative or a power is open", "write what it means"
+            )
         power = self.expression(box.sup)
         if power == Call("quotient", (number(1), number(2))):
             return Call("sqrt", (node,))
@@ -789,12 +801,12 @@ class _Formula:
         symbolic = any(b.kind == "letter" or b.parts for b in box.sup)
         if not symbolic:
             if known.exponential and "e" not in known.bare:
-                raise StopError(
+                raise FormulaError(
                     box.at, "whether e is Euler's number is open", 'write in paper.toml [notation] numbers = "e"'
                 )
             return False
         if "e" in known.bare:
-            raise StopError(
+            raise FormulaError(
                 box.at,
                 "whether e is Euler's number is open",
                 'write in paper.toml [notation] numbers = "e" or letters = "e"',
@@ -820,7 +832,7 @@ class _Formula:
         if known.imaginary and box.name == "i" and (self.exponents or "i" not in known.lowered):
             self.guesses.append("i is the imaginary unit")
             return Letter("imaginary_unit")
-        raise StopError(
+        raise FormulaError(
             box.at,
             f"whether {box.name} is the imaginary unit is open",
             f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"',
@@ -830,7 +842,7 @@ class _Formula:
         """dx, d^3 x."""
         box = row[place]
         if box.upright and box.primes:
-            raise StopError(box.at, "a differential has a prime", "write what it means")
+            raise FormulaError(box.at, "a differential has a prime", "write what it means")
         behind = place + 1
         while behind < len(row) and row[behind].kind == "thin":
             behind += 1
@@ -847,13 +859,13 @@ class _Formula:
             and "d" not in self.notation.letters
             and (behind >= len(row) or row[behind].kind not in ("letter", "group"))
         ):
-            raise StopError(box.at, "an upright d has no letter", "write the letter behind it")
+            raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
         if behind >= len(row) or row[behind].kind not in ("letter", "group") or box.primes:
             return None
         if "d" in self.notation.letters or (box.sup is not None and not all(b.kind == "number" for b in box.sup)):
             return None
         if not box.upright and "d" in self.notation.bare and not self.integrating:
-            raise StopError(
+            raise FormulaError(
                 box.at, "whether d is a letter or a differential is open", "write \\mathrm{d} for the differential"
             )
         if row[behind].kind == "group":
@@ -862,7 +874,7 @@ class _Formula:
         target = row[behind]
         node, raised = self._named(target)
         if target.sup is not None and not raised:
-            raise StopError(target.at, "a differential has a power", "write brackets around it")
+            raise FormulaError(target.at, "a differential has a power", "write brackets around it")
         args = (node, self.expression(box.sup)) if box.sup else (node,)
         return Call("differential", args), behind + 1
 
@@ -877,14 +889,14 @@ class _Formula:
             return None
         if row[behind].kind != "letter":
             if row[behind].kind in ("bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root"):
-                raise StopError(
+                raise FormulaError(
                     box.at,
                     f"whether \\{box.name} is a factor or a difference is open",
                     f'write in paper.toml [notation] letters = "{box.name}"',
                 )
             return None
         if box.name in self.notation.bare:
-            raise StopError(
+            raise FormulaError(
                 box.at,
                 f"whether \\{box.name} is a factor or a difference is open",
                 f'write in paper.toml [notation] letters = "{box.name}"',
@@ -898,26 +910,26 @@ class _Formula:
     def _bracket(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         if box.sub is not None and not (box.closing in ("|", r"\vert", r"\rvert") and box.name == "."):
-            raise StopError(box.sub[0].at if box.sub else box.at, "a bracket has an index", "write what it means")
+            raise FormulaError(box.sub[0].at if box.sub else box.at, "a bracket has an index", "write what it means")
         pair = box.name, box.closing
         content = box.parts[0]
         if pair in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lbrace", r"\rbrace"), (r"\lbrack", r"\rbrack")):
             return self._raised(self._inside(box, content), box), place + 1
         if pair in (("|", "|"), (r"\vert", r"\vert"), (r"\lvert", r"\rvert")):
             if len(content) == 2 and all(b.kind == "letter" and b.name.isupper() and not b.style for b in content):
-                raise StopError(box.at, "whether the bars are a distance of points is open", "give it a letter")
+                raise FormulaError(box.at, "whether the bars are a distance of points is open", "give it a letter")
             inner = self.expression(content)
             if isinstance(inner, Letter) and _is_matrix(inner):
                 self.guesses.append(f"|{inner.name}| is a length, no determinant")
             elif _is_matrix(inner):
-                raise StopError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
+                raise FormulaError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
             return self._raised(Call("norm" if vector_valued(inner) else "Abs", (inner,)), box), place + 1
         if pair in ((r"\|", r"\|"), (r"\lVert", r"\rVert"), (r"\Vert", r"\Vert")):
             inner = self.expression(content)
             return self._raised(Call("norm" if vector_valued(inner) else "length", (inner,)), box), place + 1
         if pair in ((r"\langle", r"\rangle"), ("<", ">"), ("⟨", "⟩")):
             if any(b.kind in ("bar", "comma") for b in content):
-                raise StopError(box.at, "angle brackets with two parts are not read", "write the product in words")
+                raise FormulaError(box.at, "angle brackets with two parts are not read", "write the product in words")
             return self._raised(Call("mean", (self.expression(content),)), box), place + 1
         if pair in ((r"\lfloor", r"\rfloor"), (r"\lceil", r"\rceil")):
             return self._raised(Call(box.name[2:].removeprefix("l"), (self.expression(content),)), box), place + 1
@@ -925,7 +937,7 @@ class _Formula:
             return self._evaluated(box, content), place + 1
         if pair == (".", "."):
             return self._raised(self.expression(content), box), place + 1
-        raise StopError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
+        raise FormulaError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
 
     def _inside(self, box: Box, content: list[Box]) -> Node:
         """What is in brackets; a list is a vector of components, a commutator or Poisson bracket a call."""
@@ -934,18 +946,18 @@ class _Formula:
             return self.expression(content)
         if len(parts) == 1:
             if any(b.kind == "relation" for b in content):
-                raise StopError(
+                raise FormulaError(
                     content[0].at if content else box.at, "a relation stands in brackets", "write it by itself"
                 )
             return self.expression(content)
         if not all(parts):
-            raise StopError(box.at, "a component is missing", "write it")
+            raise FormulaError(box.at, "a component is missing", "write it")
         if (
             len(parts) == 2
             and all(b.kind in ("number", "operator", "infinity") for p in parts for b in p)
             and box.name == "["
         ):
-            raise StopError(box.at, "an interval is not read", "keep it aside")
+            raise FormulaError(box.at, "an interval is not read", "keep it aside")
         name = {"(": "column", "[": "commutator", r"\{": "poisson"}.get(box.name, "column")
         return Call(name, tuple(map(self.expression, parts)))
 
@@ -954,14 +966,14 @@ class _Formula:
         where = box.sub or []
         places = [k for k, b in enumerate(where) if b.kind == "relation" and b.name == "="]
         if len(places) != 1 or box.sup is not None:
-            raise StopError(box.at, "where it is evaluated is not an equation", "write |_{x = 0}")
+            raise FormulaError(box.at, "where it is evaluated is not an equation", "write |_{x = 0}")
         left, right = where[: places[0]], where[places[0] + 1 :]
         return Call("at", (self.expression(content), self.expression(left), self.expression(right)))
 
     def _group(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         if box.sub is not None:
-            raise StopError(box.at, "a group has an index", "write it on the letter")
+            raise FormulaError(box.at, "a group has an index", "write it on the letter")
         return self._raised(self.expression(box.parts[0]), box), place + 1
 
     def _root(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -983,7 +995,7 @@ class _Formula:
         """A mark over more than a letter: a rate, a mean."""
         box = row[place]
         if box.sub is not None:
-            raise StopError(box.at, "an index follows what is no letter", "write it on the letter")
+            raise FormulaError(box.at, "an index follows what is no letter", "write it on the letter")
         inner = self.expression(box.parts[0])
         if box.name == "dot":
             return self._raised(Call("rate", (inner,)), box), place + 1
@@ -994,15 +1006,15 @@ class _Formula:
         if box.name == "vec" and isinstance(inner, Call) and all(isinstance(a, Letter) for a in inner.args):
             names = "".join(a.name for a in inner.args if isinstance(a, Letter))
             return Letter(f"{names}vec", True), place + 1
-        raise StopError(box.at, f"a {box.name} stands over what is no letter", "give it a letter of its own")
+        raise FormulaError(box.at, f"a {box.name} stands over what is no letter", "give it a letter of its own")
 
     def _matrix(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         if box.sub is not None:
-            raise StopError(box.at, "a matrix has an index", "write what it means")
+            raise FormulaError(box.at, "a matrix has an index", "write what it means")
         lines = [[self.expression(cell) for cell in line.parts] for line in box.parts[0]]
         if not lines or len({len(line) for line in lines}) != 1:
-            raise StopError(box.at, "the rows of a matrix have different lengths", "write every entry")
+            raise FormulaError(box.at, "the rows of a matrix have different lengths", "write every entry")
         if box.name in ("vmatrix",):
             made = Call("det", tuple(Call("row", tuple(line)) for line in lines))
             return self._raised(made, box), place + 1
@@ -1015,7 +1027,7 @@ class _Formula:
         made: list[Node] = []
         for line in box.parts[0]:
             if len(line.parts) != 2:
-                raise StopError(box.at, "a case has no condition", "write the value, &, and where it holds")
+                raise FormulaError(box.at, "a case has no condition", "write the value, &, and where it holds")
             value, where = (_trimmed(cell) for cell in line.parts)
             where = [b for b in where if b.kind not in ("text", "wide", "thin")]
             condition: Node = Letter("otherwise")
@@ -1030,14 +1042,14 @@ class _Formula:
     def _fraction(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         if box.sub is not None:
-            raise StopError(box.at, "a fraction has an index", "write it on a letter")
+            raise FormulaError(box.at, "a fraction has an index", "write it on a letter")
         if marks := _derivative_marks(box):
             return self._derivative(row, place, marks)
         over, under = (self.expression(part) for part in box.parts)
         if any(map(_has_differential, walk(under))) and not any(map(_has_differential, walk(over))):
-            raise StopError(box.at, "a differential stands below and none above", "write \\frac{d f}{d x}")
+            raise FormulaError(box.at, "a differential stands below and none above", "write \\frac{d f}{d x}")
         if vector_valued(under):
-            raise StopError(box.at, "a vector is divided by", "write its length")
+            raise FormulaError(box.at, "a vector is divided by", "write its length")
         return self._raised(Call("quotient", (over, under)), box), place + 1
 
     def _derivative(self, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
@@ -1046,7 +1058,7 @@ class _Formula:
         order = self._order(over[0])
         variables = self._variables(under, mark)
         if sum(n for _, n in variables) != order:
-            raise StopError(box.at, "the orders of the derivative differ", "write the same order above and below")
+            raise FormulaError(box.at, "the orders of the derivative differ", "write the same order above and below")
         operand = over[1:]
         behind = place + 1
         if operand:
@@ -1066,7 +1078,7 @@ class _Formula:
             return 1
         if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name.isdigit():
             return int(box.sup[0].name)
-        raise StopError(box.at, "the order of the derivative is no number", "write a number")
+        raise FormulaError(box.at, "the order of the derivative is no number", "write a number")
 
     def _variables(self, under: list[Box], mark: str) -> list[tuple[Node, int]]:
         found: list[tuple[Node, int]] = []
@@ -1077,7 +1089,7 @@ class _Formula:
                 or place + 1 >= len(under)
                 or under[place + 1].kind not in ("letter", "group")
             ):
-                raise StopError(under[place].at, "what is differentiated by is not clear", "write \\frac{d f}{d x}")
+                raise FormulaError(under[place].at, "what is differentiated by is not clear", "write \\frac{d f}{d x}")
             target = under[place + 1]
             if target.kind == "group":
                 variable, times = self.expression(target.parts[0]), self._order(target)
@@ -1093,7 +1105,7 @@ class _Formula:
         """What a derivative without an operand above acts on: what follows."""
         rest = _trimmed(row[place:])
         if not rest or rest[0].kind == "operator":
-            raise StopError(box.at, "the derivative has nothing to act on", "write what is differentiated")
+            raise FormulaError(box.at, "the derivative has nothing to act on", "write what is differentiated")
         node, behind = self.factor(rest, 0)
         remaining = [b for b in rest[behind:] if b.kind != "thin"]
         if not remaining:
@@ -1102,7 +1114,7 @@ class _Formula:
             self.guesses.append("a derivative acts on the bracket that follows it, not on what is behind")
             return node, len(row) - len(rest) + behind
         if any(b.kind == "fraction" and _derivative_marks(b) for b in rest):
-            raise StopError(
+            raise FormulaError(
                 box.at, "how far the derivative reaches is open", "write brackets around what is differentiated"
             )
         self.guesses.append("a derivative acts on the whole product that follows it")
@@ -1124,11 +1136,13 @@ class _Formula:
         r"""\partial_x f, \partial_t^2 u."""
         box = row[place]
         if box.sub is None:
-            raise StopError(
+            raise FormulaError(
                 box.at, "what ∂ differentiates by is missing", "write \\partial_x or \\frac{\\partial f}{\\partial x}"
             )
         if len(box.sub) != 1 or box.sub[0].kind != "letter":
-            raise StopError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
+            raise FormulaError(
+                box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}"
+            )
         order = self._order(box)
         variable = self._named(box.sub[0])[0]
         node, behind = self._operand(row, place + 1, box)
@@ -1138,16 +1152,16 @@ class _Formula:
         r"""\nabla f, \nabla^2 f; with \cdot and \times it is not read here."""
         box = row[place]
         if box.sub is not None:
-            raise StopError(box.at, "∇ has an index", "write the derivative")
+            raise FormulaError(box.at, "∇ has an index", "write the derivative")
         if place + 1 >= len(row) or row[place + 1].kind == "operator":
-            raise StopError(box.at, "∇ with a product is not read", "write the components")
+            raise FormulaError(box.at, "∇ with a product is not read", "write the components")
         node, behind = self._operand(row, place + 1, box)
         if box.sup is not None:
             if self._order(box) != 2:
-                raise StopError(box.at, "a power of ∇ is not read", "write the derivatives")
+                raise FormulaError(box.at, "a power of ∇ is not read", "write the derivatives")
             return Call("laplacian", (node,)), behind
         if vector_valued(node):
-            raise StopError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
+            raise FormulaError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
         return Call("gradient", (node,)), behind
 
     # ---- functions, sums and integrals
@@ -1156,7 +1170,7 @@ class _Formula:
         box = row[place]
         name = FUNCTIONS.get(box.name, box.name)
         if name in ("max", "min", "sup", "inf") and box.sub is not None:
-            raise StopError(box.at, f"{box.name} over a set is not read", "write its value")
+            raise FormulaError(box.at, f"{box.name} over a set is not read", "write its value")
         inner, behind = self._argument(row, place)
         node = self._applied(name, box, inner)
         if box.sup is None:
@@ -1165,7 +1179,7 @@ class _Formula:
         if power == Call("negative", (number(1),)):
             inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
             if name not in inverse:
-                raise StopError(
+                raise FormulaError(
                     box.at, f"whether {box.name}^{{-1}} is the inverse function is open", "write a fraction"
                 )
             self.guesses.append(f"{box.name}^{{-1}} is the inverse function")
@@ -1177,7 +1191,7 @@ class _Formula:
             base = self.expression(box.sub) if box.sub else number(10)
             return Call("quotient", (Call("log", inner), Call("log", (base,))))
         if box.sub is not None:
-            raise StopError(box.at, f"{box.name} has an index", "write what it means")
+            raise FormulaError(box.at, f"{box.name} has an index", "write what it means")
         if box.name == "log":
             self.guesses.append("log is the natural logarithm")
         if name == "det" or name in ("tr", "Tr"):
@@ -1190,11 +1204,11 @@ class _Formula:
         while behind < len(row) and row[behind].kind == "thin":
             behind += 1
         if behind >= len(row):
-            raise StopError(row[place].at, f"{row[place].name} has no argument", "write it in brackets")
+            raise FormulaError(row[place].at, f"{row[place].name} has no argument", "write it in brackets")
         first = row[behind]
         if first.kind == "bracket" and first.name in ("(", "[", r"\{"):
             if first.sup is not None:
-                raise StopError(
+                raise FormulaError(
                     first.at, "whether the power is of the argument or of the function is open", "write brackets"
                 )
             parts = [self.expression(p) for p in arguments(first.parts[0])]
@@ -1202,7 +1216,7 @@ class _Formula:
         end = self._reach(row, behind, row[place])
         for box in row[behind:end]:
             if box.sup is not None and self._superscript(box) is None:
-                raise StopError(
+                raise FormulaError(
                     box.at, "whether the power is of the argument or of the function is open", "write brackets"
                 )
         if row[behind].kind == "function":
@@ -1220,7 +1234,7 @@ class _Formula:
         run = row[start:end]
         after = next((b for b in row[end:] if b.kind != "thin"), None)
         if not run:
-            raise StopError(row[start].at, f"the argument of {function.name} is not clear", "write it in brackets")
+            raise FormulaError(row[start].at, f"the argument of {function.name} is not clear", "write it in brackets")
         while run and run[-1].kind == "letter" and after is not None and after.kind == "bracket" and len(run) > 1:
             break
         if len(run) == 1:
@@ -1237,13 +1251,13 @@ class _Formula:
             return
         if after.kind == "bracket" and only.kind == "letter":
             if self._called(only, after):
-                raise StopError(
+                raise FormulaError(
                     after.at,
                     f"whether the bracket belongs to the argument of {function.name} is open",
                     "write brackets",
                 )
             if after.name == "(" and only.name not in _ANGLES and only.name not in self.notation.angles:
-                raise StopError(
+                raise FormulaError(
                     after.at,
                     f"whether the bracket belongs to the argument of {function.name} is open",
                     "write brackets",
@@ -1255,7 +1269,7 @@ class _Formula:
             return
         if only.kind in ("fraction", "group") and _moving(after):
             return
-        raise StopError(after.at, f"where the argument of {function.name} ends is open", "write it in brackets")
+        raise FormulaError(after.at, f"where the argument of {function.name} ends is open", "write it in brackets")
 
     def _within(self, run: list[Box], function: Box) -> int:
         """How many of the factors behind a function are its argument."""
@@ -1265,7 +1279,7 @@ class _Formula:
             if len(kept) == 1 or (kept[0].kind == "number" and len(kept) == 2):
                 self.guesses.append(f"the argument of {function.name} ends before what moves")
                 return moving
-            raise StopError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
+            raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
         letters = [b for b in kept if b.kind == "letter"]
         if len(letters) == len(kept) or (kept[0].kind in ("number", "fraction") and len(letters) == len(kept) - 1):
             first = letters[0].name if letters else ""
@@ -1282,20 +1296,20 @@ class _Formula:
             if ends and begins and (len(letters) <= 2 or kept[0].kind == "number"):
                 self.guesses.append(f"the argument of {function.name} is the product that follows it")
                 return len(run)
-        raise StopError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
+        raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
 
     def _big(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         kind = FUNCTION_OF_BIG(box)
         if not kind:
-            raise StopError(box.at, f"\\{box.name} is not read", "write its value")
+            raise FormulaError(box.at, f"\\{box.name} is not read", "write its value")
         if kind == "Integral":
             return self._integral(row, place)
         if kind == "limit":
             return self._limit(row, place)
         rest = _trimmed(row[place + 1 :])
         if not rest:
-            raise StopError(box.at, "the sum has no terms", "write them")
+            raise FormulaError(box.at, "the sum has no terms", "write them")
         limits = self._limits(box)
         index = limits[0].name if isinstance(limits[0], Letter) else ""
         self.bound.append(index)
@@ -1310,7 +1324,7 @@ class _Formula:
         below = [b for b in box.sub or () if b.kind not in ("thin",)]
         if not below:
             if box.sup is not None:
-                raise StopError(box.at, "what the sum runs over is missing", "write its index")
+                raise FormulaError(box.at, "what the sum runs over is missing", "write its index")
             return [Letter("all")]
         relations = [k for k, b in enumerate(below) if b.kind == "relation"]
         if not relations:
@@ -1321,7 +1335,7 @@ class _Formula:
                     if b.kind == "letter"
                 ]
                 return letters if len(letters) == 1 else [letters[0], Letter("all"), Letter("all"), *letters[1:]]
-            raise StopError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
+            raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
         if len(relations) == 1 and below[relations[0]].name == "=" and below[0].kind == "letter" and relations[0] == 1:
             name = below[0].name
             self.bound.append(name)
@@ -1329,14 +1343,14 @@ class _Formula:
             ends = [self.expression(box.sup)] if box.sup is not None else []
             self.bound.pop()
             return [Letter(name), start, *ends]
-        raise StopError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+        raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
 
     def _limit(self, row: list[Box], place: int) -> tuple[Node, int]:
         box = row[place]
         below = [b for b in box.sub or () if b.kind != "thin"]
         arrows = [k for k, b in enumerate(below) if b.kind == "relation" and b.name == "->"]
         if len(arrows) != 1:
-            raise StopError(box.at, "where the limit is taken is missing", "write \\lim_{x\\to 0}")
+            raise FormulaError(box.at, "where the limit is taken is missing", "write \\lim_{x\\to 0}")
         variable, value = self.expression(below[: arrows[0]]), self.expression(below[arrows[0] + 1 :])
         return Call("limit", (self.term(_trimmed(row[place + 1 :])), variable, value)), len(row)
 
@@ -1394,7 +1408,7 @@ class _Formula:
                     return target + 1, True
                 behind = [b for b in rest[target + 1 :] if b.kind != "thin"]
                 if behind and behind[0].kind == "letter" and behind[0].name == "d":
-                    raise StopError(
+                    raise FormulaError(
                         behind[0].at,
                         "two differentials follow one integral",
                         "write as many integrals as differentials",
@@ -1409,7 +1423,7 @@ class _Formula:
                     inner -= 1
                     continue
                 return place + 1, False
-        raise StopError(box.at, "the differential of the integral is missing", "write d and its letter")
+        raise FormulaError(box.at, "the differential of the integral is missing", "write d and its letter")
 
 
 def FUNCTION_OF_BIG(box: Box) -> str:
@@ -1433,7 +1447,7 @@ def _kind(relations: list[str]) -> str:
 
 
 def _degree(node: Node, at: int) -> int:
-    """How many differentials its terms have as factors. Raises StopError where the terms of a sum have not as many."""
+    """How many differentials its terms have as factors. Raises FormulaError where the terms of a sum have not as many."""
     if not isinstance(node, Call):
         return 0
     if node.name == "differential":
@@ -1448,7 +1462,7 @@ def _degree(node: Node, at: int) -> int:
     if node.name in ("sum", "plus_minus", "minus_plus", "column"):
         terms = {d for d, each in zip(degrees, node.args, strict=True) if not _zero(each)}
         if len(terms) > 1:
-            raise StopError(at, "a differential stands in one term only", "write what is added in each")
+            raise FormulaError(at, "a differential stands in one term only", "write what is added in each")
         return terms.pop() if terms else 0
     return degrees[0] if node.name in ("negative", "Sum", "Abs", "norm", "sqrt", "transpose") and degrees else 0
 
@@ -1461,7 +1475,7 @@ _WORDS = frozenset(_NAMES.split())
 
 
 def _no_word(row: list[Box]) -> None:
-    """Raise StopError where letters in a row are a word, const or sin, and no product."""
+    """Raise FormulaError where letters in a row are a word, const or sin, and no product."""
     run = ""
     for box in [*row, Box("thin", "", 0, 0)]:
         plain = box.kind == "letter" and len(box.name) == 1 and not box.style and not box.marks
@@ -1469,7 +1483,7 @@ def _no_word(row: list[Box]) -> None:
             run += box.name
         if not plain or box.sub is not None or box.sup is not None or box.primes:
             if len(run) > 4 or run in _WORDS or re.fullmatch("[A-Z][aeiou][a-z]+", run):
-                raise StopError(
+                raise FormulaError(
                     box.at or row[0].at, f"{run} is a word", "write \\text{…} for words, and \\sin for functions"
                 )
             run = ""
@@ -1615,7 +1629,7 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
                 each for each in walk(node.args[-1]) if isinstance(each, Call) and each.name == "differential"
             )
             return node, differential
-    raise StopError(box.at, "the differential is no factor of what is integrated", "write it at the end")
+    raise FormulaError(box.at, "the differential is no factor of what is integrated", "write it at the end")
 
 
 def _vector_differential(node: Node) -> bool:
@@ -1631,19 +1645,19 @@ def _holds(node: Node) -> bool:
 
 
 def _paired(row: list[Box]) -> list[Box]:
-    """Bars in pairs as brackets. Raises StopError where they can be paired in two ways."""
+    """Bars in pairs as brackets. Raises FormulaError where they can be paired in two ways."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if not places:
         return row
     if len(places) % 2:
-        raise StopError(row[places[-1]].at, "a bar has no partner", "write \\left| and \\right|")
+        raise FormulaError(row[places[-1]].at, "a bar has no partner", "write \\left| and \\right|")
     made: list[Box] = []
     last = 0
     for n in range(0, len(places), 2):
         a, b = places[n], places[n + 1]
         between = row[places[n - 1] + 1 : a] if n else []
         if n and not any(x.kind in ("operator", "relation") for x in between):
-            raise StopError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
+            raise FormulaError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
         inner = _trimmed(row[a + 1 : b])
         if (
             not inner
@@ -1652,7 +1666,7 @@ def _paired(row: list[Box]) -> list[Box]:
             or row[a].sub is not None
             or row[a].name != row[b].name
         ):
-            raise StopError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
+            raise FormulaError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
         sign = r"\|" if row[a].name == "||" else "|"
         closed = Box("bracket", sign, row[a].at, row[b].end, [inner], sub=row[b].sub, sup=row[b].sup, closing=sign)
         made += [*row[last:a], closed]

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lagrotor.paper.source.formula import Side, Statement, read_formula
+from lagrotor.paper.source.formula import PrintedStatement, Side, read_formula
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 from lagrotor.paper.source.tree import Letter, Number, in_catalogue, letters_of, text_of, walk
-from lagrotor.paper.source.usage import Notation, declared, notation_of
+from lagrotor.paper.source.usage import Notation, declared_notation, notation_of
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Print:
 
 def paper_notation(formulas: Iterable[str], said: Mapping[str, Any], where: str = "paper.toml") -> Notation:
     """How a paper uses its letters: what is seen in its formulas, and what the author says."""
-    return notation_of(formulas, declared(said, where))
+    return notation_of(formulas, declared_notation(said, where))
 
 
 def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> Print:
@@ -44,7 +44,7 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> 
     for statement in reading.statements:
         line = _line(statement)
         if line is None:
-            aside.append(as_text(statement))
+            aside.append(statement_text(statement))
             continue
         lines.append(line)
         for side in (each for each in statement.sides if in_catalogue(each.node)):
@@ -54,7 +54,7 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> 
     return Print(tuple(lines), tuple(aside), tuple(letters), tuple(vectors), reading.guesses)
 
 
-def _line(statement: Statement) -> dict[str, Any] | None:
+def _line(statement: PrintedStatement) -> dict[str, Any] | None:
     """quantity, members, and the order that is claimed; None for what no line of the catalogue can hold."""
     if statement.kind != "equation":
         return None
@@ -86,7 +86,7 @@ def _latex(side: Side) -> str:
     return " ".join(latex_of(kept).split())
 
 
-def as_text(statement: Statement) -> str:
+def statement_text(statement: PrintedStatement) -> str:
     """A statement as one line of text."""
     text = text_of(statement.sides[0].node)
     for relation, side in zip(statement.relations, statement.sides[1:], strict=False):

@@ -13,7 +13,7 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.files import read_text, write_text
-from lagrotor.paper.catalogue import digest
+from lagrotor.paper.catalogue import reading_digest
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.markup import read_source
@@ -44,7 +44,7 @@ class Begun:
     gone: tuple[str, ...] = ()
 
 
-def begin(folder: Path, source: Path | None = None) -> Begun:
+def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     """Make the folder, or make it again from its source. Raises InputError before anything is written.
 
     Where it holds something that is no paper, cannot be made, or the source has no equation.
@@ -248,7 +248,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         row = rows[identifier]
         lines = row.pop("line")
         row.pop("changed", None)
-        row |= {"read": "confirmed", "print": digest(row["latex"], lines)}
+        row |= {"read": "confirmed", "print": reading_digest(row["latex"], lines)}
         row["line"] = lines
     head = re.match(r"(?:#[^\n]*\n)*", read_text(file))
     blocks = [head[0].rstrip() if head else ""]

@@ -160,7 +160,7 @@ class Opaque:
         return self.names.setdefault(text_of(node), sp.Symbol(f"[{text_of(node)}]", real=True))
 
 
-def expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
+def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
     """The node as a sympy expression of real letters; what is not arithmetic stands for itself."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
@@ -172,7 +172,7 @@ def expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
         return sp.Symbol(node.name, real=True)
     if not _transparent(node):
         return opaque.symbol(node)
-    parts = [expression(each, opaque) for each in node.args]
+    parts = [sympy_expression(each, opaque) for each in node.args]
     return _VALUES[node.name](*parts) if node.name in _VALUES else _KNOWN[node.name](*parts)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
-from lagrotor.paper.source.boxes import Box, StopError, boxes
+from lagrotor.paper.source.boxes import Box, FormulaError, boxes
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 _KEYS = ("functions", "letters", "numbers", "decimal_comma")
@@ -37,7 +37,7 @@ class Notation:
     exponential: bool = False
 
 
-def declared(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+def declared_notation(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:
     """What the author says in [notation]. Raises InputError for a key that means nothing."""
     if unknown := sorted(given.keys() - set(_KEYS)):
         raise InputError(f"{where}: notation: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
@@ -51,7 +51,7 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
     for latex in formulas:
         try:
             row = boxes(latex)
-        except (StopError, RecursionError):
+        except (FormulaError, RecursionError):
             continue
         _look(row, found)
     return found
@@ -68,7 +68,7 @@ def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> 
     return f"{name}_" if iskeyword(name) or name in CALLED else name
 
 
-def is_vector(box: Box) -> bool:
+def is_printed_as_vector(box: Box) -> bool:
     """Whether a letter is printed as a vector: bold or with an arrow."""
     return box.style == "bold" or "vec" in box.marks
 

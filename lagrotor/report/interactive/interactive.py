@@ -100,7 +100,7 @@ def page_programs() -> dict[str, Program]:
     bar_length    (r_1, r_2, ell) → m
     """
     result = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
-    result |= {"series": _series(), "orbit": horner.program(PAGE_ORDER)}
+    result |= {"series": _series(), "orbit": horner.horner_program(PAGE_ORDER)}
     for ratio in _BARS:
         result |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
         result[f"slopes_{ratio}"] = _slopes(ratio)

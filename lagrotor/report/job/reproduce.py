@@ -19,7 +19,7 @@ from lagrotor.paper.certificates.certificate_folder import certify
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.title_page import Part
+from lagrotor.paper.title_page import ReportPart
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.api import api_page
 from lagrotor.report.content import Report, ShownPart
@@ -160,7 +160,7 @@ def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
     )
 
 
-def _part(part: Part, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
+def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
     """What a part of the report shows."""
     return ShownPart(
         part.name,
@@ -184,9 +184,9 @@ def _write(folder: Path, report: Report) -> None:
     write_text(folder / "report.tex", supplement(report))
     write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts, report.paper)]) + "\n")
     write_text(folder / "errata.tex", latex_document(report.verdicts, report.paper))
-    rows = [_timeless(verdict_text.as_data(verdict, report.paper)) for verdict in report.verdicts]
+    rows = [_timeless(verdict_text.verdict_data(verdict, report.paper)) for verdict in report.verdicts]
     _write_json(folder / "verdicts.json", rows + list(map(verdict_text.waiting, report.waiting)))
-    claims = [claim_tests.as_data(result, report.paper.claims[result.test.id]) for result in report.claims]
+    claims = [claim_tests.claim_data(result, report.paper.claims[result.test.id]) for result in report.claims]
     _write_json(folder / "claims.json", list(map(_timeless, claims)))
     _write_json(folder / "measured.json", {picture.stem: picture.measured for picture in report.pictures})
 

@@ -14,13 +14,13 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.numerics.heyoka_programs import heyoka_module, summed
 from lagrotor.numerics.segment import RightHandSide, Stretch
-from lagrotor.numerics.taylor import companion_order, compiled_solver, dummy_size, march, taylor_order
+from lagrotor.numerics.taylor import companion_order, compiled_solver, dummy_size, taylor_march, taylor_order
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion
 from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.segments import has_segments, right_hand_side_in_segments
-from lagrotor.structures.exact.written_out import accelerations
+from lagrotor.structures.exact.written_out import structure_accelerations
 
 _RING = 11  # half bandwidth of a ring
 _SERIES, _SERIES_SLIM = 32, 128  # rotors up to which series are faster; slim: in chains and rings of massless bars
@@ -56,7 +56,7 @@ def integrate_series(
         return motion.projected(y)
 
     span, size = (float(times[0]), float(times[-1])), dummy_size(local, order)
-    states, end, spent = march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
+    states, end, spent = taylor_march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
     return Stretch(motion.projected(states.T).T, end, spent)
 
 
@@ -122,5 +122,5 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
         for i in range(N)
     ]
 
-    found = accelerations(plain, r, v, G, heyoka, summed, more if forced or shaken else ())
+    found = structure_accelerations(plain, r, v, G, heyoka, summed, more if forced or shaken else ())
     return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in found for x in axis)], strict=True))

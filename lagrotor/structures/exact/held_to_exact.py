@@ -5,7 +5,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.exact.simulating import simulate
+from lagrotor.structures.exact.simulating import simulate_structure
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
@@ -27,7 +27,7 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
     shape = tilt * found.shapes[0]
-    run = simulate(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
+    run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
     roots, left = np.linalg.eig(first_order(linear).T)
     w = left[:, np.argmin(np.abs(roots - root))]
     first, last = (abs(w @ state) for state in _freedoms(linear, run.axes, run.rates).T)
@@ -45,7 +45,7 @@ def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: i
     rates = found.rates[found.rates > 0]
     t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
     draw = np.random.default_rng(seed).standard_normal((linear.freedoms,))
-    run = simulate(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
+    run = simulate_structure(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
     exact = _freedoms(linear, run.axes, run.rates)
     step, states = expm(first_order(linear) * t[1]), [exact[:, 0]]
     for _ in t[1:]:

@@ -11,7 +11,7 @@ from lagrotor.numerics.rhs import rhs_text
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.structures.coefficients import Coefficients
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion
-from lagrotor.structures.exact.written_out import accelerations
+from lagrotor.structures.exact.written_out import structure_accelerations
 
 # Axes and bars beyond which arrays cost less: with massless bars, where each axis is eliminated by itself, and with heavy ones.
 _MOST, HEAVY = 40, 15
@@ -43,7 +43,7 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
         [(c.R[i] * p[3 * i + k] if forced else 0.0) - (c.S[i] * g[k] if shaken else 0.0) for k in range(3)]
         for i in range(N)
     ]
-    found = accelerations(c, r, v, G, recorded_numbers, more=more if forced or shaken else ())
+    found = structure_accelerations(c, r, v, G, recorded_numbers, more=more if forced or shaken else ())
     lines, rates = recorded_numbers.lines((x / rate**2 for axis in found for x in axis), tape)
     body = [f"{', '.join(states)} = y.tolist()"]
     body += [f"{', '.join(pushes)} = force(s/{rate})"] if forced else []

@@ -24,7 +24,7 @@ _PATIENCE = Patience(50_000, 2_000 * 2 * pi)
 _IN_LINE = 1e-3  # sine of the angle between a bar and both its axes at which a solver that stops has come to it
 
 
-def simulate(
+def simulate_structure(
     s: Assembly,
     t: ArrayLike,
     tilt: ArrayLike | None = None,

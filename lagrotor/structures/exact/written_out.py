@@ -11,7 +11,7 @@ _Vector = list[Any]
 _TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
 
 
-def accelerations(
+def structure_accelerations(
     c: Coefficients,
     r: Sequence[_Vector],
     v: Sequence[_Vector],
@@ -33,7 +33,7 @@ def system(
     c: Coefficients, r: Sequence[_Vector], v: Sequence[_Vector], G: Sequence[Any], by: Any, more: Sequence[_Vector] = ()
 ) -> tuple[list[Any], dict[tuple[int, int], Any], list[Any], int]:
     """The linear system for [r'' (3 N), multipliers of the axes (N) and of the bars (B)]: diagonal, {(i, j): entry off it},
-    right side, and 3 N, the number of unknowns with a mass. Arguments as of `accelerations`.
+    right side, and 3 N, the number of unknowns with a mass. Arguments as of `structure_accelerations`.
     """
     N, B = len(c.R), len(c.i)
     forces = _forces(c, r, v, G, by)

@@ -11,7 +11,7 @@ import sympy as sp
 from lagrotor.numerics.codegen import Program
 
 
-def program(order: int) -> Program:
+def horner_program(order: int) -> Program:
     """(c, s, coefficients of x, y, z) → x_1, y_1, z_1, x_2, y_2, z_2: Horner's rule in w = c², generated."""
     c, s, w = sp.symbols("c s w", real=True)
     names = [[sp.Symbol(f"{q}{n}", real=True) for n in range(order + 1)] for q in "xyz"]

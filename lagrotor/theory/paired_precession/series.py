@@ -165,7 +165,7 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
     return (both[a] + both[b]) / (both[a] - both[b]), values[ell] / values[R]
 
 
-def field_of(shape: sp.Expr, ratio: sp.Expr) -> Domain:
+def coefficient_field(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
     free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)
     return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced faster than of fractions
@@ -234,7 +234,7 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact:
 
 @lru_cache(maxsize=32)
 def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> PairedSeries:
-    field = field_of(shape, ratio)
+    field = coefficient_field(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
     solution = lindstedt_poincare(exactly, unknowns_at_rest(field), mode, order, field, numeric=numeric)

@@ -5,15 +5,15 @@ from pathlib import Path
 import pytest
 
 from lagrotor.commands.command_line import main
-from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, Finding, check
+from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source_file
 
 
-def findings(folder: Path, body: str) -> list[Finding]:
+def findings(folder: Path, body: str) -> list[StepFinding]:
     file = folder / "paper.tex"
     file.write_text(
         f"\\documentclass{{article}}\\usepackage{{amsmath}}\n\\begin{{document}}\n{body}\n\\end{{document}}\n"
     )
-    return check(file)
+    return check_source_file(file)
 
 
 def verdicts(folder: Path, body: str) -> list[str]:

@@ -11,7 +11,7 @@ import pytest
 from lagrotor.errors import InputError
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.markup import read_source
-from lagrotor.paper.source.printed import as_text
+from lagrotor.paper.source.printed import statement_text
 from lagrotor.paper.source.start import aux_numbers
 from lagrotor.paper.source.usage import notation_of
 
@@ -50,7 +50,9 @@ def test_numbers_and_readings_are_as_recorded(row: dict[str, Any], tmp_path: Pat
     assert [each.number for each in source.equations] == row["numbers"]
     notation = notation_of([*(each.latex for each in source.equations), *source.inline])
     readings = [read_formula(each.latex, notation, each.lead) for each in source.equations]
-    said = ["; ".join(map(as_text, r.statements)) if r.stop is None else f"stopped: {r.stop[0]}" for r in readings]
+    said = [
+        "; ".join(map(statement_text, r.statements)) if r.stop is None else f"stopped: {r.stop[0]}" for r in readings
+    ]
     assert said == row["readings"]
 
 
@@ -58,7 +60,7 @@ def test_a_changed_print_would_be_read_otherwise(tmp_path: Path) -> None:
     row = CORPUS[0]
     file = written(row | {"text": row["text"].replace("-k", "k")}, tmp_path)
     (equation,) = read_source(file).equations
-    assert as_text(read_formula(equation.latex).statements[0]) not in row["readings"]
+    assert statement_text(read_formula(equation.latex).statements[0]) not in row["readings"]
 
 
 @pytest.mark.slow

@@ -4,12 +4,12 @@ import pytest
 
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
-from lagrotor.paper.source.usage import declared, notation_of
+from lagrotor.paper.source.usage import declared_notation, notation_of
 
 
 def said(latex: str, *others: str, **notation: str) -> str:
     """The statements as text; what stopped the reading where there are none."""
-    reading = read_formula(latex, notation_of([latex, *others], declared(notation)))
+    reading = read_formula(latex, notation_of([latex, *others], declared_notation(notation)))
     if reading.stop is not None:
         return f"stopped: {reading.stop[0]}"
     return "; ".join(" = ".join(text_of(side.node) for side in s.sides) for s in reading.statements)

@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.paper import Paper
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.source.start import begin
+from lagrotor.paper.source.start import begin_paper
 from lagrotor.paper.source.stated_system import stated_system, write_derivation
 
 HOOP = beside("papers/hoop")
@@ -29,7 +29,7 @@ def edit(file: Path, old: str, new: str) -> None:
 
 
 def test_the_folder_is_what_its_source_says(tmp_path: Path) -> None:
-    begin(tmp_path / "again", HOOP / "paper.tex")
+    begin_paper(tmp_path / "again", HOOP / "paper.tex")
     fresh, kept = Catalogue(tmp_path / "again").equations, Catalogue(HOOP).equations
     assert {i: (e.number, e.label, e.latex, e.line) for i, e in fresh.items()} == {
         i: (e.number, e.label, e.latex, e.line) for i, e in kept.items()

@@ -9,7 +9,7 @@ import pytest
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper
-from lagrotor.paper.source.start import begin, confirm
+from lagrotor.paper.source.start import begin_paper, confirm
 
 TEX = r"""\documentclass{article}
 \newcommand{\half}{\frac{1}{2}}
@@ -31,7 +31,7 @@ def rows(folder: Path) -> dict[str, dict[str, Any]]:
 def source(tmp_path: Path) -> Path:
     file = tmp_path / "paper.tex"
     file.write_text(TEX, encoding="utf-8")
-    begin(tmp_path / "mine", file)
+    begin_paper(tmp_path / "mine", file)
     return file
 
 
@@ -54,7 +54,7 @@ def test_what_is_confirmed_stays_and_what_has_changed_is_marked(source: Path) ->
     source.write_text(
         TEX.replace(r"\begin{equation}\label{eq:T}", more).replace("p = m v", "p = 2 m v"), encoding="utf-8"
     )
-    made = begin(folder, source)
+    made = begin_paper(folder, source)
     found = rows(folder)
     assert (found["1"]["label"], found["1"]["number"], found["1"]["read"]) == ("eq:T", "2", "confirmed"), "its id stays"
     assert (found["2"]["read"], found["2"]["changed"]) == ("unconfirmed", "p = m v") and made.changed == ("2",)
@@ -66,7 +66,7 @@ def test_an_equation_that_is_gone_stays_where_a_derivation_states_it(source: Pat
     (folder / "derivations" / "s1.py").write_text('verdict("2", 1)\n', encoding="utf-8")
     kept = [line for line in TEX.splitlines() if "eq:p" not in line and "vec" not in line]
     source.write_text("\n".join(kept), encoding="utf-8")
-    made = begin(folder, source)
+    made = begin_paper(folder, source)
     assert rows(folder)["2"]["read"] == "gone" and "3" not in rows(folder) and set(made.gone) == {"2", "3"}
 
 
@@ -82,7 +82,7 @@ def test_a_confirmation_is_of_this_print_and_these_members(source: Path) -> None
 
 def test_numbers_beside_the_source_are_taken_and_a_difference_is_said(source: Path) -> None:
     source.with_suffix(".aux").write_text(r"\newlabel{eq:T}{{7}{1}}" + "\n", encoding="utf-8")
-    made = begin(source.parent / "other", source)
+    made = begin_paper(source.parent / "other", source)
     assert rows(source.parent / "other")["7"]["label"] == "eq:T"
     assert "eq:T is (7) in paper.aux and (1) by the source" in made.notes[0]
 
@@ -101,10 +101,10 @@ def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "note.txt").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is no paper"):
-        begin(tmp_path / "full", source)
+        begin_paper(tmp_path / "full", source)
     with pytest.raises(InputError, match="is a paper already"):
-        begin(tmp_path / "mine")
+        begin_paper(tmp_path / "mine")
     (tmp_path / "empty.tex").write_text("no formula", encoding="utf-8")
     with pytest.raises(InputError, match="no displayed equation"):
-        begin(tmp_path / "new", tmp_path / "empty.tex")
+        begin_paper(tmp_path / "new", tmp_path / "empty.tex")
     assert not (tmp_path / "new").exists()

@@ -20,7 +20,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     PAPER_BAR,
     PAPER_R0,
     once_round,
-    precession,
+    precession_scene,
 )
 from lagrotor.shown import scientific
 
@@ -59,7 +59,7 @@ def deviations(run: Trajectory) -> tuple[float, float, float]:
 
 def _drift_of_b(spins: Spins, I2_over_I1: float, seconds: float = 0.5) -> float:
     """Largest change of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume it, on the orbit."""
-    scene, _ = precession(spins, PAPER_R0, HEAVY_LINK)
+    scene, _ = precession_scene(spins, PAPER_R0, HEAVY_LINK)
     system = paper_system(scene, STIFFNESS, DAMPING)
     system.inverse_inertia[0, 1, 1] /= I2_over_I1
     B = []

@@ -18,7 +18,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     OPPOSITE,
     PAPER_R0,
     once_round,
-    precession,
+    precession_scene,
 )
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def measure_c17(spins: Spins) -> dict[str, float]:
     """
     found, changes = {}, []
     for r0 in AMPLITUDES:
-        scene, rate = precession(spins, r0, MASSLESS)
+        scene, rate = precession_scene(spins, r0, MASSLESS)
         constant = abs(scene.momenta[0]) / (scene.rotor.J * (1 - r0**2) ** 0.5)
         if spins[0] != -spins[1]:
             run = simulate(scene, np.linspace(0, 5, 101), "minimal", 1e-11)

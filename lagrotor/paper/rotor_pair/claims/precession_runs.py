@@ -19,7 +19,7 @@ AMPLITUDES = (0.051, 0.102, PAPER_R0)
 
 
 @cache
-def precession(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
+def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
     """The scene on its precession of amplitude r0, and its rate (rad/s): of opposite spins the exact orbit.
 
     Of any other spins both axes start at x = r0 and go round the vertical, each in the sense of its own spin, at
@@ -38,5 +38,5 @@ def precession(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
 @cache
 def once_round(spins: Spins, r0: float, bar: Link) -> Trajectory:
     """One turn of that precession, at 361 times."""
-    scene, rate = precession(spins, r0, bar)
+    scene, rate = precession_scene(spins, r0, bar)
     return simulate(scene, np.linspace(0, 2 * np.pi / rate, 361), "minimal", 1e-11)

@@ -18,7 +18,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     MASSLESS,
     OPPOSITE,
     once_round,
-    precession,
+    precession_scene,
 )
 from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
@@ -44,7 +44,7 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
     natural = natural_rate(Scene(spins, link=bar))
     for r0 in AMPLITUDES:
         if spins[0] == -spins[1] != 0:
-            rate = precession(spins, r0, bar)[1]
+            rate = precession_scene(spins, r0, bar)[1]
             sizes.append(_mean_square(once_round(spins, r0, bar)))
         else:
             scene = Scene(spins, link=bar, rates=((r0 * natural, 0, 0),) * 2)

@@ -20,7 +20,7 @@ from lagrotor.models.spring_link.rigid_body import (
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem
 from lagrotor.numerics.curves import measured_order
-from lagrotor.numerics.rotations import cross_matrix
+from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
@@ -51,7 +51,7 @@ def undivided_rotation(Omega: Array, dt: float) -> Array:
     """Rodrigues' rotation with P = Ω Ωᵀ to the letter of (3.16), not divided by |Ω|²: (n, 3) → (n, 3, 3)."""
     size = np.linalg.norm(Omega, axis=1)[:, None, None]
     P = Omega[:, :, None] * Omega[:, None, :]
-    turned: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * cross_matrix(Omega) / size
+    turned: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
     return turned
 
 
@@ -66,7 +66,7 @@ class OneStep:
 def measure_c03(case: OneStep) -> dict[str, float]:
     """Both rotations over one step of a rotor that spins, and what 10,000 of them do to a length."""
     Omega = np.array([[0.0, 0.0, EQUAL[0]]])
-    first_order, rodrigues = np.eye(3) + case.dt * cross_matrix(Omega)[0], case.rodrigues(Omega, case.dt)[0]
+    first_order, rodrigues = np.eye(3) + case.dt * skew_matrix(Omega)[0], case.rodrigues(Omega, case.dt)[0]
     return {
         "first_order_off_orthogonal": _off_orthogonal(first_order),
         "rodrigues_off_orthogonal": _off_orthogonal(rodrigues),
