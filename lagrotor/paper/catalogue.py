@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 
 from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
-from lagrotor.mechanics.glossary import Glossary
-from lagrotor.paper.letters import Letters, Line, declared, read, read_line
+from lagrotor.mechanics.glossary import Entry, Glossary
+from lagrotor.paper.letters import Letters, Line, components, declared, read, read_line
 from lagrotor.paper.scripts import importable
 from lagrotor.paper.title_page import TitlePage, row, title_page, toml
 
@@ -178,7 +178,7 @@ class Catalogue:
     def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
         file = self.folder / f"{name}.toml"
         given = self._equations_toml if name == "equations" else toml(file)
-        if unknown := sorted(given.keys() - {key, "letters"}):
+        if unknown := sorted(given.keys() - {key, "letters", "units"}):
             raise InputError(f"{file}: {unknown[0]!r} means nothing here: write [[{key}]]")
         found: dict[Any, Row] = {}
         for each in given.get(key, []):
@@ -212,8 +212,9 @@ class Catalogue:
                     yield f"{file}: {each.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
                 if "quantity" not in line:
                     yield f"{file}: {each.id}: a line has no quantity: say in LaTeX what it is about"
-        for section in self._equations_toml.get("letters", {}).keys() - self.about.sections.keys():
-            yield f"{file}: letters: section {section!r} is not among the sections of paper.toml"
+        for key in ("letters", "units"):
+            for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
+                yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
 
     def equation(self, identifier: str) -> Equation:
         """One equation; refuses an id that the paper does not have."""
@@ -251,6 +252,21 @@ class Catalogue:
         given = self._equations_toml.get("letters", {}).get(section, {})
         names = {**own, **getattr(self._symbols, "FUNCTIONS", {}), **declared(given)}
         return Letters(names, getattr(self._symbols, "LATEX", {}))
+
+    def meanings(self, section: str) -> Glossary:
+        """The glossary, and the units that `[units]` gives to the letters of a section: unit → names in a row.
+
+        Raises InputError for a name that the section does not have.
+        """
+        names, found = self.letters(section).names, Glossary(self.glossary)
+        for unit, letters in self._equations_toml.get("units", {}).get(section, {}).items():
+            for name in letters.split():
+                if name not in names:
+                    raise InputError(
+                        f"{self.folder / 'equations.toml'}: units: section {section} has no letter {name!r}"
+                    )
+                found |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
+        return found
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
         """The printed lines of an equation as expressions. Raises InputError where one cannot be read."""

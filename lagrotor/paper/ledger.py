@@ -13,6 +13,7 @@ from math import ceil
 from typing import Any
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from lagrotor.algebra import agreement_order, decide_equal, leading_term, truncated_series
 from lagrotor.algebra.evidence import points
@@ -23,6 +24,7 @@ from lagrotor.paper.ideal import vanishes_on
 from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
+from lagrotor.paper.units import Dimensions, dimensions
 from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
 from lagrotor.paper.witness import witness
 
@@ -54,8 +56,15 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
     """Decide a statement; the correction, where there is one, by the same rules. glossary: what its letters mean."""
     began = time.perf_counter()
     meanings = Glossary() if glossary is None else glossary
-    lines = tuple(_line(relation, statement.premises, meanings) for relation in statement.relations)
-    right = tuple(_line(relation, statement.premises, meanings) for relation in statement.correction)
+    lines, right = (
+        tuple(
+            replace(
+                _line(relation, statement.premises, meanings), dimensions=_dimensions(relation, statement, meanings)
+            )
+            for relation in relations
+        )
+        for relations in (statement.relations, statement.correction)
+    )
     worst = _weakest(lines)
     answer: Answer = "definition" if statement.names else worst.verdict
     corrected = _weakest(right).verdict if right else None
@@ -68,7 +77,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
         premises=_united(used, statement.premises),
         order=worst.order,
         small=worst.small,
-        domain=tuple(dict.fromkeys(factor for line in lines for factor in line.domain)),
+        domain=tuple(dict.fromkeys(relation for line in lines for relation in line.domain)),
         correction_verdict=corrected,
         evidence=(
             *statement.evidence,
@@ -78,6 +87,13 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
         lines=lines,
         correction_lines=right,
     )
+
+
+def _dimensions(relation: Relation, statement: Statement, glossary: Glossary) -> Dimensions | None:
+    """What the units say of a line; None where no units are known."""
+    assumed = (*statement.premises, *relation.scene_premises)
+    values = {sp.sympify(old): sp.sympify(new) for premise in assumed for old, new in premise.equations}
+    return dimensions(relation.printed, relation.derived, glossary, values) if glossary else None
 
 
 def _weakest(lines: Sequence[LineVerdict]) -> LineVerdict:
@@ -146,7 +162,7 @@ class _Finding:
     answer: Answer
     order: int | None = None
     small: sp.Symbol | None = None
-    domain: tuple[sp.Expr, ...] = ()
+    domain: tuple[Relational, ...] = ()
     reasons: tuple[str, ...] = ()
     difference: sp.Expr | None = None
     place: tuple[int, int] | None = None
@@ -241,7 +257,10 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
 
 def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
     exact = decide_equal(printed, derived)
-    domain = tuple(f for f in exact.domain if not (f.is_positive or f.is_number))
+    factors = (f for f in exact.domain if not (f.is_positive or f.is_number))
+    domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
+    if exact.answer == "zero":
+        domain += exact.branch
     small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
@@ -346,7 +365,7 @@ def _constant(ratio: sp.Expr) -> sp.Expr | None:
 
 
 def _to_order(
-    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[sp.Expr, ...]
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[Relational, ...]
 ) -> _Finding:
     """How far two series agree: at least between their leading terms; of vectors, the first component that differs decides."""
     pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]

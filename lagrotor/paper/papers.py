@@ -128,7 +128,7 @@ class Paper(Catalogue):
 
     def _decided(self, statement: Statement) -> Verdict:
         """The verdict on a statement. Raises ProofError, with file and line, where its correction does not hold."""
-        verdict = decide(statement, self.glossary)
+        verdict = decide(statement, self.meanings(self.equation(statement.id).section))
         if verdict.correction_verdict in ("refuted", "undecided"):
             stem, line = self.scripts.stating.get(statement.id, ("", 1))
             wrong = next(each for each in verdict.correction_lines if each.verdict == verdict.correction_verdict)

@@ -7,7 +7,7 @@ import hashlib
 import json
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,8 @@ class OnRecord:
     """What is on record of an equation or a claim; None where it is not.
 
     printed: a digest of the print. uses: ids of the equations that the equation uses. premises: in words and as formulas.
-    lines, correction: verdict, order and premises of each member of each line. parts: of a claim, each part and its outcome.
+    lines, correction: verdict, order and premises of each member of each line. dimensions: of the lines in which they are not
+    seen to be the same. parts: of a claim, each part and its outcome.
     """
 
     verdict: str
@@ -33,6 +34,7 @@ class OnRecord:
     domain: tuple[str, ...] | None = None
     lines: tuple[str, ...] | None = None
     correction: tuple[str, ...] | None = None
+    dimensions: tuple[str, ...] | None = None
     parts: tuple[str, ...] | None = None
 
 
@@ -46,9 +48,10 @@ def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnReco
         printed_digest(entry) if entry else None,
         tuple(found.statement.depends_on),
         tuple(f"{premise.says}: {premise.formula}" for premise in found.premises),
-        tuple(sorted(f"{factor} != 0" for factor in found.domain)),
+        tuple(sorted(f"{r.lhs} {r.rel_op} {r.rhs}" for r in found.domain)),
         tuple(map(_line, found.lines)),
         tuple(map(_line, found.correction_lines)),
+        tuple(dict.fromkeys(_dimensions(found.lines))),
     )
 
 
@@ -63,6 +66,12 @@ def _line(line: LineVerdict) -> str:
     order = f" through order {line.order} in {line.small}" if line.verdict == "holds-to-order" else ""
     needs = f" if {'; '.join(premise.says for premise in line.premises)}" if line.premises else ""
     return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
+
+
+def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
+    for line in lines:
+        if line.dimensions and line.dimensions.answer != "consistent":
+            yield f"{line.relation.quantity}: {line.dimensions.answer}: {line.dimensions.says}"
 
 
 def recorded(file: Path) -> dict[str, OnRecord]:
@@ -134,6 +143,7 @@ _WORDS = {
     "domain": "domain",
     "lines": "lines",
     "correction": "correction",
+    "dimensions": "dimensions",
     "parts": "parts",
 }
 

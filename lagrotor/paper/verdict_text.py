@@ -2,13 +2,14 @@
 
 import json
 from collections.abc import Iterable
+from dataclasses import asdict
 from typing import Any
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.papers import Paper
-from lagrotor.paper.premises import Premise
+from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict
 
@@ -30,7 +31,8 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
     rows += [("if", readable(premise.with_formula)) for premise in verdict.premises]
-    rows += [("domain", f"{readable(str(factor))} ≠ 0") for factor in verdict.domain]
+    rows += [("domain", relation_text(relation)) for relation in verdict.domain]
+    rows += [("dimensions", text) for text in dimension_texts(verdict)]
     if verdict.reaches_result is not None:
         reach = (
             "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"
@@ -51,6 +53,18 @@ def line_text(line: LineVerdict) -> str:
     """What was decided of one member of a line, in plain text, and why."""
     text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
     return f"{text}: {line.reason}" if line.reason else text
+
+
+def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
+    """What the units say of the lines of an equation: of those that agree in one sentence, of each other one by name."""
+    alike, apart = dict[str, None](), dict[str, None]()
+    for line in verdict.lines:
+        found, quantity = line.dimensions, from_latex(line.relation.quantity)
+        if found and found.answer == "consistent":
+            alike[found.says] = None
+        elif found:
+            apart[f"{quantity}: {found.answer}: {found.says}"] = None
+    return (*([f"the same on both sides: {'; '.join(alike)}"] if alike else []), *apart)
 
 
 def point_text(line: LineVerdict) -> str:
@@ -129,7 +143,7 @@ def verdict_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
         "lines": [line_data(line) for line in verdict.lines],
         "order": verdict.order,
         "small": latex(verdict.small) if verdict.small else None,
-        "domain": [latex(factor) + r" \neq 0" for factor in verdict.domain],
+        "domain": [latex(relation) for relation in verdict.domain],
         "wrong": statement.wrong,
         "correction": _sides(statement.correction, "printed"),
         "correction_verdict": verdict.correction_verdict,
@@ -162,12 +176,13 @@ def line_data(line: LineVerdict) -> dict[str, Any]:
         "premises": [premise.says for premise in line.premises],
         "order": line.order,
         "small": str(line.small) if line.small else None,
-        "domain": [f"{factor} != 0" for factor in line.domain],
+        "domain": [f"{r.lhs} {r.rel_op} {r.rhs}" for r in line.domain],
         "difference": None if line.difference is None else str(line.difference),
         "entry": line.place,
         "witness": None if line.witness is None else {str(s): _exact(value) for s, value in line.witness.items()},
         "enclosure": None if ends is None else [float(end) for end in ends],
         "reason": line.reason,
+        "dimensions": None if line.dimensions is None else asdict(line.dimensions),
     }
 
 

@@ -5,13 +5,15 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
 from lagrotor.paper.hypotheses import hypotheses
-from lagrotor.paper.premises import Premise
+from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Table
+from lagrotor.paper.units import Dimensions
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
@@ -98,7 +100,8 @@ class Statement:
 class LineVerdict:
     """What was decided of one member of one printed line, or of one line of a correction.
 
-    premises: those that it needs; `order`, `small`: of a series; `domain`: factors that must not vanish. Of what is refuted:
+    premises: those that it needs; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are defined
+    and real. dimensions: what the units of the letters say of it; no verdict rests on them. Of what is refuted:
     `difference`, printed less derived under the premises (of matrices the entry `place`, of series the first coefficient),
     `witness`, letter → value, a point that satisfies the premises, and `enclosure`, two rationals of one sign between which
     the difference lies there. reason: why it does not hold, in words.
@@ -109,18 +112,20 @@ class LineVerdict:
     premises: tuple[Premise, ...] = ()
     order: int | None = None
     small: sp.Symbol | None = None
-    domain: tuple[sp.Expr, ...] = ()
+    domain: tuple[Relational, ...] = ()
     difference: sp.Expr | None = None
     place: tuple[int, int] | None = None
     witness: Mapping[sp.Symbol, Any] | None = None
     enclosure: tuple[sp.Rational, sp.Rational] | None = None
     reason: str = ""
+    dimensions: Dimensions | None = None
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What was decided of one equation: the weakest of its lines. premises: those under which it holds, or, of a refuted one,
-    under which its correction does; `order`, `small`: of a series; `domain`: factors that must not vanish.
+    under which its correction does; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are defined
+    and real.
 
     `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: not refuted).
     """
@@ -130,7 +135,7 @@ class Verdict:
     premises: tuple[Premise, ...]
     order: int | None
     small: sp.Symbol | None
-    domain: tuple[sp.Expr, ...]
+    domain: tuple[Relational, ...]
     correction_verdict: Answer | None
     evidence: tuple[str, ...]
     seconds: float
@@ -164,6 +169,7 @@ def verdict_table(verdicts: Iterable[Verdict]) -> Table:
 def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
-    decided = (v.verdict, *(p.with_formula for p in v.premises), order, corrected)
+    where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
+    decided = (v.verdict, *(p.with_formula for p in v.premises), order, where, corrected)
     named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
     return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence)))

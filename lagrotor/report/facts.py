@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.verdict_text import line_text, point_tex
+from lagrotor.paper.verdict_text import dimension_texts, line_text, point_tex
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
@@ -34,7 +34,9 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     if verdict.order is not None and verdict.small is not None:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
-        yield Fact("Domain", formulas=tuple(sp.Ne(factor, 0, evaluate=False) for factor in verdict.domain))
+        yield Fact("Domain", formulas=verdict.domain)
+    if said := dimension_texts(verdict):
+        yield Fact("Dimensions", tuple(f"{text}." for text in said))
     if any(line.verdict in ("refuted", "undecided") for line in verdict.lines):
         points = tuple(filter(None, map(point_tex, verdict.lines)))
         yield Fact("Lines", tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines)), sources=points)

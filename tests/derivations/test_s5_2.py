@@ -15,6 +15,7 @@ from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.paper import Audit, Stated, Statement, Verdict, decide, proof, scripts, stating
+from lagrotor.paper.premises import relation_text
 from lagrotor.paper.rotor_pair import shared_premises
 from lagrotor.paper.rotor_pair.ansatz_premises import (
     breach,
@@ -73,8 +74,8 @@ def test_orders_and_domains(verdicts: dict[str, Verdict]) -> None:
     assert (verdicts["5.17"].order, verdicts["5.19"].order) == (3, 3)
     assert {p.says for p in verdicts["5.19"].premises} > {*UNITS, AZIMUTHS, one_inclination().says}
     assert [verdicts[i].order for i in ("5.20", "5.22")] == [1, 1]
-    assert [str(f) for f in verdicts["5.02"].domain] == ["sin(theta)"]
-    assert [str(f) for f in verdicts["5.14"].domain] == ["cos(theta_1) + cos(theta_2)"]
+    assert [relation_text(r) for r in verdicts["5.02"].domain] == ["sin(θ) ≠ 0"]
+    assert [relation_text(r) for r in verdicts["5.14"].domain] == ["cos(θ₁) + cos(θ₂) ≠ 0"]
 
 
 def test_what_is_refuted_is_refuted_with_every_premise_granted(stated: dict[str, Statement]) -> None:

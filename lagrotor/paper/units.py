@@ -1,0 +1,267 @@
+"""The dimensions of a printed line, from the units that the glossary gives to its letters.
+
+A dimension is a monomial in the base units: of "kg m²/s", kg*m**2/s; of a number or an angle, 1. A sum, and a line, needs
+terms of one dimension, a sine or an exponent a number (ISO 80000-1, 6.1). Where a premise gives a letter a number, as R = 1,
+numbers stand for quantities, and what differs by powers of that letter's dimension is said to be so.
+"""
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import Glossary
+from lagrotor.paper.grammar import parsed
+from lagrotor.paper.readable import readable
+
+_BASES = {name: sp.Symbol(name, positive=True) for name in ("kg", "m", "s", "A", "K", "mol", "cd")}
+_KG, _M, _S, _A = (_BASES[name] for name in ("kg", "m", "s", "A"))
+_FORCE, _VOLT = _KG * _M / _S**2, _KG * _M**2 / _S**3 / _A
+_ONE = sp.S.One
+_UNITS: dict[str, sp.Expr] = {
+    **_BASES, "rad": _ONE, "sr": _ONE, "deg": _ONE, "g": _KG, "t": _KG, "min": _S, "h": _S, "Hz": 1 / _S, "rpm": 1 / _S,
+    "N": _FORCE, "J": _FORCE * _M, "W": _FORCE * _M / _S, "Pa": _FORCE / _M**2, "L": _M**3, "eV": _FORCE * _M, "C": _A * _S,
+    "V": _VOLT, "Ohm": _VOLT / _A, "F": _A * _S / _VOLT, "T": _VOLT * _S / _M**2, "Wb": _VOLT * _S, "H": _VOLT * _S / _A,
+}  # fmt: skip
+_PREFIXED = {
+    prefix + name: unit
+    for name, unit in _UNITS.items()
+    if name not in ("kg", "min", "h", "deg", "rpm", "rad", "sr", "t")
+    for prefix in "GMkdcmµnp"
+}
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+# A product after a quotient, J/kg K, of which nobody knows whether K is above or below.
+_UNCLEAR = re.compile(r"/[^()]*\*(?!\*)")
+
+
+@cache
+def dimension_of(unit: str) -> sp.Expr:
+    """The dimension of a unit as a glossary writes it: kg m²/s, kg m^2 s^-1, N/(rad s), 1.
+
+    Raises InputError for a unit that is not known, and for one that can be read in two ways.
+    """
+    text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"^{found[0].translate(_RAISED)}", unit).replace("°", "deg").strip()
+    text = re.sub(r"\s*[·*]\s*|(?<=[\w)])\s+(?=[\w(])", "*", text).replace("Ω", "Ohm")
+    if _UNCLEAR.search(text):
+        raise InputError(f"unit {unit!r} can be read in two ways: put what is below the line in brackets")
+    text = re.sub(r"\^\(?(-?\d+(?:/\d+)?)\)?", r"**(\1)", text)
+    found = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
+    if not _is_monomial(found):
+        raise InputError(f"unit {unit!r} is no product of units: write it as kg m²/s")
+    return found
+
+
+def _is_monomial(found: Any) -> bool:
+    return isinstance(found, sp.Expr) and all(
+        exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in found.as_powers_dict().items()
+    )
+
+
+def unit_text(dimension: sp.Expr) -> str:
+    """A dimension as a unit: kg m²/s."""
+    powers = {str(base): power for base, power in dimension.as_powers_dict().items() if base != 1}
+    ordered = [(name, powers[name]) for name in _BASES if name in powers]
+    above = [(name, power) for name, power in ordered if power > 0]
+    below = [(name, power) for name, power in ordered if power < 0]
+    if len(below) == 1:
+        name, power = below[0]
+        return f"{_powers(above) or '1'}/{_powers([(name, -power)])}"
+    return _powers([*above, *below]) or "1"
+
+
+def _powers(rows: Iterable[tuple[str, Any]]) -> str:
+    return " ".join(
+        name + ("" if p == 1 else str(p).translate(_SUPERSCRIPT) if p.is_Integer else f"^({p})") for name, p in rows
+    )
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """What the units say of a line, in a sentence.
+
+    "in units": the two sides differ by powers of letters to which a premise gives numbers. "not known": a letter has no unit.
+    """
+
+    answer: Literal["consistent", "in units", "inconsistent", "not known"]
+    says: str
+
+
+def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[Any, Any]) -> Dimensions:
+    """The dimensions of a printed member against what was derived; entry by entry of matrices.
+
+    values: letter → the number that a premise or the text gives it.
+    """
+    units: dict[sp.Symbol, sp.Expr] = {}
+    unread: dict[str, str] = {}
+    for symbol, entry in glossary.items():
+        if entry.unit.strip() in ("", "?"):
+            continue
+        try:
+            units[symbol] = dimension_of(entry.unit)
+        except InputError as refusal:
+            unread[symbol.name] = str(refusal)
+
+    def under(numbers: Mapping[Any, sp.Expr]) -> Dimensions:
+        return _compared(printed, derived, _Reader(units, unread, tuple(numbers.values())))
+
+    strict = under({})
+    if strict.answer != "inconsistent":
+        return strict
+    numbers = {s: units[s] for s, value in values.items() if value.is_number and value != 0 and units.get(s, _ONE) != 1}
+    if under(numbers).answer == "inconsistent":
+        return strict
+    for symbol in tuple(numbers):
+        rest = {s: unit for s, unit in numbers.items() if s != symbol}
+        if under(rest).answer != "inconsistent":
+            numbers = rest
+    given = ", ".join(f"{readable(str(s))} = {readable(str(values[s]))}" for s in numbers)
+    return Dimensions("in units", f"with {given} numbers stand for quantities: {strict.says}")
+
+
+def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
+    sides = [list(s) if isinstance(s, sp.MatrixBase) else [s] for s in (printed, derived)]
+    if len(sides[0]) != len(sides[1]):  # a number beside a vector: with each of its entries
+        sides = [side * max(map(len, sides)) if len(side) == 1 else side for side in sides]
+    unknown, seen = "", list[sp.Expr]()
+    for pair in zip(*sides, strict=False):
+        known = []
+        for name, side in zip(("printed", "derived"), pair, strict=True):
+            try:
+                known.append(reader.of(side))
+            except _UnknownError as refusal:
+                unknown = unknown or str(refusal)
+            except _InconsistentError as difference:
+                return Dimensions("inconsistent", f"{name}: {difference}")
+        both = [dimension for dimension in known if dimension is not None]
+        if len(both) == 2 and not reader.alike(*both):
+            gap = unit_text(both[1] / both[0])
+            texts = [unit_text(dimension) for dimension in both]
+            return Dimensions("inconsistent", f"printed {texts[0]}, derived {texts[1]}; derived/printed is {gap}")
+        seen += both
+    if unknown:
+        return Dimensions("not known", unknown)
+    return Dimensions("consistent", ", ".join(dict.fromkeys(map(unit_text, seen))) or "0")
+
+
+class _UnknownError(Exception):
+    """A dimension that the units do not give."""
+
+
+class _InconsistentError(Exception):
+    """Terms of different dimensions, or a quantity where a number must stand."""
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Dimensions under the units of letters; what is a product of powers of `numbers` counts as a number."""
+
+    units: Mapping[sp.Symbol, sp.Expr]
+    unread: Mapping[str, str]
+    numbers: tuple[sp.Expr, ...]
+
+    def alike(self, a: sp.Expr, b: sp.Expr) -> bool:
+        """Whether two dimensions are the same, up to powers of what counts as a number."""
+        if a == b:
+            return True
+        rows = [[each.as_powers_dict().get(base, 0) for base in _BASES.values()] for each in (*self.numbers, a / b)]
+        return bool(sp.Matrix(rows).rank() == sp.Matrix(rows[:-1]).rank()) if self.numbers else False
+
+    def of(self, e: Any) -> sp.Expr | None:
+        """The dimension of an expression; None of zero, which has any."""
+        if e.is_number:
+            return None if e == 0 else _ONE
+        if e.is_Symbol or isinstance(e, AppliedUndef):
+            return self._letter(e)
+        if e.is_Add or isinstance(e, sp.Max | sp.Min):
+            return self._common(e.args)
+        if e.is_Mul:
+            return self._product(e.args)
+        if e.is_Pow and e.base is not sp.E:
+            return self._power(e)
+        if isinstance(e, sp.Abs | sp.re | sp.im | sp.conjugate):
+            return self.of(e.args[0])
+        if isinstance(e, sp.Derivative):
+            below = self._product([x**n for x, n in e.variable_count])
+            return self._ratio(self.of(e.expr), below)
+        if isinstance(e, sp.Integral):
+            return self._product([e.function, *(limit[0] for limit in e.limits)])
+        if isinstance(e, sp.sign):
+            self.of(e.args[0])
+            return _ONE
+        if isinstance(e, sp.atan2):
+            self._common(e.args)
+            return _ONE
+        if isinstance(e, sp.Function):
+            for argument in e.args:
+                self._number(argument, f"the argument of {e.func.__name__}")
+            return _ONE
+        raise _UnknownError(f"no dimension is known of {readable(str(e))}")
+
+    def _letter(self, e: Any) -> sp.Expr:
+        if e in self.units:
+            return self.units[e]
+        name = str(e.func) if isinstance(e, AppliedUndef) else e.name
+        named = [unit for symbol, unit in self.units.items() if symbol.name == name and isinstance(e, AppliedUndef)]
+        if not named:
+            raise _UnknownError(f"{readable(name)}: {self.unread.get(name, 'no unit is given of it')}")
+        return named[0]
+
+    def _common(self, terms: Iterable[Any]) -> sp.Expr | None:
+        """The dimension of all terms of a sum; terms that differ are found though others are not known."""
+        first: tuple[Any, sp.Expr] | None = None
+        unknown: _UnknownError | None = None
+        for term in terms:
+            try:
+                dimension = self.of(term)
+            except _UnknownError as refusal:
+                unknown = unknown or refusal
+                continue
+            if dimension is None:
+                continue
+            if first is not None and not self.alike(first[1], dimension):
+                texts = [f"{_shown(t)} is {unit_text(d)}" for t, d in (first, (term, dimension))]
+                raise _InconsistentError(f"a sum of different dimensions, {texts[0]}, {texts[1]}")
+            first = first or (term, dimension)
+        if unknown:
+            raise unknown
+        return first[1] if first else None
+
+    def _product(self, factors: Iterable[Any]) -> sp.Expr | None:
+        made: sp.Expr | None = _ONE
+        unknown: _UnknownError | None = None
+        for factor in factors:
+            try:
+                made = self._ratio(made, 1 / d if (d := self.of(factor)) is not None else None)
+            except _UnknownError as refusal:
+                unknown = unknown or refusal
+        if unknown:
+            raise unknown
+        return made
+
+    def _ratio(self, above: sp.Expr | None, below: sp.Expr | None) -> sp.Expr | None:
+        return None if above is None or below is None else above / below
+
+    def _power(self, e: sp.Pow) -> sp.Expr:
+        base = self.of(e.base)
+        if e.exp.is_Rational and base is not None:
+            return base**e.exp
+        self._number(e.exp, "an exponent")
+        if base is not None and not self.alike(base, _ONE):
+            raise _UnknownError(f"{_shown(e)} is a power of {unit_text(base)} with a letter in the exponent")
+        return _ONE
+
+    def _number(self, e: Any, where: str) -> None:
+        dimension = self.of(e)
+        if dimension is not None and not self.alike(dimension, _ONE):
+            raise _InconsistentError(f"{where}, {_shown(e)}, is {unit_text(dimension)}")
+
+
+def _shown(e: Any) -> str:
+    text = readable(str(e))
+    return text if len(text) <= 60 else f"{text[:57]}…"
