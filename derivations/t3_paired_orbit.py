@@ -155,7 +155,33 @@ prove([e.of for e in library[3:]], (2 * unit_length, bar), "the library's constr
 # ## First order
 #
 # Solutions are sought as $x=r_0x^{(1)}(\Phi)+r_0^2x^{(2)}(\Phi)+\dots$, likewise $Y$, $z$ and the multipliers, with
-# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré). At first order the pair swings as in t1:
+# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré), about rest, $z=1$ and all else zero. The coefficients of $r_0$ in
+# the five equations are, a dot being $d/d\Phi$, and $y$ written for $Y$ and each letter for its first-order term,
+
+
+# %%
+def of_power(n: int, put: dict) -> list[sp.Expr]:
+    """The coefficient of r_0^n in the five equations, w = 1, where `put` gives what the unknowns are."""
+    five = (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2], unit_length, bar)
+    return [sp.expand(e.subs(w, 1).xreplace(put)).coeff(r0, n) for e in five]
+
+
+unknown = (*AXES.q, *AXES.v, *AXES.a, *multipliers)
+at_rest = dict.fromkeys(unknown, 0) | {z1: 1, z2: 1}
+linear = (own * x1_a + shared * x2_a + y1_v + k * tau, own * y1_a + shared * y2_a - x1_v / sigma)
+in_z = own * z1_a + shared * z2_a - lambda_1 + tau
+prove(
+    of_power(1, {s: at_rest[s] + r0 * s for s in unknown}),
+    (*linear, in_z, z1, -k * (x1 - x2) - z1 - z2),
+    "the five equations to first order, each to vanish",
+    names=[rf"{name}^{{(1)}}" for name in ("E_x", "E_Y", "E_z", "g_1", "g_3")],
+)
+
+# %% [markdown]
+# The last two give $z=0$ and $x_1=x_2$. As $x_2(\Phi)=-x_1(\Phi+\pi)$ and $Y_2(\Phi)=Y_1(\Phi+\pi)$, the motion has odd
+# harmonics only, and $Y_2=-Y_1$. Half a period later the first equation has the opposite sign but for $k\tau$, as the bar is the
+# same for both rotors: $\tau=0$, and with the third $\lambda_1=0$. With $a+b=1$, $a-b=1/\sigma$ there remain
+# $\ddot x+\dot Y=0$ and $\ddot Y-\dot x=0$, and the pair swings as in t1:
 
 # %%
 series = paired_series(3)
@@ -171,8 +197,24 @@ prove(
 # %% [markdown]
 # ## Second order
 #
-# The bar makes twisted axes lean, $x_1-x_2=\sigma(Y_1-Y_2)^2/(2k)$; the unit length lowers $z$; the gyroscopic force of the
-# lean drives $Y$:
+# With the first order put in, the coefficients of $r_0^2$ are, each letter being its second-order term,
+
+# %%
+turning = {x1: sp.cos(Phi), y1: sp.sin(Phi), x2: sp.cos(Phi), y2: -sp.sin(Phi)}
+for names, slower in ((AXES.v, AXES.q), (AXES.a, AXES.v)):
+    turning |= {s: sp.sympify(turning.get(q, 0)).diff(Phi) for s, q in zip(names, slower, strict=True)}
+cosine, sine = sp.cos(Phi) ** 2, sp.sin(Phi) ** 2
+prove(
+    of_power(2, {s: at_rest[s] + r0 * turning.get(s, 0) + r0**2 * s for s in unknown}),
+    (*linear, in_z - 1, z1 + (cosine + sigma * sine) / 2, -k * (x1 - x2) - z1 - z2 - cosine + sigma * sine),
+    "the five equations to second order, each to vanish",
+    names=[rf"{name}^{{(2)}}" for name in ("E_x", "E_Y", "E_z", "g_1", "g_3")],
+)
+
+# %% [markdown]
+# The left sides are those of the first order, as at every order. The unit length lowers $z$; with it the bar makes twisted axes
+# lean, $x_1-x_2=2\sigma\sin^2\Phi/k$, that is $\sigma(Y_1-Y_2)^2/(2k)$ of the first order. In even harmonics $x_2=-x_1$ and
+# $Y_2=Y_1$: the gyroscopic force of the lean drives $Y$, $\ddot Y=\dot x/\sigma$:
 
 # %%
 second_order = (
@@ -185,7 +227,7 @@ prove(
 )
 
 # %% [markdown]
-# and the multipliers begin there:
+# and the multipliers begin there, $\tau$ from $E_x$ and $\lambda_1$ from $E_z$:
 
 # %%
 prove(

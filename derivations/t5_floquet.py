@@ -56,10 +56,65 @@ Formula(equations, "E")
 # %% [markdown]
 # With $\delta x$ and so on put in, to first order in $\xi$ and $\eta$, and $A\eta$, $B\xi$ for the derivatives of $\xi$ and
 # $\eta$: a velocity varies by $(p'+Bq)\,\xi+(q'+Ap)\,\eta$, an acceleration by
-# $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$, times $\Omega$ and $\Omega^2$.
+# $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$, times $\Omega$ and $\Omega^2$. So each of the five equations gives two to be solved,
 #
-# Order by order in $r_0$ they are linear in the next terms of $p$ and $q$; where those leave a mean undetermined, $A$ and $B$
-# make them solvable. The solution through second order:
+# $$E_\xi=\sum_j\Big(\frac{\partial E}{\partial q_j}\,p_j+\Omega\,\frac{\partial E}{\partial\dot q_j}\,(p_j'+Bq_j)
+# +\Omega^2\,\frac{\partial E}{\partial\ddot q_j}\,(p_j''+2Bq_j'+ABp_j)\Big)=0,$$
+#
+# and $E_\eta=0$, in which $p$ and $q$, $A$ and $B$ are exchanged. The derivatives of $E$ are taken on the orbit; $j$ runs over
+# both axes and the multipliers, and as $p$ and $q$ are odd under $S$, those of rotor 2 are $x_2(\Phi)=x_1(\Phi+\pi)$,
+# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, and so for $\lambda_2$; the bar's $\tau(\Phi+\pi)=-\tau(\Phi)$.
+#
+# From $p=(1,0,0)$, $q=(0,1,0)$ and the orbit's first order, $x=r_0\cos\Phi$ and $Y_1=-Y_2=r_0\sin\Phi$, the coefficients of
+# $r_0$ are, each letter being the first-order term of $p$ or of $q$, a dot $d/d\Phi$ and $y$ written for $Y$,
+
+
+# %%
+unknown = (*AXES.q, *AXES.v, *AXES.a, *multipliers)
+x1, y1, z1, x2, y2, z2 = AXES.q
+swinging = {x1: sp.cos(Phi), y1: sp.sin(Phi), x2: sp.cos(Phi), y2: -sp.sin(Phi)}
+for names, slower in ((AXES.v, AXES.q), (AXES.a, AXES.v)):
+    swinging |= {s: sp.sympify(swinging.get(q, 0)).diff(Phi) for s, q in zip(names, slower, strict=True)}
+
+
+def first_order(displaced: dict) -> list[sp.Expr]:
+    """The coefficient of r_0 in the five equations for what varies from the displacement at rest."""
+    vary = sp.Symbol("vary")
+    put = {s: int(s in (z1, z2)) + r0 * swinging.get(s, 0) + vary * (displaced.get(s, 0) + r0 * s) for s in unknown}
+    return [sp.expand(sp.expand(e.xreplace(put)).coeff(vary, 1)).coeff(r0, 1) for e in equations]
+
+
+(x1_v, y1_v, _, *_), (x1_a, y1_a, z1_a, x2_a, y2_a, z2_a) = AXES.v, AXES.a
+own, shared = units[a], units[b]
+linear = (
+    own * x1_a + shared * x2_a + y1_v + k * multipliers[2],
+    own * y1_a + shared * y2_a - x1_v / sigma,
+    own * z1_a + shared * z2_a - multipliers[0] + multipliers[2],
+    z1,
+    -k * (x1 - x2) - z1 - z2,
+)
+driven = (0, 0, -sp.cos(Phi), sp.cos(Phi), -2 * sp.cos(Phi))
+prove(
+    first_order({x1: 1, x2: 1}),
+    [term + more for term, more in zip(linear, driven, strict=True)],
+    "the equations for p to first order, each to vanish",
+    names=[rf"E_{{\xi,{i}}}^{{(1)}}" for i in range(1, 6)],
+)
+
+# %%
+driven = (0, 0, -sp.sin(Phi), sigma * sp.sin(Phi), 2 * sigma * sp.sin(Phi))
+prove(
+    first_order({y1: 1, y2: -1}),
+    [term + more for term, more in zip(linear, driven, strict=True)],
+    "the equations for q to first order, each to vanish",
+    names=[rf"E_{{\eta,{i}}}^{{(1)}}" for i in range(1, 6)],
+)
+
+# %% [markdown]
+# At every order the next terms of $p$ and $q$ stand in these same left sides, and what is known drives them. They leave the means
+# of $x$ and of $Y$ undetermined, which $p=(1,0,0)$ and $q=(0,1,0)$ fix, and drop out of the means of the first two equations.
+# By the velocities $p'+Bq$ and $q'+Ap$ the mean of the first has the term $B$ for $p$, that of the second $-A/\sigma$ for $q$:
+# these determine $A$ and $B$. (The other two means vanish, as odd in $\Phi$.) The solution through second order:
 
 # %%
 orbit, found = paired_series(4), exponent_series(4)

@@ -194,7 +194,7 @@ Formula(relative, r"\frac{\text{error}}{\text{growth}}")
 # ## Where the axes stay parallel
 #
 # For $b>0$ the stiffness is positive. Lyapunov's criterion for $(P y')'+Qy=0$ of period $T$, $\int d\Phi/P\int Q\,d\Phi\le4$
-# (Magnus & Winkler, Hill's Equation, ch. V), proves that a twist is bounded. As
+# (Magnus & Winkler, Hill's Equation, ch. V), says that a small twist is bounded. As
 # $\int_0^\pi d\Phi/(1-\rho^2\cos^2\Phi)=\pi/\sqrt{1-\rho^2}$ and $\int_0^\pi2\beta\rho^2\sin^2\Phi\,d\Phi=\pi\beta\rho^2$,
 # these are cones with
 
@@ -207,12 +207,12 @@ lyapunov_criterion()
 # %%
 heavy, cones = Scene(spins=(10, 10), link=Link(1, 1, 0)), np.radians(np.arange(5, 90, 5))
 resonant = {float(np.degrees(c)): g for c in cones if (g := twist_multiplier_growth(heavy, c))}
-proved = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
-assert proved < min(resonant)
+within = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
+assert within < min(resonant)
 Remark(
     "Wide cones",
-    f"A point mass of 1 kg in the middle of the bar (K = 0, b > 0): proved to keep the axes parallel on cones up to "
-    f"{proved:.0f}°, and the first of those tried that does not is {min(resonant):.0f}°, where a twist grows at "
+    f"A point mass of 1 kg in the middle of the bar (K = 0, b > 0): of the cones tried, a small twist is bounded by Lyapunov's "
+    f"criterion up to {within:.0f}°, and the first on which it is not is {min(resonant):.0f}°, where it grows at "
     f"{resonant[min(resonant)]:.2f} 1/s.",
 )
 
@@ -247,7 +247,7 @@ rate = float(twist_growth()(size, 10.0, *paper.inertias))
 Remark(
     "Equal spins",
     "Parallel axes stay parallel as a solution if and only if G_1 = G_2; the pair is then one rotor of inertia a + b and "
-    "momentum G an axis (proved).",
+    "momentum G an axis: both are derived above, exactly.",
 )
 
 # %%

@@ -48,7 +48,7 @@ _LONGEST = 240
 
 @dataclass(frozen=True)
 class Step:
-    """Equations that were proved. pairs: (left, right). names: LaTeX of the left sides. written: LaTeX of the equations,
+    """Equations that were decided. pairs: (left, right). names: LaTeX of the left sides. written: LaTeX of the equations,
     where vectors read better than the components that were compared. domain: factors that must not vanish. order: of a
     series in `small`."""
 
@@ -84,7 +84,7 @@ def prove(
 ) -> Step:
     """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
 
-    says: what is proved, in words. names: LaTeX shown for the left sides. written: LaTeX shown for the whole equations, in
+    says: what is decided, in words. names: LaTeX shown for the left sides. written: LaTeX shown for the whole equations, in
     vectors and sums where what is compared are components. Raises ProofError with the difference where it does not hold or
     is not decided, and where a left side is too long to be read and neither named nor written.
     """

@@ -100,7 +100,7 @@ def twist_growth_error() -> ClosedForm:
 
 @cache
 def lyapunov_criterion() -> sp.Rel:
-    """pi² beta rho² <= 4 sqrt(1 − rho²), beta = b/(a − b): where a small twist is proved to be bounded for b > 0.
+    """pi² beta rho² <= 4 sqrt(1 − rho²), beta = b/(a − b): where a small twist is bounded for b > 0.
 
     Lyapunov: all solutions of (p y')' + q y = 0 with p > 0, q >= 0 of period T are bounded where the mean of q is positive
     and ∫ dΦ/p ∫ q dΦ <= 4 over the period; here p = 1 − rho² cos² Phi, q = 2 beta rho² sin² Phi, T = pi.
@@ -150,7 +150,7 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
 
 
 def twist_bounded(scene: Scene, angle: float) -> bool:
-    """Whether the parallel precession of equal spins on a cone of half-angle `angle` (rad) is proved to keep its axes parallel:
+    """Whether the parallel precession of equal spins on a cone of half-angle `angle` (rad) keeps a small twist bounded:
 
     b > 0, that is K < m ell²/4, and Lyapunov's criterion holds. Raises as `parallel_scene`.
     """

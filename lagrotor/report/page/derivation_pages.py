@@ -66,7 +66,8 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, tuple | list):
         return "".join(_value_html(part, answers) for part in value)
     if isinstance(value, Step):
-        says = f"<p><small>Proved: {prose(value.says)}.</small></p>" if value.says else ""
+        how = "exactly" if value.small is None else f"through order {value.order or 0}"
+        says = f"<p><small>Decided {how}: {prose(value.says)}.</small></p>" if value.says else ""
         return f'<div class="step">{typeset(value.tex)}{says}</div>'
     if isinstance(value, Formula):
         return typeset(value.tex)

@@ -125,7 +125,8 @@ def _notation(report: Report) -> str:
 
 
 def _derivations(report: Report) -> str:
-    how = "<p>Each derivation opens. Every step in it was proved by the run that wrote this page; letters as in the "
+    how = "<p>Each derivation opens. The run that wrote this page decided each of its equations exactly, or through the order "
+    how += "that it shows; letters as in the "
     how += '<a href="#notation">notation</a>.</p>'
     return how + "\n".join(map(derivation_entry, report.derivations))
 
