@@ -118,6 +118,8 @@ class Run(Shown):
 
     def after(self, begin: float) -> Self:
         """The part of the run from the time `begin` (s) on. Raises InputError where nothing is left."""
+        if isinstance(begin, bool) or not isinstance(begin, int | float | np.number) or begin != begin:
+            raise InputError(f"after: begin = {begin!r} must be a time in s")
         i, held = int(np.searchsorted(self.t, begin)), self.quantities()
         if i == len(self.t):
             raise InputError(f"after: the run ends at t = {self.t[-1]:g} s, before {begin:g} s")

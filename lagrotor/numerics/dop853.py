@@ -9,6 +9,7 @@ from lagrotor.numerics.segment import Segment, StopError, Stretch
 
 _TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
 _PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
+_FIRST = 1e-6  # of a segment: the first step, where the one that is tried leaves the range of the right-hand side
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
 
 
@@ -30,6 +31,10 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
             atol=error,
             max_step=segment.longest,
         )
+    if not np.isfinite(solver.f).all():
+        raise StopError(segment.left, "the right-hand side is not finite", evaluations=solver.nfev)
+    if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
+        solver.h_abs = _FIRST * (segment.right - segment.left)
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail
             turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)

@@ -339,8 +339,9 @@ def _states(course: _Course, run: _Integration, n: int, beside: _Integration | N
 
 def _not_conserving(course: _Course, states: Array, error: float) -> IntegrationError | None:
     """What is wrong with states that do not conserve what they must as well as their error allows; None where nothing is."""
+    way_out = "take other coordinates or a smaller tol" if course.evolution.elsewhere else "take a smaller tol"
     if not (np.isfinite(states).all() and np.isfinite(error)):
-        return IntegrationError("a value is not finite: take another model or a smaller tol")
+        return IntegrationError(f"a value is not finite: {way_out}")
     if course.evolution.defect is None:
         return None
     defect = course.evolution.defect(course.t[: len(states)], states)
@@ -348,7 +349,7 @@ def _not_conserving(course: _Course, states: Array, error: float) -> Integration
         return None
     return IntegrationError(
         f"what the motion conserves is off by as much as an error of {defect:.1e} makes, although {error:.1e} is "
-        "estimated: the run followed another motion; take another model or a smaller tol"
+        f"estimated: the run followed another motion; {way_out}"
     )
 
 

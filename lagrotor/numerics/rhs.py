@@ -32,6 +32,8 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
     def _print_not_supported(self, expr: sp.Expr) -> str:
         raise InputError(f"{expr} has no code in Python's math module: write it with elementary functions")
 
+    _print_Integral = _print_Derivative = _print_Limit = _print_not_supported
+
     def _as_ordered_terms(self, expr: sp.Add, order: Any = None) -> list[sp.Expr]:
         return sorted(super()._as_ordered_terms(expr, order), key=lambda term: term.could_extract_minus_sign())
 

@@ -63,7 +63,7 @@ WAYS_OUT = {
     "budget": "take a larger tol or a shorter run",
     "singular": "the motion has a singular position there; end the run before, or describe it by other coordinates",
     "event": "",
-    "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol or model",
+    "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol",
 }
 
 

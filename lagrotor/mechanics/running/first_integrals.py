@@ -59,7 +59,8 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
             for i, size in enumerate(sizes):
                 step = np.zeros((2 * n, 1))
                 step[i] = _STEP * size
-                slope += np.abs(value(y + step) - value(y - step)) / (2 * _STEP)
+                with np.errstate(all="ignore"):
+                    slope += np.abs(value(y + step) - value(y - step)) / (2 * _STEP)
             known = value(y)
             rounding = 1e-15 * np.abs(known).max()
             off = np.maximum(np.abs(known - known[0]) - rounding, 0.0)

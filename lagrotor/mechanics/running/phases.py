@@ -407,12 +407,9 @@ def _numbers(
 
 def _decided(h: Switched, y: Array, now: float, mode: ContactMode, i: int) -> int:
     """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
-    rates = []
-    for s in (1, -1):
-        there = mode._replace(signs=tuple(s if k == i else each for k, each in enumerate(mode.signs)))
-        system = h.phase(there).system
-        rates.append(_numbers(h, system, [total_derivative(h.surfaces[i].argument, system.c)], y, now, there)[0])
-    above, below = rates
+    above, below = _sides(h, y, now, mode, i, 1)
+    if not h.surfaces[i].argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE:
+        above, below = _sides(h, y, now, mode, i, 2)  # of a place, passed at rest
     size = _NOISE * (abs(above) + abs(below))
     if abs(above - below) <= size:  # no jump here
         return 1 if above > 0 else -1 if above < 0 else mode.signs[i] or 1
@@ -427,6 +424,19 @@ def _decided(h: Switched, y: Array, now: float, mode: ContactMode, i: int) -> in
             now, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
         )
     return 0
+
+
+def _sides(h: Switched, y: Array, now: float, mode: ContactMode, i: int, order: int) -> tuple[float, float]:
+    """The first or second rate of w above and below its surface."""
+    rates = []
+    for s in (1, -1):
+        there = mode._replace(signs=tuple(s if k == i else each for k, each in enumerate(mode.signs)))
+        system = h.phase(there).system
+        rate = h.surfaces[i].argument
+        for _ in range(order):
+            rate = total_derivative(rate, system.c)
+        rates.append(float(_numbers(h, system, [rate], y, now, there)[0]))
+    return rates[0], rates[1]
 
 
 def _settled(h: Switched, y: Array, now: float, mode: ContactMode, fixed: bool = False) -> ContactMode:

@@ -16,7 +16,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.algebra import derivative
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError, SingularError, near
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints
 from lagrotor.mechanics.bodies.stages import Stages
@@ -234,13 +234,26 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}
+    if len(by_name) < len(values):
+        names = [str(key) for key in values]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
+    if moving := [str(s) for s in given.states if str(s) in by_name]:
+        raise InputError(
+            f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
+        )
     if missing := [str(p) for p in given.parameters if str(p) not in by_name]:
-        raise InputError(f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
+        misspelt = near(missing[0], by_name.keys() - {str(p) for p in given.parameters})
+        raise InputError(
+            f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
+        )
     found = []
     for p in given.parameters:
         try:
+            if isinstance(by_name[str(p)], str | bool):
+                raise TypeError
             found.append(float(by_name[str(p)]))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InputError(f"{where}: {p} = {by_name[str(p)]!r} must be a number") from None
         if not abs(found[-1]) < float("inf"):
             raise InputError(f"{where}: {p} = {found[-1]} must be finite")

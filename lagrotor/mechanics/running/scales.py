@@ -106,7 +106,7 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int) -> Array:
     velocities = np.asarray(bare(0.0, start), float)[: 2 * n]
     q, v, a = start[:n], start[n : 2 * n], np.nan_to_num(velocities[n:], posinf=0.0, neginf=0.0)
     rate = max(float(np.abs(_rates(bare, start, n)).max()), 1 / span)
-    places = np.maximum.reduce([np.abs(q), np.abs(v) / rate, np.abs(a) / rate**2])
+    places = np.maximum.reduce([np.abs(q), np.abs(v) / rate, np.abs(a) / rate / rate])
     speeds = np.maximum.reduce([np.abs(v), np.abs(a) / rate, np.abs(q) / span])
     return np.concatenate([_without_zeros(places), _without_zeros(speeds)])
 

@@ -115,7 +115,12 @@ def simulate_system(
         wanted = (
             [event.gap, event.restitution] if isinstance(event, Impact) else [event.section, *(event.velocities or ())]
         )
-        parameter_values(function_program(h.system, *wanted), h.numbers(h.slipping))
+        program = function_program(h.system, *wanted)
+        at_start = values_of(
+            program, q[:, None], v[:, None], times[:1], parameter_values(program, h.numbers(h.slipping))
+        )[:, 0]
+        if isinstance(event, Impact):
+            _check_impact(event, float(at_start[0]), float(at_start[1]), times[0])
     if system.multipliers:
         q, v = _on_constraints(system, values, q, v, times[0])
     if h.smooth:
@@ -146,6 +151,18 @@ def simulate_system(
     if system.multipliers:
         _warn_of_dependence(run)
     return run if h.smooth else _up_to_its_end(run)
+
+
+def _check_impact(impact: Impact, gap: float, restitution: float, begin: float) -> None:
+    """Raises InputError for a gap that is negative at the start, and a restitution that is none."""
+    if gap < -_OFF:
+        raise InputError(
+            f"simulate: the gap {impact.gap} is {gap:.6g} at t = {begin:g} s: start where it is not negative"
+        )
+    if not 0 <= restitution <= 1:
+        raise InputError(
+            f"simulate: the restitution {impact.restitution} is {restitution:.6g}: it lies between 0 and 1"
+        )
 
 
 def _up_to_its_end(run: SystemRun) -> SystemRun:

@@ -37,26 +37,35 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
 
 
 def state_vector(name: str, given: ArrayLike, n: int) -> Array:
-    try:
-        found = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"simulate: {name} = {given!r} must be {n} numbers") from None
+    found = _real(given)
+    if found is None:
+        raise InputError(f"simulate: {name} = {given!r} must be {n} numbers")
     if found.shape != (n,) or not np.isfinite(found).all():
         raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, one for each coordinate")
     return found
 
 
 def increasing(where: str, given: ArrayLike) -> Array:
-    try:
-        found = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{where}: t = {given!r} must be an array of times in s") from None
+    found = _real(given)
+    if found is None:
+        raise InputError(f"{where}: t = {_short(given)} must be an array of times in s")
     if found.ndim != 1 or not len(found) or not np.isfinite(found).all() or (np.diff(found) <= 0).any():
         raise InputError(
             f"{where}: t = {_short(given)} must be an increasing array of finite times, t[0] the time of q0 and v0: "
             "np.linspace(0, 10, 101)"
         )
     return found
+
+
+def _real(given: ArrayLike) -> Array | None:
+    """Real numbers as they are given; None for texts, dates, complex numbers and what else is none."""
+    try:
+        plain = np.asarray(given)
+        if plain.dtype.kind not in "iufbO" or (plain.dtype.kind == "O" and any(isinstance(e, str) for e in plain.flat)):
+            return None
+        return np.asarray(plain, dtype=float)
+    except (TypeError, ValueError):
+        return None
 
 
 def _short(given: ArrayLike) -> str:

@@ -34,7 +34,15 @@ class Event:
         object.__setattr__(self, "section", expression("Event: section", self.section))
         if self.direction not in (-1, 0, 1):
             raise InputError(f"Event: direction = {self.direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
+        if not self.section.free_symbols:
+            raise InputError(
+                f"Event: section = {self.section} is a number, which nothing crosses: give q, v or t in it"
+            )
         if self.velocities is not None:
+            if not isinstance(self.velocities, Sequence | sp.MatrixBase):
+                raise InputError(
+                    f"Event: velocities = {self.velocities!r} must be a tuple, an expression for each coordinate"
+                )
             given = vector_of("Event: velocities", self.velocities, len(self.velocities))
             object.__setattr__(self, "velocities", given)
 
@@ -57,6 +65,8 @@ class Impact:
         object.__setattr__(self, "restitution", e)
         if e.is_number and not 0 <= e <= 1:
             raise InputError(f"Impact: restitution = {e} must lie between 0, nothing rebounds, and 1, nothing is lost")
+        if not isinstance(self.latched, bool):
+            raise InputError(f"Impact: latched = {self.latched!r} must be True or False")
         if self.latched and e != 0:
             raise InputError(f"Impact: restitution = {e} of what is latched: give 0, or latched=False")
 
@@ -111,6 +121,13 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             put[atom] = _smooth(atom, w, s)
+    for root in set().union(*(e.atoms(sp.Pow) for e in system.forces)):
+        speeds = root.base.free_symbols & {*system.c.v}
+        if root.exp == sp.Rational(-1, 2) and len(speeds) > 1 and root.base.subs(dict.fromkeys(speeds, 0)) == 0:
+            raise InputError(
+                f"simulate: {root} is not defined at rest, and dry friction in several directions at once is not run: "
+                f"add the square of a small speed under the root"
+            )
     if not put:
         return system, ()
     if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:

@@ -1,0 +1,90 @@
+"""What a run refuses at its door: in words, none accepted for what it is not, none without an end."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.errors import InputError, IntegrationError
+from lagrotor.mechanics import Event, Impact, System, coordinates
+
+m, length, e = sp.symbols("m length e", positive=True)
+c = coordinates("theta")
+x, v = c.q[0], c.v[0]
+T = np.linspace(0, 1, 3)
+pendulum = System(c, m * length**2 * v**2 / 2 + 10 * m * length * sp.cos(x))
+plane = coordinates("x y")
+speed = sp.sqrt(plane.v[0] ** 2 + plane.v[1] ** 2)
+
+
+def run(**changed: Any) -> Any:
+    given: dict[str, Any] = {"values": {m: 1, length: 1}, "q0": (0.1,), "v0": (0,), "t": T}
+    return pendulum.simulate(**(given | changed))
+
+
+def forced(force: sp.Expr) -> System:
+    return System(c, v**2 / 2, forces=(force,))
+
+
+REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
+    "misspelt": (lambda: run(values={m: 1, "lenght": 1}), r"length without a value.*lenght\?"),
+    "text": (lambda: run(values={m: 1, length: "1"}), "length = '1' must be a number"),
+    "truth": (lambda: run(values={m: True, length: 1}), "m = True must be a number"),
+    "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which moves"),
+    "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
+    "complex start": (lambda: run(q0=np.array([0.1 + 1j])), "must be 1 numbers"),
+    "start of texts": (lambda: run(q0=["0.1"]), "must be 1 numbers"),
+    "times of texts": (lambda: run(t=["0", "1"]), "must be an array of times"),
+    "complex times": (lambda: run(t=np.array([0, 1 + 1j])), "must be an array of times"),
+    "dates": (lambda: run(t=np.array(["2020-01-01"], dtype="datetime64[s]")), "must be an array of times"),
+    "no section": (lambda: Event(sp.S.One), "which nothing crosses"),
+    "velocities": (lambda: Event(x, -v), "must be a tuple"),  # type: ignore[arg-type]
+    "latched": (lambda: Impact(x, sp.S.Zero, "yes"), "must be True or False"),  # type: ignore[arg-type]
+    "restitution": (lambda: run(values={m: 1, length: 1, e: 2}, events=Impact(x, e)), "restitution e is 2"),
+    "gap": (lambda: run(q0=(-0.1,), events=Impact(x)), r"gap theta is -0\.1"),
+    "after": (lambda: run().after("x"), "must be a time"),
+    "integral": (
+        lambda: forced(sp.Integral(sp.sin(m), (m, 0, x))).simulate({}, (0.1,), (0,), T),
+        "write it with elementary",
+    ),
+    "vector friction": (
+        lambda: System(
+            plane, (plane.v[0] ** 2 + plane.v[1] ** 2) / 2, forces=(-plane.v[0] / speed, -plane.v[1] / speed)
+        ).simulate({}, (0, 0), (1, 1), T),
+        "not defined at rest",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_makes_no_sense_is_refused_in_words(name: str) -> None:
+    act, words = REFUSED[name]
+    with pytest.raises(InputError, match=words):
+        act()
+
+
+def test_what_makes_sense_is_run() -> None:
+    """The twin: each of these is near to one that is refused."""
+    plain = run().q
+    for values in ({"m": 1, length: 1.0}, {m: sp.Rational(1), length: np.float32(1)}, {m: 1, length: 1, e: 0.5}):
+        assert np.array_equal(run(values=values).q, plain)
+    assert run(q0=(sp.Rational(1, 10),), t=range(3)).t[-1] == 2
+    assert run(t=[0, 1e-300]).q[-1] == pytest.approx(0.1)
+    assert run(values={m: 1, length: 1, e: 1}, events=Impact(x, e)).ending.kind == "end"
+
+
+@pytest.mark.parametrize("system", [forced(sp.sqrt(x - 1)), forced(1 / (x - x.xreplace({x: sp.Rational(1, 10)})))])
+def test_a_start_without_a_finite_acceleration_is_refused_at_once(system: System) -> None:
+    with pytest.raises(IntegrationError, match="not finite") as refusal:
+        system.simulate({}, (0.1,), (0,), T)
+    assert "model" not in str(refusal.value)  # of a system there is one alone
+
+
+def test_at_rest_where_a_force_of_the_place_jumps() -> None:
+    """x'' = −sign x stays, x'' = sign x leaves to either side: said of both; passed with a velocity both are run."""
+    for force, words in ((-sp.sign(x), "stays on theta = 0"), (sp.sign(x), "either side")):
+        with pytest.warns(UserWarning, match=words):
+            assert forced(force).simulate({}, (0,), (0,), T).ending.reason
+        assert forced(force).simulate({}, (0,), (1,), T).ending.kind == "end"
