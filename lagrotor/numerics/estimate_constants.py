@@ -70,8 +70,8 @@ SWING = Calibrated(
     0.5,
     "turns within which two runs that part swing through each other: the error up to a time is the difference up to then and so "
     "much later",
-    "192 wide systems: up to some time two exceed three times the difference up to then, by a fifth at most, none that of half "
-    "a turn more",
+    "seed 1209 of the wide systems and one of seeds 2004 to 2099 exceed it without; with it three of seeds 3000 to 3119 still do,"
+    " one by 3.8 times",
     "test_wide_systems.py::test_one_of_each_kind_keeps_its_promise",
 )
 STAGE = Calibrated(
