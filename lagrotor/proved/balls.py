@@ -67,7 +67,10 @@ def ball(value: Any, where: str = "value") -> Ball:
             raise InputError(f"{where} = {value!r}: the lowest value comes first")
         return low.union(high)
     if isinstance(value, sp.Expr) and not value.is_Number and value.is_number:
-        return expression_ball(value, where)
+        found = expression_ball(value, where)
+        if not found.is_finite():
+            raise InputError(f"{where} = {value} must be a finite real number")
+        return found
     number = rational(value, where)
     return arb(fmpq(number.numerator, number.denominator))
 

@@ -211,14 +211,18 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
     limit = longest = float(exact(t))
     for _ in range(MOST):
         left = t - node.t
-        rows = taylor(motion, node.m, n)
+        try:
+            rows = taylor(motion, node.m, n)
+        except TailError as reason:
+            raise NotProved(f"the enclosure ends at t = {float(node.t):.6g}: {reason}") from None
         h = min(step_length(rows, accuracy.tol), limit * _LONGER)
         while True:
             last = not (left > h * 1.0001)
             try:
                 made = step_of(motion, node, w, left if last else arb(h), n, slope_terms, rows)
                 break
-            except (TailError, ZeroDivisionError, ValueError) as reason:
+            except (TailError, ZeroDivisionError, ValueError) as error:
+                reason = error if isinstance(error, TailError) else "the set is too wide for its frame"
                 h = min(h, float(left)) * _SHORTER
                 if h < SHORTEST * longest:
                     raise NotProved(

@@ -11,6 +11,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, ctx, fmpz
 
 from lagrotor.errors import InputError, NotProved
+from lagrotor.proved.statements import theorem_of
 
 Ball = Any
 ZERO = arb(0)
@@ -503,7 +504,7 @@ def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
 
 
 def check(certificate: Any) -> str:
-    """Verify a certificate; returns the theorem that it proves.
+    """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
 
     Raises InputError for what is no certificate, NotProved with the first thing that does not hold.
     """
@@ -520,11 +521,12 @@ def check(certificate: Any) -> str:
     try:
         ctx.prec = int(certificate.get("bits", 64)) + _MORE_BITS
         rule(certificate)
+        words = theorem_of(certificate)
     except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError) as error:
         raise NotProved(f"check: the certificate cannot be followed: {error!r}") from None
     finally:
         ctx.prec = before
-    return str(certificate["theorem"])
+    return words
 
 
 def check_enclosure(certificate: Any) -> None:
@@ -627,8 +629,32 @@ def check_orbit(certificate: Any) -> None:
     start = [x + y for x, y in zip(carried.middle, (carried.L * column(inner)).entries(), strict=True)]
     turns = 1 if not first else 2 if first == last else 4
     claim = certificate["claim"]
+    states = balls(claim["start"])
+    demand(
+        len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False)),
+        "the start is another",
+    )
     demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
     check_kind(certificate, carried, first, last)
+    if "r0" in claim:
+        check_amplitude([certificate], claim["r0"])
+
+
+def amplitudes(piece: Any) -> tuple[Ball, Ball]:
+    """The ends of U = artanh r_0 over a piece of the pair's family."""
+    demand(
+        piece["motion"]["arguments"][0] == "U" and piece["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]],
+        "a piece is no precession of the pair",
+    )
+    U = read_ball(piece["start"]["middle"][0]) + read_ball(piece["start"]["spread"][0])
+    return arb(U.lower()), arb(U.upper())
+
+
+def check_amplitude(pieces: Sequence[Any], claimed: Any) -> None:
+    """The pieces hold every amplitude from the lowest to the highest that is claimed."""
+    low, high = (constant(text).atanh() for text in claimed)
+    demand(claimed[0] == claimed[1] or low < high, "the lowest amplitude is not below the highest")
+    demand(amplitudes(pieces[0])[0] <= low and high <= amplitudes(pieces[-1])[1], "the amplitudes are others")
 
 
 def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any, held: Any) -> None:
@@ -674,7 +700,8 @@ def check_reversal(carried: Carried, signs: Any) -> None:
 def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
     """The trace of the monodromy less the ones, against ±2."""
     claim, moving = certificate["claim"], carried.flow.moving
-    if claim["kind"] == "undecided" or claim["kind"] == "parabolic":
+    demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
+    if claim["kind"] == "undecided":
         return
     whole = carried.derivative * carried.L.inv()
     D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
@@ -683,7 +710,10 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
         along = [z for z in values if z.contains(1)]
         others = [abs(z) for z in values if not z.contains(1)]
         fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
-        demand(len(along) == 1 and fine, "the multipliers are not shown to be apart from the unit circle")
+        demand(
+            len(along) == 1 and fine and claim["kind"] in ("attracting", "hyperbolic"),
+            "the multipliers are not shown to be apart from the unit circle",
+        )
         return
     X = arb_mat(moving, moving, [x.mid() for x in D.entries()]).inv()
     X = arb_mat(moving, moving, [x.mid() for x in X.entries()])
@@ -698,10 +728,17 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
     ]
     part = reflect[0] * back * reflect[1] * D
     M = part if first == last else part * part
-    pair = sum((M[i, i] for i in range(moving)), ZERO) - certificate["ones"]
-    demand(moving - certificate["ones"] == 2, "more than one pair of multipliers is left")
+    ones = certificate["ones"]
+    pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
+    left = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
+    off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
+    demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
+    if claim["kind"] == "parabolic":
+        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        return
+    demand(moving - ones == 2, "more than one pair of multipliers is left")
     demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
-    fine = abs(pair) < 2 if claim["kind"] == "elliptic" else abs(pair) > 2
+    fine = abs(pair) < 2 if claim["kind"] == "elliptic" else claim["kind"] == "hyperbolic" and abs(pair) > 2
     demand(bool(fine), f"the orbit is not shown to be {claim['kind']}")
 
 
@@ -711,11 +748,11 @@ def check_family(certificate: Any) -> None:
     for piece in certificate["pieces"]:
         demand(piece["kind"] == "periodic orbit" and piece["held"] is not None, "a piece is no family of orbits")
         check(piece)
-        held = piece["held"]
-        low, high = read_ball(piece["start"]["middle"][held]), read_ball(piece["start"]["spread"][held])
-        begin, finish = low - abs(high), low + abs(high)
-        demand(end is None or begin.lower() <= end.upper(), "there is a gap between two pieces")
+        demand(piece["motion"] == certificate["pieces"][0]["motion"], "the pieces are of different motions")
+        begin, finish = amplitudes(piece)
+        demand(end is None or begin <= end, "there is a gap between two pieces")
         end = finish
+    check_amplitude(certificate["pieces"], certificate["claim"]["r0"])
 
 
 def check_equilibrium(certificate: Any) -> None:
@@ -734,23 +771,42 @@ def check_equilibrium(certificate: Any) -> None:
     K = (unit(n) - A * slope) * w - A * value
     for x, y in zip(K.entries(), box, strict=True):
         demand(y.contains_interior(x), "Krawczyk's test does not close")
+    states = [x + y for x, y in zip(middle, K.entries(), strict=True)]
+    demand(
+        all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True)),
+        "the coordinates are others",
+    )
     claim = certificate["claim"]["stability"]
+    demand(claim in ("stable", "stable to first order", "unstable", "undecided"), "the stability is unknown")
     if claim == "stable":
+        demand(not grows(J, n), "an eigenvalue has a positive real part")
         state = [Dual(Rest([x], ZERO, 1)) for x in (*wide, *[ZERO] * n, *flow.parameters)]
         H = [f.value.at_start() for f in evaluated(certificate["energy"], state, 1)]
         for k in range(1, 2 * n + 1):
             minor = arb_mat([[H[2 * n * i + j] for j in range(k)] for i in range(k)])
             demand(minor.det() > 0, "the energy is not shown to be definite")
     elif claim != "undecided":
-        zero = Rest([ZERO], ZERO, 1)
-        rows = [[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J]
-        values = arb_mat(rows).eig()
+        values = linear(J, n).eig()
         if claim == "unstable":
             demand(any(z.real > 0 for z in values), "no eigenvalue is shown to have a positive real part")
         else:
             apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
             fine = certificate["conservative"] and apart and all(z.real.contains(0) for z in values)
             demand(fine, "the eigenvalues are not shown to be imaginary")
+
+
+def grows(J: Sequence[Dual], n: int) -> bool:
+    """Whether an eigenvalue of the linear motion is shown to have a positive real part."""
+    try:
+        return any(z.real > 0 for z in linear(J, n).eig())
+    except ValueError:  # Not apart.
+        return False
+
+
+def linear(J: Sequence[Dual], n: int) -> Any:
+    """The matrix of the linear motion in (q, v)."""
+    zero = Rest([ZERO], ZERO, 1)
+    return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
 
 
 def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:

@@ -15,11 +15,12 @@ from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
 from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
-from lagrotor.proved.certificates import Certificate, ball_data, flow_data, matrix_data
+from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data, matrix_data
 from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
+from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 from lagrotor.shown import Shown
@@ -93,11 +94,7 @@ class PeriodicOrbit(Shown):
     @property
     def theorem(self) -> str:
         """In words."""
-        at = ", ".join(f"{name} = {printed(x, 20)}" for name, x in zip(self.names, self.start, strict=True))
-        return (
-            f"There is a periodic orbit of period {printed(self.period, 25)} s, frequency {printed(self.frequency, 25)} rad/s, "
-            f"from {at}; it is {self.kind}."
-        )
+        return theorem_of(self.certificate)
 
     def summary(self) -> dict[str, str]:
         """Period, frequency, start and kind, name → words."""
@@ -157,14 +154,18 @@ class OrbitProof:
             sums = {} if orbit.pair_sum is None else {"pair_sum": ball_data(loosened(orbit.pair_sum))}
             return flow | {
                 "kind": "periodic orbit",
-                "theorem": orbit.theorem,
                 "free": list(problem.free),
                 "held": self.held,
                 "conditions": list(problem.conditions),
                 "reversals": [list(problem.first), list(problem.last)],
                 "A": matrix_data(self.A),
                 "ones": self.ones,
-                "claim": {"period": ball_data(loosened(orbit.period)), "kind": orbit.kind} | sums,
+                "claim": {
+                    "period": ball_data(loosened(orbit.period)),
+                    "start": balls_data([loosened(x) for x in orbit.start]),
+                    "kind": orbit.kind,
+                }
+                | sums,
             }
 
 

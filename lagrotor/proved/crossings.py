@@ -7,12 +7,13 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.errors import NotProved
+from lagrotor.errors import InputError, NotProved
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, exact, precision, printed
 from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
+from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion, scaled, taylor, with_rest
 from lagrotor.proved.tails import Evaluation, Tailed
 from lagrotor.proved.tape import Tape
@@ -81,10 +82,7 @@ class Crossing(Shown):
     @property
     def theorem(self) -> str:
         """In words."""
-        if not self.crosses:
-            return f"{self.expression} does not pass zero from t = 0 to {printed(self.time, 15)} s."
-        first = "first passes" if self.first else "passes"
-        return f"{self.expression} {first} zero at a time t in {printed(self.time, 15)} s."
+        return theorem_of(self.certificate)
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -93,7 +91,7 @@ class Crossing(Shown):
             flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
             return flow | {
                 "kind": "crossing" if self.crosses else "no crossing",
-                "theorem": self.theorem,
+                "event": str(self.expression),
                 "expression": tape_data(self.field.function([self.expression])),
                 "claim": {"time": ball_data(loosened(self.time) if self.crosses else self.time), "first": self.first},
             }
@@ -105,8 +103,10 @@ class Crossing(Shown):
 
 def prepared(system: Any, values: Any, q0: Any, v0: Any, expression: Any) -> tuple[Field, Tape, Start]:
     """The field, the expression as a tape of its arguments, the start."""
+    if not isinstance(expression, sp.Expr):
+        raise InputError(f"proved: event = {expression!r} must be an expression of the states, a sympy expression")
     made = field_of(system, values, q0, v0)
-    return made, made.function([sp.sympify(expression)]), Start(*made.parts)
+    return made, made.function([expression]), Start(*made.parts)
 
 
 def crossing(
@@ -138,7 +138,7 @@ def crossing(
                     continue
                 if known and sign != known:
                     time = since.union(step.node.t + step.h * low)
-                    return Crossing(sp.sympify(event), True, time, clear, made, start, tuple(steps), accuracy.bits)
+                    return Crossing(event, True, time, clear, made, start, tuple(steps), accuracy.bits)
                 clear = clear and not pending
                 known, since, pending = sign, step.node.t + step.h * high, False
         raise NotProved(f"{where}: {event} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}")
@@ -168,4 +168,4 @@ def no_crossing(
                 if not sign:
                     at = float((step.node.t + step.h * low).mid())
                     raise NotProved(f"{where}: {event} is not shown to stay off zero beyond t = {at:.10g}")
-        return Crossing(sp.sympify(event), False, end, False, made, start, tuple(steps), accuracy.bits)
+        return Crossing(event, False, end, False, made, start, tuple(steps), accuracy.bits)

@@ -72,13 +72,10 @@ class Enclosure(Shown):
     @cached_property
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
-        names = [str(s) for s in self.field.states]
-        at = ", ".join(f"{name} in {printed(x, 20)}" for name, x in zip(names, self.states, strict=True))
         with precision(self.bits):
             flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
             return flow | {
                 "kind": "enclosure",
-                "theorem": f"At t = {printed(self.t, 15)}: {at}.",
                 "claim": {"t": ball_data(self.t), "states": balls_data([loosened(x) for x in self.states])},
             }
 

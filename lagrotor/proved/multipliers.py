@@ -8,8 +8,8 @@ outside it is real. Of any other orbit all multipliers but the one along the mot
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from lagrotor.errors import NotProved
-from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat
+from lagrotor.errors import InputError, NotProved
+from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly
 from lagrotor.proved.carried_sets import identity
 from lagrotor.proved.krawczyk import middle_inverse
 from lagrotor.proved.stepping import matrix_norm
@@ -62,9 +62,15 @@ class Multipliers:
 def of_pairs(matrix: Matrix, ones: int) -> Multipliers:
     """The pair μ, 1/μ of a conservative orbit whose other multipliers are 1; parabolic where all are, undecided of more pairs."""
     left = matrix.nrows() - ones
-    if left != 2:
-        return Multipliers("undecided" if left else "parabolic", None, ())
     total = trace(matrix) - ones
+    if left not in (0, 2):
+        return Multipliers("undecided", None, ())
+    if not fits(matrix, total, ones):
+        raise InputError(
+            f"periodic_orbit: the multipliers are not {ones} ones and a pair: the system has fewer integrals"
+        )
+    if not left:
+        return Multipliers("parabolic", None, ())
     if abs(total) < 2:
         half, high = total / 2, (1 - total * total / 4).sqrt()
         return Multipliers("elliptic", total, ((half, high), (half, -high)))
@@ -73,6 +79,12 @@ def of_pairs(matrix: Matrix, ones: int) -> Multipliers:
         zero = arb(0)
         return Multipliers("hyperbolic", total, ((total / 2 + root, zero), (total / 2 - root, zero)))
     return Multipliers("undecided", total, ())
+
+
+def fits(matrix: Matrix, total: Ball, ones: int) -> bool:
+    """Whether the characteristic polynomial may be (z − 1)^ones (z² − total z + 1), without the pair where none is left."""
+    pair = arb_poly([1, -total, 1]) if matrix.nrows() > ones else arb_poly([1])
+    return all(x.contains(0) for x in (matrix.charpoly() - arb_poly([-1, 1]) ** ones * pair).coeffs())
 
 
 def of_any(matrix: Matrix) -> Multipliers:

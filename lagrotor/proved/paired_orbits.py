@@ -8,6 +8,7 @@ period (lagrotor.models.orbits.floquet). Energy and the momentum about the joint
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -16,9 +17,9 @@ import numpy as np
 from lagrotor.errors import DomainError, NotProved
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.pair.scene import Scene
-from lagrotor.proved.balls import Ball, Balls, arb, ball, exact, precision, printed, radius, upper
+from lagrotor.proved.balls import Ball, Balls, arb, ball, exact, precision, printed, radius, rational, upper
 from lagrotor.proved.carried_sets import Accuracy, Start, entries_of, identity, steps_of
-from lagrotor.proved.certificates import Certificate
+from lagrotor.proved.certificates import VERSION, Certificate
 from lagrotor.proved.closed_orbits import (
     OrbitProblem,
     OrbitProof,
@@ -32,6 +33,7 @@ from lagrotor.proved.enclosure import accuracy_of
 from lagrotor.proved.fields import Field, scene_field
 from lagrotor.proved.krawczyk import krawczyk
 from lagrotor.proved.multipliers import Kind
+from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 from lagrotor.shown import Shown
@@ -53,6 +55,7 @@ class Precession(Shown):
 
     scene: Scene
     r0: Ball
+    ends: tuple[Fraction, Fraction]
     pieces: tuple[tuple[Ball, PeriodicOrbit], ...]
 
     @property
@@ -81,22 +84,18 @@ class Precession(Shown):
     @property
     def theorem(self) -> str:
         """In words."""
-        bar = self.scene.summary()["bar"]
-        who = f"The pair of spins {self.scene.spins[0]:g}, {self.scene.spins[1]:g} rad/s with a bar of {bar}"
-        every = f"for every r0 in {interval(self.r0)}" if len(self.pieces) > 1 else f"at r0 = {printed(self.r0, 15)}"
-        stable = "" if self.kind == "undecided" else f", {self.kind}"
-        return f"{who} has, {every}, a paired precession{stable}; its frequency lies in {printed(self.frequency, 22)} rad/s."
+        return theorem_of(self.certificate)
 
     @cached_property
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
-        parts = [
-            orbit.certificate | {"amplitude": [interval_text(r0)], "scene": scene_data(self.scene)}
-            for r0, orbit in self.pieces
-        ]
+        bar = self.scene.summary()["bar"]
+        who = f"The pair of spins {self.scene.spins[0]:g}, {self.scene.spins[1]:g} rad/s with a bar of {bar}"
+        ends = [str(end) for end in self.ends]
+        parts = [orbit.certificate for _, orbit in self.pieces]
         if len(parts) == 1:
-            return parts[0] | {"theorem": self.theorem}
-        return {"version": 1, "kind": "family", "theorem": self.theorem, "pieces": parts}
+            return parts[0] | {"who": who, "claim": parts[0]["claim"] | {"r0": ends}}
+        return {"version": VERSION, "kind": "family", "who": who, "claim": {"r0": ends}, "pieces": parts}
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
@@ -120,18 +119,8 @@ def hull(values: list[Any]) -> Ball:
 
 
 def interval(x: Ball) -> str:
-    """Its ends, rounded inward by less than they are known."""
+    """Its ends to six digits."""
     return f"[{float(x.lower()):.6g}, {float(x.upper()):.6g}]"
-
-
-def interval_text(x: Ball) -> str:
-    """Its ends, outward."""
-    return printed(x, 20)
-
-
-def scene_data(scene: Scene) -> dict[str, str]:
-    """What the scene is, in words."""
-    return scene.summary()
 
 
 def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
@@ -154,9 +143,18 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
         if one:
             start = guess(curve, float(exact(amplitude)), amplitude.atanh())
             orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), names(made))
-            return Precession(scene, amplitude, ((amplitude, orbit),))
+            return Precession(scene, amplitude, (exactly(r0), exactly(r0)), ((amplitude, orbit),))
         pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy, names(made)))
-        return Precession(scene, amplitude, pieces)
+        return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces)
+
+
+def exactly(r0: Any) -> Fraction:
+    """The rational number that is meant; of a ball or an expression the middle."""
+    middle = exact(ball(r0, "precession: r0")) if isinstance(r0, arb) or not getattr(r0, "is_Number", True) else None
+    if middle is None:
+        return rational(r0, "precession: r0")
+    above, power = middle.man_exp()
+    return int(above) * Fraction(2) ** int(power)
 
 
 def names(made: Field) -> tuple[str, ...]:

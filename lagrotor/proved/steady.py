@@ -1,16 +1,18 @@
 """Equilibria proved, with their stability: of a system after Routh's reduction they are its steady motions.
 
-Stable where the energy is definite there (Lagrange and Dirichlet; friction only helps), unstable where an eigenvalue of the
-linear motion has a positive real part (Lyapunov), stable to first order where all eigenvalues of a conservative system are
-apart and lie on the imaginary axis.
+Stable where the energy is definite there (Lagrange and Dirichlet) and nothing but friction changes it, unstable where an
+eigenvalue of the linear motion has a positive real part (Lyapunov), stable to first order where all eigenvalues of a
+conservative system are apart and lie on the imaginary axis.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any, Literal
 
 import sympy as sp
 
+from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time
@@ -20,6 +22,7 @@ from lagrotor.proved.certificates import Certificate, balls_data, exact_data, ma
 from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.fields import Field, Values, system_field, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
+from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.tape import Tape, joined
 from lagrotor.shown import Shown
 
@@ -44,7 +47,7 @@ class ProvedEquilibrium(Shown):
     @property
     def theorem(self) -> str:
         """In words."""
-        return str(self.certificate["theorem"])
+        return theorem_of(self.certificate)
 
     def summary(self) -> dict[str, str]:
         """Coordinates and stability, name → words."""
@@ -73,21 +76,20 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         J = arb_mat([row[: 2 * n] for row in rows])
         energy = _energy_hessian(made, system)
         found = _square_matrix(values_at(energy, state), 2 * n)
-        stability, eigenvalues = stability_of(system, J, found)
+        calm = not any(system.forces) and damped(system, made, state)
+        stability, eigenvalues = stability_of(system, J, found, calm)
         names = tuple(map(str, system.c.q))
-        at = ", ".join(f"{name} = {printed(x, 25)}" for name, x in zip(names, q, strict=True))
         certificate = {
             "version": 1,
             "bits": accuracy.bits,
             "kind": "equilibrium",
-            "theorem": f"There is an equilibrium at {at}; it is {stability}.",
             "motion": tape_data(tape) | {"parameters": balls_data(parameters)},
             "middle": exact_data(middle),
             "box": balls_data([loosened(x) for x in box]),
             "A": matrix_data(A),
             "energy": tape_data(energy),
             "conservative": conservative(system),
-            "claim": {"stability": stability},
+            "claim": {"q": balls_data([loosened(x) for x in q]), "stability": stability},
         }
         return ProvedEquilibrium(names, tuple(q), stability, eigenvalues, certificate)
 
@@ -137,19 +139,38 @@ def conservative(system: Equations) -> bool:
     return system.dissipation == 0 and not any(system.forces)
 
 
+def damped(system: Equations, made: Field, state: Sequence[Ball]) -> bool:
+    """Whether Rayleigh's function takes energy out: D = vᵀ H(q) v / 2 with every principal minor of H zero or positive there."""
+    v = system.c.v
+    H = sp.hessian(system.dissipation, v)
+    column = sp.Matrix(v)
+    rest = sp.expand(system.dissipation - (column.T * H * column)[0] / 2)
+    if H.free_symbols & {*v} or decide_zero(rest).answer != "zero":
+        return False
+    minors = [
+        sp.expand(H.extract(rows, rows).det(method="berkowitz"))
+        for size in range(1, len(v) + 1)
+        for rows in map(list, combinations(range(len(v)), size))
+    ]
+    signed = [minor for minor in minors if minor != 0]
+    return all(x > 0 for x in values_at(made.function(signed), state)) if signed else True
+
+
 def definite(matrix: Matrix) -> bool:
     """Whether every symmetric matrix of a ball is positive definite: all leading minors are positive."""
     n = matrix.nrows()
     return all(arb_mat([[matrix[i, j] for j in range(k)] for i in range(k)]).det() > 0 for k in range(1, n + 1))
 
 
-def stability_of(system: Equations, J: Matrix, energy: Matrix) -> tuple[Stability, tuple[tuple[Ball, Ball], ...]]:
-    """What the energy and the linear motion prove."""
+def stability_of(
+    system: Equations, J: Matrix, energy: Matrix, calm: bool
+) -> tuple[Stability, tuple[tuple[Ball, Ball], ...]]:
+    """What the energy, which does not grow where the system is calm, and the linear motion prove."""
     try:
         found = [(z.real, z.imag) for z in J.eig()]
     except ValueError:
         found = []
-    if not any(system.forces) and definite(energy):
+    if calm and definite(energy):
         return "stable", tuple(found)
     if any(real > 0 for real, _ in found):
         return "unstable", tuple(found)

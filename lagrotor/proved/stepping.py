@@ -17,6 +17,7 @@ from lagrotor.proved.tails import ZERO, Evaluation, Tailed, TailError, max_of, s
 from lagrotor.proved.tape import Tape
 
 SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
+SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"
 _TRIES = 4  # of a bound of the rest, each from the one before
 
 
@@ -49,7 +50,10 @@ def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
     try:
         for k in range(n - 1):
             ctx.cap = k + 1
-            rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
+            try:
+                rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
+            except (ZeroDivisionError, ValueError):
+                raise TailError(SINGULAR) from None
             for row, rate in zip(rows, rates, strict=True):
                 value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
                 row.append(value / (k + 1))

@@ -32,12 +32,12 @@ def test_the_precession_of_figure_21_turns_more_slowly_than_the_printed_rate() -
 
 @pytest.mark.slow
 def test_opposite_spins_topple_after_the_shock_across_the_bar() -> None:
-    """C11: |x| passes 1/2, and not in the 8 s of the paper's run."""
+    """C11: |x| passes 1/2, and not in the 8 s after the shock's peak, as long as the paper's run."""
     scene = shocked((10, -10), (0, -50, 0))
     fall = crossing(scene, event=X1**2 - sp.Rational(1, 4), before=10)
     assert fall.first and 8 < float(fall.time.mid()) - 0.2 < 9.5
     assert "first passes zero" in check(fall.certificate)
-    assert no_crossing(scene, event=X1**2 - sp.Rational(1, 4), until=8).theorem
+    assert no_crossing(scene, event=X1**2 - sp.Rational(1, 4), until="8.2").theorem
 
 
 @pytest.mark.slow

@@ -22,6 +22,7 @@ from lagrotor.proved import (
     NotProved,
     carried_sets,
     check,
+    checking,
     crossing,
     enclose,
     equilibrium,
@@ -109,6 +110,25 @@ def test_lagrange_s_points() -> None:
         equilibrium(System(C, RATE**2 / 2 + THETA), {}, [0])
 
 
+@pytest.mark.parametrize(
+    ("dissipation", "stability"),
+    [
+        (RATE**2 / 10, "stable"),
+        (-(RATE**2) / 10, "unstable"),
+        (-(RATE**4), "undecided"),
+        (THETA * RATE**2, "undecided"),
+    ],
+)
+def test_only_friction_leaves_a_least_energy_stable(dissipation: sp.Expr, stability: str) -> None:
+    """Of Rayleigh's function: one that feeds energy in, also to a higher order alone, or whose sign is not shown."""
+    found = equilibrium(System(C, RATE**2 / 2 + sp.cos(THETA), dissipation=dissipation), {}, [0.1])
+    assert found.stability == stability and f"it is {stability}." in verified(found)
+    if stability != "stable":
+        false = found.certificate | {"claim": found.certificate["claim"] | {"stability": "stable to first order"}}
+        with pytest.raises(NotProved, match="not shown to be imaginary"):
+            check(false)
+
+
 @pytest.mark.parametrize(("r0", "link"), [(0.204, Link()), pytest.param(0.6, Link(1, 1, 1), marks=pytest.mark.slow)])
 def test_the_paired_precession_exists(r0: float, link: Link) -> None:
     scene = Scene((10, -10), link=link)
@@ -131,11 +151,14 @@ def test_a_piece_of_the_family() -> None:
     inner = precession(scene, 0.2004)
     assert len(family.pieces) > 1 and family.frequency.contains(inner.frequency)
     assert "for every r0 in [0.2, 0.2008]" in verified(family)
-    gap = copy.deepcopy(family.certificate)
-    del gap["pieces"][1 if len(gap["pieces"]) > 2 else 0]
-    if len(gap["pieces"]) > 1:
-        with pytest.raises(NotProved, match="gap"):
-            check(gap)
+    pieces = family.certificate["pieces"]
+    for some in (pieces[1:], pieces[:-2]):
+        with pytest.raises(NotProved, match="the amplitudes are others"):
+            check(family.certificate | {"pieces": some})
+    with pytest.raises(NotProved, match="gap"):
+        check(family.certificate | {"pieces": [pieces[0], *pieces[2:]] if len(pieces) > 2 else [pieces[1], pieces[0]]})
+    with pytest.raises(NotProved, match="the amplitude"):
+        check(inner.certificate | {"claim": inner.certificate["claim"] | {"r0": ["1/5", "1/5"]}})
 
 
 @pytest.mark.parametrize("row", [paired_orbits.A, paired_orbits.B])
@@ -185,6 +208,10 @@ def test_false_theorems_are_never_proved() -> None:
         periodic_orbit(System(C, RATE**2 / 2 + THETA**3, dissipation=RATE**2), {}, [1], [0], 6, reversals=[(1, -1)])
     with pytest.raises(InputError, match="signs"):
         periodic_orbit(PENDULUM, {}, [1], [0], 6, reversals=[(-1, -1)])
+    with pytest.raises(InputError, match="the system has fewer integrals"):
+        periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"], integrals=2)
+    with pytest.raises(InputError, match="event = 'theta' must be an expression"):
+        crossing(PENDULUM, {}, [1], [0], event="theta", before=1)
 
 
 CERTIFICATE = periodic_orbit(
@@ -200,16 +227,19 @@ def moved(number: list[str], by: str) -> list[str]:
         return [as_text((of_text(number[0]) + arb(by)).mid()), number[1]]
 
 
+LEFT_OUT = {"a node is left out": 2, "the last node is left out": -1}
+
+
 def spoil(certificate: dict[str, Any], what: str) -> None:
     steps, claim = certificate["steps"], certificate["claim"]
-    if what == "a node is left out":
-        del steps[2]
-    elif what == "the last node is left out":
-        del steps[-1]
+    if what in LEFT_OUT:
+        del steps[LEFT_OUT[what]]
     elif what == "the period is off by 1e-13":
         claim["period"] = moved(claim["period"], "1e-13")
-    elif what == "another kind":
-        claim["kind"] = "hyperbolic"
+    elif what == "another start":
+        claim["start"][1] = moved(claim["start"][1], "1e-15")
+    elif what == "more integrals":
+        certificate["ones"], claim["kind"] = 4, "parabolic"
     elif what == "a node is moved by 1e-17":
         steps[1]["node"]["m"][0] = moved([steps[1]["node"]["m"][0], "0p0"], "1e-17")[0]
     elif what == "a node's error is dropped":
@@ -236,7 +266,8 @@ def spoil(certificate: dict[str, Any], what: str) -> None:
         "a node is left out",
         "the last node is left out",
         "the period is off by 1e-13",
-        "another kind",
+        "another start",
+        "more integrals",
         "a node is moved by 1e-17",
         "a node's error is dropped",
         "a node's derivative is narrowed",
@@ -254,10 +285,32 @@ def test_a_spoiled_certificate_is_refused(what: str) -> None:
         check(certificate)
 
 
+@pytest.mark.parametrize("kind", ["hyperbolic", "parabolic", "attracting", "of another kind"])
+def test_another_kind_is_refused(kind: str) -> None:
+    with pytest.raises(NotProved, match="check: "):
+        check(CERTIFICATE | {"claim": CERTIFICATE["claim"] | {"kind": kind}})
+
+
 def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
+    """The words are those of the claim, whatever else the certificate says."""
     assert "elliptic" in check(copy.deepcopy(CERTIFICATE))
+    assert check(CERTIFICATE | {"theorem": "It falls."}) == check(CERTIFICATE)
     with pytest.raises(InputError, match="a certificate is the dictionary"):
         check({"kind": "theorem"})
+
+
+def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The twin of the spoiled nodes: without the test of one node each of them would be verified."""
+    carried, whole = checking.Carried._step, checking.demand
+    spoiled = copy.deepcopy(CERTIFICATE)
+    spoil(spoiled, "a node is moved by 1e-17")
+
+    def skipping(self: Any, node: Any, data: Any, k: int) -> Any:
+        monkeypatch.setattr(checking, "demand", (lambda *_: None) if k in (1, 2) else whole)
+        return carried(self, node, data, k)
+
+    monkeypatch.setattr(checking.Carried, "_step", skipping)
+    assert "elliptic" in check(spoiled)
 
 
 def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,105 @@
+"""The theorem of a certificate in words, composed from the claim that `check` verifies.
+
+What the states, an expression and a scene are called are the certificate's own words; every number and every kind is claimed.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from lagrotor.proved.balls import Ball, arb, of_text, precision, printed
+
+Certificate = Mapping[str, Any]
+
+
+def theorem_of(certificate: Certificate) -> str:
+    """The theorem in words."""
+    with precision(int(certificate.get("bits", 64)) + 64):
+        return _WORDS[certificate["kind"]](certificate)
+
+
+def _claimed(data: Sequence[str]) -> Ball:
+    """A ball [midpoint, radius]."""
+    middle, wide = map(of_text, data)
+    return middle + arb(0, wide.upper())
+
+
+def _decimal(text: str) -> str:
+    """A rational number as a decimal, where a short one is exact."""
+    value = Fraction(text)
+    short = repr(float(value))
+    return short if Fraction(short) == value else text
+
+
+def _at_states(certificate: Certificate, states: Sequence[Any], sign: str, digits: int) -> str:
+    """Each state with its ball."""
+    names = certificate["motion"]["arguments"]
+    return ", ".join(
+        f"{name} {sign} {printed(_claimed(x), digits)}" for name, x in zip(names[: len(states)], states, strict=True)
+    )
+
+
+def _enclosure(certificate: Certificate) -> str:
+    """Of the states at a time."""
+    claim = certificate["claim"]
+    return f"At t = {printed(_claimed(claim['t']), 15)}: {_at_states(certificate, claim['states'], 'in', 20)}."
+
+
+def _crossing(certificate: Certificate) -> str:
+    """Of an expression that passes zero."""
+    claim = certificate["claim"]
+    passes = "first passes" if claim["first"] else "passes"
+    return f"{certificate['event']} {passes} zero at a time t in {printed(_claimed(claim['time']), 15)} s."
+
+
+def _no_crossing(certificate: Certificate) -> str:
+    """Of an expression that keeps its sign."""
+    until = printed(_claimed(certificate["claim"]["time"]), 15)
+    return f"{certificate['event']} does not pass zero from t = 0 to {until} s."
+
+
+def _periodic_orbit(certificate: Certificate) -> str:
+    """Of a periodic orbit; of the pair's precession with its amplitude."""
+    claim = certificate["claim"]
+    if "r0" in claim:
+        return _precession(certificate, [certificate])
+    period = _claimed(claim["period"])
+    return (
+        f"There is a periodic orbit of period {printed(period, 25)} s, frequency {printed(2 * arb.pi() / period, 25)} rad/s, "
+        f"from {_at_states(certificate, claim['start'], '=', 20)}; it is {claim['kind']}."
+    )
+
+
+def _precession(certificate: Certificate, pieces: Sequence[Certificate]) -> str:
+    """Of one amplitude or of a family."""
+    low, high = map(_decimal, certificate["claim"]["r0"])
+    every = f"at r0 = {low}" if low == high else f"for every r0 in [{low}, {high}]"
+    kinds = {piece["claim"]["kind"] for piece in pieces}
+    stable = f", {kinds.pop()}" if len(kinds) == 1 and kinds != {"undecided"} else ""
+    periods = [_claimed(piece["claim"]["period"]) for piece in pieces]
+    period = periods[0]
+    for other in periods[1:]:
+        period = period.union(other)
+    frequency = printed(2 * arb.pi() / period, 22)
+    return f"{certificate['who']} has, {every}, a paired precession{stable}; it turns at {frequency} rad/s."
+
+
+def _family(certificate: Certificate) -> str:
+    """Of every amplitude in an interval."""
+    return _precession(certificate, certificate["pieces"])
+
+
+def _equilibrium(certificate: Certificate) -> str:
+    """Of an equilibrium."""
+    claim = certificate["claim"]
+    return f"There is an equilibrium at {_at_states(certificate, claim['q'], '=', 25)}; it is {claim['stability']}."
+
+
+_WORDS: dict[str, Callable[[Certificate], str]] = {
+    "enclosure": _enclosure,
+    "crossing": _crossing,
+    "no crossing": _no_crossing,
+    "periodic orbit": _periodic_orbit,
+    "family": _family,
+    "equilibrium": _equilibrium,
+}
