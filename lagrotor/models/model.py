@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lagrotor.models.natural_units import typical_rate
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
 from lagrotor.pair.scene import Scene
 
@@ -121,7 +122,12 @@ def constant_momenta(scene: Scene, n: int) -> Array:
 
 
 def problem_of(
-    model: Model, scene: Scene, bounded: bool = False, start: Array | None = None, budget: float = BUDGET
+    model: Model,
+    scene: Scene,
+    bounded: bool = False,
+    start: Array | None = None,
+    budget: float = BUDGET,
+    companion: bool = False,
 ) -> Problem:
     """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
 
@@ -135,6 +141,7 @@ def problem_of(
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
         width=shock.width if shock else 0.0,
+        longest=COMPANION_STEP if companion else 1.0,
         project=model.projection(scene) if model.projection else None,
         typical_rate=typical_rate(scene),
         time_to_singular=model.time_to_singular if scene.link else None,
@@ -161,7 +168,7 @@ def integrate_model(
     """
     begin = model.start(scene) if start is None else start
     if engine == "core":
-        return integrate(problem_of(model, scene, bounded, begin, budget), times, local)
+        return integrate(problem_of(model, scene, bounded, begin, budget, companion), times, local)
     from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
 
     shock, project = scene.shock, model.projection(scene) if model.projection else None

@@ -16,7 +16,7 @@ from lagrotor.models.linear import linear_error, linear_run
 from lagrotor.models.model import Model, Observed, check_range, constant_momenta, integrate_model
 from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units, typical_rate
 from lagrotor.numerics.any_run import Ending
-from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run
+from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, start_beside
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.numerics.solver_constants import Calibrated
@@ -36,6 +36,9 @@ SHORT = Calibrated(
     "random scenes of up to 20 turns",
     "test_choose.py::test_the_fast_extra_misses_none_either_and_foresees_only_long_runs",
 )
+
+
+_RESOLVED = 10 * np.finfo(float).eps  # of a start: all that it may be off without a reason of its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,6 +279,7 @@ class _Door:
             turn=2 * pi / PACE,
             patience=patience,
             project=model.projection(scene) if model.projection else None,
+            unsure=start_unsure(model, scene, model.start(scene)),
             defect=defect,
             difference=difference,
             watch=nodes.t if nodes else np.empty(0),
@@ -316,6 +320,18 @@ class _Door:
             raise refused[-1]
         name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
         return name, why, replace(run, evaluations=spent)
+
+
+def start_unsure(model: Model, scene: Scene, start: Array) -> float:
+    """How far, in units of rounding, the model's start (d,) is off the scene's: beside the joint line the bar hardly says where
+    an axis on it is, and coordinates made for the bar may take another than the nearest."""
+    unsure, many = 1.0, 1e4  # a step of rounding itself may move nothing
+    seen = model.observe(scene, np.array([start, start_beside(start, many)]))
+    for given, part, unit in ((scene.axes, seen.axes, 1.0), (scene.rates, seen.rates, PACE)):
+        off = float(np.abs(part[:, 0] - given).max()) / unit
+        moved = float(np.abs(part[:, 1] - part[:, 0]).max()) / unit / many
+        unsure = max(unsure, off / moved) if off > _RESOLVED and moved > 0 else unsure
+    return unsure
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:

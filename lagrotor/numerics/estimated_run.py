@@ -59,6 +59,7 @@ class Evolution:
     holds; companion: by another order or other steps, where the local error does not set them. Raises StopError, its time one of
     the same clock, with what was reached. distance: two runs (n, d) → how far apart they are (n,), relative to the size of the
     states. turn: the time (s) in which the motion typically turns. project: brings a state back onto its constraints.
+    unsure: how far, in units of rounding, the start may be off what it was given as: the companion's is off by as much.
     defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
     difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
@@ -71,6 +72,7 @@ class Evolution:
     turn: float
     patience: Patience
     project: Projection | None = None
+    unsure: float = 1.0
     defect: Callable[[Array, Array], float] | None = None
     difference: Callable[[Array, Array], float] | None = None
     watch: Array = field(default_factory=lambda: np.empty(0))
@@ -217,10 +219,23 @@ class _Course:
         return run.stages[n]
 
     def _beside_start(self) -> Array:
-        """The start off by rounding, in no special direction."""
         start, project = self.evolution.start, self.evolution.project
-        beside = start * (1 + np.finfo(float).eps * np.cos(np.arange(1, len(start) + 1)))
+        beside = start_beside(start, self.evolution.unsure)
         return project(beside) if project else beside
+
+
+def start_beside(start: Array, unsure: float = 1.0) -> Array:
+    """A start (…, d) off by rounding times `unsure`, in no special direction."""
+    return start * (1 + unsure * np.finfo(float).eps * np.cos(np.arange(1, start.shape[-1] + 1)))
+
+
+def estimated_errors(apart: Array, local: float, turns: Array, refused: bool = False) -> Array:
+    """Errors (…, n) of the better of two runs that are `apart` (…, n), its local error, after so many turns (…, n).
+
+    refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED.
+    """
+    safety = SAFETY.value ** (2 if refused or local < RESOLVED.value else 1)
+    return np.maximum(safety * apart, LEAST.value * local) + ROUNDING.value * (START.value + turns)
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
@@ -302,10 +317,8 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comp
             np.searchsorted([jump for part in (*run.stages[:n], last) for jump in part.jumps], at, side="right")
             for run, last in ((loose, one), (tight, other))
         ]
-        apart = SAFETY.value * evolution.distance(one_states, states)
-        if course.refused or tight.local < RESOLVED.value:  # rounding may be nearly all that both resolve
-            apart = SAFETY.value * apart
-        parts.append(np.maximum(apart, LEAST.value * tight.local) + ROUNDING.value * (START.value + course.turns(at)))
+        apart = evolution.distance(one_states, states)
+        parts.append(estimated_errors(apart, tight.local, course.turns(at), bool(course.refused)))
         alone.append(passed[0] != passed[1])
         reached.append(states)
         together = ~alone[-1]

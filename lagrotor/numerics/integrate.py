@@ -15,12 +15,15 @@ from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHand
 from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
+_IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it follows the tolerance by its root alone
 Engine = Literal["core", "fast"]
 
 
 @dataclass(frozen=True)
 class Problem:
     """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
+
+    longest: in the pulse no step is longer than this many widths.
 
     `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
@@ -33,6 +36,7 @@ class Problem:
     driven: RightHandSide | None = None
     at: float = 0.0
     width: float = 0.0
+    longest: float = 1.0
     project: Projection | None = None
     typical_rate: float = 0.0
     time_to_singular: Callable[[Array], float] | None = None
@@ -55,7 +59,7 @@ def integrate(problem: Problem, times: Array, tol: float) -> Stretch:
     """Integrate from t = 0 through `times` (increasing, not negative) with a local error `tol`; states (n, d) there.
 
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
-    at the pulse's edges, s = ± 6.5 width; within them no step is longer than `width`, so no tolerance can miss it.
+    at the pulse's edges, s = ± 6.5 width; within them no step is longer than `longest` widths, so no tolerance can miss it.
 
     Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
     """
@@ -70,7 +74,7 @@ def integrate(problem: Problem, times: Array, tol: float) -> Stretch:
                 left,
                 right,
                 t_eval[(t_eval > left) & (t_eval <= right)],
-                problem.width if pulsed else np.inf,
+                problem.longest * problem.width if pulsed else np.inf,
                 problem.budget - spent,
                 problem.project,
                 problem.typical_rate,
@@ -158,6 +162,8 @@ def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
 
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     if tol >= CROSSOVER.value:
-        return lsoda(segment, min(tol / LSODA_SAFETY.value, 1e-6 if pulsed else np.inf))
+        error = tol / LSODA_SAFETY.value
+        # In a pulse no loose one, and never the same for two tolerances: runs that are compared would agree, and be wrong.
+        return lsoda(segment, min(error, (_IN_PULSE * error) ** 0.5) if pulsed else error)
     # Where equal steps do not pay, Adams is left soon.
     return adams(replace(segment, budget=min(segment.budget, 5_000 + 0.15 * segment.budget)), tol)

@@ -2,10 +2,11 @@
 
 import warnings
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from lagrotor.numerics.segment import LOST, Array, Segment, StopError, Stretch
+from lagrotor.numerics.segment import LOST, Array, RightHandSide, Segment, StopError, Stretch
 
 _BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
 _DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
@@ -16,7 +17,7 @@ def lsoda(segment: Segment, error: float) -> Stretch:
 
     The first step is given, not found from the first output, so outputs do not change the run. Where there are
     constraints the run is cut about once a turn and projected: their error grows exponentially where the axes are pressed.
-    Raises StopError, with constraints also with what was reached.
+    Raises StopError with what was reached.
     """
     if segment.project is None:
         return _lsoda(segment, error)
@@ -79,43 +80,69 @@ def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
-    from scipy.integrate import odeint
-
-    left, right, spent, lost = segment.left, segment.right, 0, False
+    left, right, spent, lost, stopped = segment.left, segment.right, 0, False, False
+    at = done = left  # the time of the last evaluation, and one before it up to which the steps are accepted
+    rest = [0.0] * len(segment.start)
 
     def watched(s: float, y: Array) -> list[float]:
-        # LSODA takes NaN for a number and may step over where it came from; DOP853 does not.
-        nonlocal spent, lost
+        # LSODA takes NaN for a number and may step over where it came from; DOP853 does not. Once it is to stop, it is given
+        # a state at rest: it soon comes to the end, and what it read off before is kept.
+        nonlocal spent, lost, stopped, at, done
+        if stopped:
+            return rest
+        at, done = s, at if s > at else done
         velocity = segment.rhs(s, y)
-        spent, lost = spent + 1, lost or velocity[0] != velocity[0]
-        if lost or spent > segment.budget:
-            raise ValueError
-        return velocity
+        spent, lost = spent + 1, velocity[0] != velocity[0]
+        stopped = lost or spent > segment.budget
+        return rest if stopped else velocity
 
-    bare = getattr(segment.rhs, "bare", None)
     first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            states, log = odeint(
-                bare or watched,
-                segment.start,
-                np.concatenate([[left], segment.t_eval, [right]]),
-                tfirst=True,
-                rtol=error,
-                atol=error,
-                full_output=True,
-                h0=first,
-                hmax=0.0 if np.isinf(segment.longest) else segment.longest,
-                mxstep=int(min(segment.budget, 2**30)) + 1,
-            )
-    except LOST:
-        if not (bare or lost):
-            raise StopError(left, f"{spent} evaluations spent", evaluations=spent, cause="budget") from None
-        raise StopError(left, "the right-hand side is not finite", evaluations=spent) from None
-    if log["message"] != "Integration successful." or not np.isfinite(states).all():
-        # Of a run that failed the count is not set.
+    bare = getattr(segment.rhs, "bare", None)
+    if bare:
+        try:
+            states, log = _odeint(segment, bare, error, first)
+            if _successful(states, log):
+                return Stretch(states[1:-1], states[-1], int(log["nfe"][-1]) + 1)
+        except LOST:
+            pass
+    # What fails unwatched is run again to see where; it takes the same steps, which were taken twice.
+    states, log = _odeint(segment, watched, error, first)
+    spent = (spent + 1) * (2 if bare else 1)
+    if stopped:
+        states = states[1:-1][segment.t_eval <= done]
+        whole = np.isfinite(states).all(1)
+        states = states if whole.all() else states[: int(np.argmin(whole))]
+        reached = Stretch(states, states[-1], spent) if len(states) else None
+        reason = "the right-hand side is not finite" if lost else f"{spent} evaluations spent"
+        until = float(segment.t_eval[len(states) - 1]) if reached else left
+        raise StopError(until, reason, reached, spent, "stopped" if lost else "budget")
+    if not _successful(states, log):
         excess = "Excess work" in log["message"] and segment.budget < 2**30
         reason = f"{int(segment.budget)} steps made" if excess else log["message"]
         raise StopError(left, reason, evaluations=spent, cause="budget" if excess else "stopped")
-    return Stretch(states[1:-1], states[-1], int(log["nfe"][-1]) + 1)
+    return Stretch(states[1:-1], states[-1], spent)
+
+
+def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
+    """States at the segment's ends and the times between them, and scipy's log."""
+    from scipy.integrate import odeint
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        states, log = odeint(
+            rhs,
+            segment.start,
+            np.concatenate([[segment.left], segment.t_eval, [segment.right]]),
+            tfirst=True,
+            rtol=error,
+            atol=error,
+            full_output=True,
+            h0=first,
+            hmax=0.0 if np.isinf(segment.longest) else segment.longest,
+            mxstep=int(min(segment.budget, 2**30)) + 1,
+        )
+    return states, log
+
+
+def _successful(states: Array, log: dict[str, Any]) -> bool:
+    return log["message"] == "Integration successful." and bool(np.isfinite(states).all())

@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 # Beyond |s| = 6.5 widths a pulse is below the last bit of its peak: exp(−6.5²) = 4e-19.
 PULSE_REACH = 6.5
+# Longest step in a pulse, over its width, of a run's companion: were it 1 as the run's, both might take the same steps and agree.
+COMPANION_STEP = 0.8
 
 
 class _Part(NamedTuple):

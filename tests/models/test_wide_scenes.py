@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import lagrotor.numerics.integrate as integrators
 from lagrotor import Trajectory, sweep
-from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
+from lagrotor.errors import DomainError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
-from lagrotor.models.sweeps import chunk
 from lagrotor.numerics import estimated_run, taylor
+from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.taylor import taylor_order
 from tests.models.wide_scenes import COUNT, SEED, Wide, reference, turns, wide_scenes
 from tests.models.wide_scenes import run as run_of
@@ -114,6 +115,46 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
     assert len(judge(SHORT[1::2], "core")[0]) > 1
 
 
+def told_too_little(which: list[int], tolerances: tuple[float, ...]) -> list[str]:
+    """Runs of the minimal model, by name, whose error is larger than they say."""
+    found = []
+    for i in which:
+        for tol in tolerances:
+            trial = replace(TRIALS[i], tol=tol)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", LagrotorWarning)
+                try:
+                    run = run_of(trial, model="minimal")
+                except (IntegrationError, SingularError, DomainError):
+                    continue
+            errors = np.linalg.norm(run.axes - RECORDED["axes"][i], axis=-1).max(0) - 2 * RECORDED["own"][i]
+            found += [f"{i}, {tol:g}: {errors}, {run.errors}"] if (errors > run.errors).any() else []
+    return found
+
+
+SHAKEN = [i for i, trial in enumerate(TRIALS) if turns(trial) < 10 and trial.scene.shock]
+IN_A_PULSE, BESIDE_THE_JOINT_LINE = [51, 81, 172], [75, 76, 103, 107]
+
+
+def test_in_a_pulse_two_runs_take_no_steps_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not told_too_little(IN_A_PULSE, (1e-3,))
+    # Twin: at two loose tolerances the same local error, as it is the largest for a pulse.
+    fixed = lambda segment, error: lsoda(segment, 1e-6 if segment.longest < np.inf else error)  # noqa: E731
+    monkeypatch.setattr(integrators, "lsoda", fixed)
+    assert told_too_little(IN_A_PULSE, (1e-3,))
+
+
+def test_a_start_that_coordinates_cannot_hold_is_in_the_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not told_too_little(BESIDE_THE_JOINT_LINE, (1e-8, 1e-10))
+    monkeypatch.setattr(simulating, "start_unsure", lambda model, scene, start: 1.0)  # twin
+    assert len(told_too_little(BESIDE_THE_JOINT_LINE, (1e-8,))) > 1
+
+
+@pytest.mark.slow
+def test_no_shaken_run_by_name_says_too_little() -> None:
+    assert not told_too_little(SHAKEN, (1e-3, 1e-8, 1e-11))
+
+
 def under_estimated(which: list[int]) -> list[str]:
     """Runs of sweeps whose error is larger than it is said to be, or than a tolerance that they are said to keep."""
     found = []
@@ -136,7 +177,7 @@ def test_each_run_of_a_sweep_says_its_error(every: int) -> None:
 
 def test_a_sweep_that_says_too_little_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     for constant in ("SAFETY", "LEAST", "ROUNDING"):
-        monkeypatch.setattr(chunk, constant, getattr(chunk, constant)._replace(value=1e-18))
+        monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=1e-18))
     assert under_estimated(SHORT[::16])
 
 

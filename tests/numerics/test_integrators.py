@@ -223,3 +223,23 @@ def test_no_step_passes_a_singular_position(engine) -> None:
         engine(replace(straight, time_to_singular=until_zero), 1e-9)
     assert stopped.value.at == pytest.approx(1, abs=0.1) and stopped.value.at <= 1
     assert engine(straight, 1e-9).end[0] == pytest.approx(-1)  # twin: what is not watched is passed
+
+
+@pytest.mark.parametrize(("last", "budget", "cause"), [(np.inf, 500, "budget"), (37.3, 10**5, "stopped")])
+def test_lsoda_hands_back_what_it_reached(last: float, budget: int, cause: str) -> None:
+    """Of an oscillation whose evaluations are spent, or whose rate is not finite from 37.3 on; twin: with enough, all of it."""
+    times = np.linspace(1.0, 100.0, 100)
+
+    def rates(s: float, y: Array) -> list[float]:
+        return [y[1], -y[0] if s < last else np.nan]
+
+    with pytest.raises(StopError) as stopped:
+        lsoda(Segment(rates, np.array([1.0, 0.0]), 0.0, 100.0, times, budget=budget), 1e-8)
+    stop = stopped.value
+    assert stop.cause == cause and stop.reached is not None and stop.evaluations >= min(budget, 500)
+    n = len(stop.reached.states)
+    assert n > 20 and stop.at == times[n - 1] and (stop.reached.end == stop.reached.states[-1]).all()
+    assert n == 37 or last == np.inf
+    assert np.abs(stop.reached.states[:, 0] - np.cos(times[:n])).max() < 1e-5
+    whole = Segment(lambda s, y: [y[1], -y[0]], np.array([1.0, 0.0]), 0.0, 100.0, times, budget=10**5)
+    assert len(lsoda(whole, 1e-8).states) == 100

@@ -5,7 +5,7 @@ have arrived leave; nobody waits.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ class Swarm:
 
     rates: given the indices of those still on their way, their right-hand side. fastest (n,), rad/s: for the first step, and
     for the evaluations after which one is stopped. at, width (n,), s: pulses, within 6.5 widths of which no step is longer
-    than the width, and at whose edges a step ends; width 0 for none.
+    than `longest` widths, and at whose edges a step ends; width 0 for none.
     """
 
     rates: Callable[[Index], Rates]
@@ -38,11 +38,17 @@ class Swarm:
     fastest: Array
     at: Array
     width: Array
+    longest: float = 1.0
 
     def part(self, who: Index) -> "Swarm":
         """Those of the indices `who`."""
-        return Swarm(
-            lambda left: self.rates(who[left]), self.start[:, who], self.fastest[who], self.at[who], self.width[who]
+        return replace(
+            self,
+            rates=lambda left: self.rates(who[left]),
+            start=self.start[:, who],
+            fastest=self.fastest[who],
+            at=self.at[who],
+            width=self.width[who],
         )
 
 
@@ -80,7 +86,7 @@ def _march(swarm: Swarm, times: Array, error: float, first: int, states: Array, 
         if pulsed:
             edge = reach[who]
             stop = np.minimum(target, np.where(s < -edge, -edge, np.where(s < edge, edge, np.inf)))
-            longest = np.where((s >= -edge) & (s < edge), np.minimum(h, swarm.width[who]), h)
+            longest = np.where((s >= -edge) & (s < edge), np.minimum(h, swarm.longest * swarm.width[who]), h)
         step = np.minimum(longest, stop - s)
         last = step == stop - s
         after, size = _step(rates, s, y, step, error, room)

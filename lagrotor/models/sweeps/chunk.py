@@ -16,9 +16,10 @@ from lagrotor.models.model import Observed, check_range, constant_momenta
 from lagrotor.models.natural_units import natural_units, typical_rate
 from lagrotor.models.simulate import simulate
 from lagrotor.models.sweeps.batch_dop853 import LEAST_TOLERANCE, Index, Rates, Swarm, march_swarm
-from lagrotor.numerics.estimate_constants import APART, FIRST, LEAST, RESOLVED, ROUNDING, SAFETY, START
-from lagrotor.numerics.estimated_run import UNKNOWN
+from lagrotor.numerics.estimate_constants import APART, FIRST, LOST
+from lagrotor.numerics.estimated_run import UNKNOWN, estimated_errors, start_beside
 from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.taylor import march_taylor
 from lagrotor.pair.scene import Scene
 
@@ -105,7 +106,6 @@ def _by_minimal(
     each other agree within `tol`; put what comes out whole into its places."""
     ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
     turns = np.array([typical_rate(scene) for scene in scenes])[:, None] * times / (2 * np.pi)
-    rounding = ROUNDING.value * (START.value + turns)
     columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
     swarm, who, local, companion = _swarm(kind, scenes, columns, start), np.arange(len(scenes)), tol * FIRST.value, True
     before, tightest = (
@@ -114,14 +114,16 @@ def _by_minimal(
     )
     while who.size:
         local = max(local, tightest)
-        begun = start[:, who] * (1 + np.finfo(float).eps * companion * np.cos(np.arange(1, len(start) + 1))[:, None])
+        begun = start_beside(start[:, who].T).T if companion else start[:, who]
         if engine == "fast":
             parameters = np.array([column[who] for column in columns])
             states, spent = march_taylor(program(*kind), begun, parameters, times, local, companion)
         else:
-            # A step ends at each time: a companion has others between them, so that no two take the same few steps.
+            # A step ends at each time, and in a pulse all may be as long as they can be: a companion's end at others and
+            # are shorter, so that no two take the same few steps.
             t = np.union1d(times, times[:-1] + _BETWEEN * np.diff(times)) if companion else times
-            states, spent = march_swarm(replace(swarm.part(who), start=begun), t, local)
+            longest = COMPANION_STEP if companion else 1.0
+            states, spent = march_swarm(replace(swarm.part(who), start=begun, longest=longest), t, local)
             states = states[:, np.isin(t, times)]
         chunk.evaluations[places[who]] += spent
         whole = np.isfinite(states).all((1, 2))
@@ -132,10 +134,10 @@ def _by_minimal(
             seen = MODEL.observe(scenes[who[alike[0]]], states[alike].reshape(-1, 6))
             for rows, part in ((axes, seen.axes), (rates, seen.rates)):
                 rows[alike] = part.reshape(2, len(alike), len(times), 3).swapaxes(0, 1)
-        safety = SAFETY.value ** (2 if local < RESOLVED.value else 1)
-        apart = safety * np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
-        apart = np.maximum(apart, SAFETY.value * _defects([scenes[i] for i in who], times, axes, rates)[:, None])
-        errors = np.maximum.accumulate(np.maximum(apart, LEAST.value * local) + rounding[who], axis=1)
+        apart = np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
+        apart = np.maximum(apart, _defects([scenes[i] for i in who], times, axes, rates)[:, None])
+        errors = np.maximum.accumulate(estimated_errors(apart, local, turns[who]), axis=1)
+        errors[errors > LOST.value] = UNKNOWN
         before[who] = axes
         if not np.isnan(apart).any():  # of the first there is nothing to compare
             # Where a tighter run is farther from the last than that was from the one before it, rounding is all that differs.
@@ -145,7 +147,7 @@ def _by_minimal(
             chunk.axes[here], chunk.rates[here], chunk.errors[here] = (
                 axes[at],
                 rates[at],
-                np.minimum(errors[at], UNKNOWN),
+                errors[at],
             )
             chunk.models[here] = MODELS.index("minimal")
             who = who[(errors[:, -1] > tol) & (local > tightest)]

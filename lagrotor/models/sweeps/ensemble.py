@@ -21,6 +21,7 @@ from lagrotor.models.simulate import check_times
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, kind_of, run_chunk
 from lagrotor.models.sweeps.chunk_files import chunk_folder
 from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
@@ -70,6 +71,12 @@ class Ensemble(Shown):
         """Indices of the trajectories that no model could finish: theirs are NaN throughout."""
         return np.flatnonzero(self.models == MODELS.index("none"))
 
+    def _ending(self, i: int) -> Ending:
+        if MODELS[self.models[i]] == "none":
+            return Ending("stopped", float(self.t[0]), "no model could finish it, and nothing of it is kept")
+        lost = np.flatnonzero(self.errors[i] >= UNKNOWN)
+        return Ending("lost", float(self.t[lost[0]])) if len(lost) else Ending("end", float(self.t[-1]))
+
     def trajectory(self, i: int) -> Trajectory:
         """Number i, with all that can be read off it."""
         scene, name, errors = self.scenes[i], MODELS[self.models[i]], self.errors[i]
@@ -78,7 +85,7 @@ class Ensemble(Shown):
         return Trajectory(
             scene=scene, model=name, why="one of an ensemble", t=self.t, axes=self.axes[i], rates=self.rates[i], momenta=momenta,
             errors=errors, horizon=float(self.t[beyond[0]]) if len(beyond) else inf, evaluations=int(self.evaluations[i]),
-            ending=Ending("stopped" if name == "none" else "end", float(self.t[-1])),
+            ending=self._ending(i),
         )  # fmt: skip
 
 
@@ -134,7 +141,7 @@ def sweep(
         if target:
             target.write(number, found)
         keep(number, found)
-    if missed := int((whole.error > tolerance).sum()):
+    if missed := int((~(whole.error <= tolerance)).sum()):
         said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
         warnings.warn(said, LagrotorWarning, stacklevel=2)
     return whole
