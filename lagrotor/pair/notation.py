@@ -57,8 +57,6 @@ att = _positive("A_w", "what the pulse's width leaves of the swing, exp(−(Omeg
 X = _real("X", "mean of U over the swing", "1")
 TWIST = _real("Delta_s", "mean of the twist over the swing", "rad")
 SWING = _real("d", "amplitude of the swing in the twist", "rad")
-a_1 = _real("a_1", "amplitude of cos Phi in x_1", "1")
-COSINE = _real("c", "cosine of the phase", "1")
 
 _ANGLES = {
     "theta": "inclination of the axis",

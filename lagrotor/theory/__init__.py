@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.impulse_response import shock_energy as shock_energy
     from lagrotor.theory.natural_frequency import linear_pair as linear_pair
     from lagrotor.theory.natural_rate import natural_rate_error as natural_rate_error
-    from lagrotor.theory.paired_precession.amplitudes import amplitude_of_first_harmonic as amplitude_of_first_harmonic
-    from lagrotor.theory.paired_precession.amplitudes import largest_inclination as largest_inclination
-    from lagrotor.theory.paired_precession.closed_forms import corrected_inclinations as corrected_inclinations
     from lagrotor.theory.paired_precession.series import paired_series as paired_series
     from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit as PrecessionOrbit
     from lagrotor.theory.paired_precession.series_orbit import series_orbit as series_orbit
@@ -45,7 +42,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
     from lagrotor.theory.single_rotor import free_precession_rate as free_precession_rate
     from lagrotor.theory.single_rotor import pair_precession_rate as pair_precession_rate
-    from lagrotor.theory.single_rotor import rotor_precession_rate as rotor_precession_rate
     from lagrotor.theory.toppling import linear_toppling as linear_toppling
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial

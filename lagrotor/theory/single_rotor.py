@@ -1,32 +1,14 @@
-"""Precession rates of one grounded rotor, and of the pair under the paper's ansatz, from their first integrals."""
+"""The steady precession of one free rotor, and the rate of the pair under the paper's ansatz from its first integrals."""
 
 from functools import cache
 
 import sympy as sp
 
-from lagrotor.mechanics import euler_lagrange, momenta
+from lagrotor.mechanics import euler_lagrange
 from lagrotor.mechanics.lagrangian import linear_solve
 from lagrotor.pair.lagrangians import ansatz_integrals, rotor_lagrangian
-from lagrotor.pair.notation import ANSATZ, I3, M_3, ROTOR, A, B, G, J, M_z, omega
+from lagrotor.pair.notation import ANSATZ, I3, ROTOR, A, B, G, J, omega
 from lagrotor.theory.closed_form import ClosedForm
-
-
-@cache
-def rotor_precession_rate() -> ClosedForm:
-    """phi' = (M_z − M_3 cos theta) / (J sin² theta) of one grounded rotor, from its two cyclic momenta (5.02)."""
-    theta, (_, phi_v, psi_v) = ROTOR.q[0], ROTOR.v
-    p = momenta(rotor_lagrangian(), ROTOR)
-    matrix, given = sp.linear_eq_to_matrix([p[1] - M_z, p[2] - M_3], [phi_v, psi_v])
-    rate = linear_solve(matrix, given, "rotor_precession_rate: the momenta do not give the rates")[0]
-    return ClosedForm(
-        "rotor_precession_rate",
-        ("phi'",),
-        (sp.factor(rate),),
-        (theta, M_z, M_3, J),
-        (sp.Ne(sp.sin(theta), 0),),
-        "one grounded rotor, no gravity",
-        "5.02",
-    )
 
 
 @cache

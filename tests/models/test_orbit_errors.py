@@ -27,7 +27,6 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit
 from lagrotor.models.orbits.precession import sampled
 from lagrotor.theory import PrecessionOrbit, series_orbit
-from lagrotor.theory.paired_precession.amplitudes import first_harmonic
 from lagrotor.theory.paired_precession.orbit_harmonics import start_of
 
 PHASES = np.linspace(0, 2 * np.pi, 121)
@@ -79,7 +78,6 @@ def held(scene: Scene, r0: float, tol: float) -> dict[str, float]:
     true = {
         paired_frequency(3): ((r0, *bar), truth.frequency / natural_rate(scene) * np.sign(scene.spins[0])),
         paired_momentum(4): ((r0, *bar), truth.momentum / scene.momenta[0]),
-        first_harmonic(3): ((r0, *bar), truth.harmonics[1, 0]),
         corrected_trajectories(3): ((r0, phase, *bar), truth.at_phase(phase).ravel()),
     }
     for form, (arguments, value) in true.items():

@@ -6,15 +6,11 @@ import pytest
 from lagrotor import Link, Rotor, Scene, corrected_trajectories, paired_frequency, paired_momentum, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit
-from lagrotor.numerics import measured_order, operations
+from lagrotor.numerics import operations
 from lagrotor.theory import (
-    amplitude_of_first_harmonic,
-    corrected_inclinations,
-    largest_inclination,
     paired_series,
     series_orbit,
 )
-from lagrotor.theory.paired_precession.amplitudes import first_harmonic
 from lagrotor.theory.paired_precession.horner import horner_program
 from lagrotor.theory.paired_precession.series import shape_of
 
@@ -76,11 +72,9 @@ def test_refused():
             series_orbit(scene, r0, 5)
     with pytest.raises(DomainError, match="finite"):
         series_orbit(scene, 0.1, 3)([0.0, np.inf])
-    with pytest.raises(InputError, match="ring"):
-        largest_inclination("cube")
 
 
-@pytest.mark.parametrize("make", [corrected_trajectories, paired_frequency, paired_momentum, corrected_inclinations])
+@pytest.mark.parametrize("make", [corrected_trajectories, paired_frequency, paired_momentum])
 def test_an_order_that_is_none_is_refused(make):
     for order in (0, -1, 1.5):
         with pytest.raises(InputError, match=f"order = {order}"):
@@ -92,33 +86,3 @@ def test_too_few_terms_give_no_bound_and_terms_that_do_not_fall_are_refused():
     assert series_orbit(SCENES["massless"], 0.1, 5).error < 1e-4
     with pytest.raises(DomainError, match=r"at r0 = 0\.7 .* do not fall"):
         series_orbit(SCENES["massless"], 0.7, 9)
-
-
-def test_first_harmonic_of_the_exact_orbit_and_back():
-    scene = SCENES["long, other rotor"]
-    shape, ratio = (float(v) for v in shape_of(scene))
-    sizes, off, back = (0.05, 0.1, 0.2), [], []
-    for r0 in sizes:
-        orbit = exact_orbit(scene, r0)
-        phase = 2 * np.pi * np.arange(32) / 32
-        x = simulate(orbit.scene, phase / orbit.frequency, "minimal", 1e-13).axes[0, :, 0]
-        seen = float(2 * np.mean(x * np.cos(phase)))
-        off.append(abs(float(first_harmonic(3)(r0, shape, ratio)) - seen))
-        back.append(abs(float(amplitude_of_first_harmonic(3)(seen, shape, ratio)) - r0))
-    assert measured_order(sizes, off) == pytest.approx(5, abs=0.2)
-    assert measured_order(sizes, back) == pytest.approx(5, abs=0.2)
-
-
-@pytest.mark.parametrize(
-    ("shape", "link", "order", "slope"),
-    [("dumbbell", Link(1.3, 0, 0), 3, 4), ("rod", Link(1.3, 2, 0), 3, 5), ("ring", Link(1, 0.01, 0.1), 3, None)],
-)
-def test_largest_inclination(shape, link, order, slope):
-    scene, form = Scene(spins=(10, -10), link=link), largest_inclination(shape, order)
-    sigma, ratio = (float(v) for v in shape_of(scene))
-    sizes, off = (0.02, 0.04, 0.08), []
-    for r0 in sizes:
-        axes = series_orbit(scene, r0, 13).at_phase(np.linspace(0, 2 * np.pi, 8001))
-        seen = np.hypot(axes[..., 0], axes[..., 1]).max()
-        off.append(abs(float(form(r0, sigma, ratio)) - seen))
-    assert max(off) < 1e-12 if slope is None else measured_order(sizes, off) == pytest.approx(slope, abs=0.2)

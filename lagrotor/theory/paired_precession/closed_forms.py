@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import normal_form, truncated_series
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.pair.notation import Phi, k, r0, sigma
@@ -72,34 +71,6 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
 def _axes(series: PairedSeries, given: _Values) -> Array:
     axes = series.axes(float(given[r0][0]), given[Phi])
     return np.moveaxis(axes, -1, 1).reshape(6, -1)
-
-
-@cache
-def corrected_inclinations(order: int = 2) -> ClosedForm:
-    """(sin theta_1, sin theta_2) of the paired precession with a massless bar or a dumbbell (sigma = 1), in r_0 (5.20).
-
-    Arguments r_0, Phi, k. Raises InputError unless order is a whole number, 1 or more.
-    """
-    series = paired_series(check_order(order) + 1, sp.Integer(1))
-    x, y = series.expression(series.x), series.expression(series.Y)
-    first = truncated_series(r0 * sp.sqrt(normal_form((x**2 + y**2) / r0**2)), r0, order)
-    form = ClosedForm(
-        "corrected_inclinations",
-        ("sin theta_1", "sin theta_2"),
-        (first, first.subs(Phi, Phi + sp.pi)),
-        (r0, Phi, k),
-        (sp.Ge(r0, 0), sp.Lt(r0, 1)),
-        "opposite spins, sigma = 1",
-        "5.20",
-        order,
-        r0,
-    )
-
-    def sines(series: PairedSeries, given: _Values) -> Array:
-        axes = series.axes(float(given[r0][0]), given[Phi])
-        return np.hypot(axes[..., 0], axes[..., 1])
-
-    return with_error(form, sines)
 
 
 @cache

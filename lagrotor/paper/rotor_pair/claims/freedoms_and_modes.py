@@ -97,14 +97,14 @@ def _counted(scene: Scene) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class SmallMotion:
+class _SmallMotion:
     """Spins (rad/s), and the shock (N) after which the motion is taken to be small."""
 
     spins: Spins = OPPOSITE
     force: Vector = (0.5, 0.3, 0)
 
 
-def measure_c24(case: SmallMotion) -> dict[str, float]:
+def measure_c24(case: _SmallMotion) -> dict[str, float]:
     """The counts, and a run after the shock fitted by a constant, a slope and the natural rate."""
     scene = Scene(case.spins, link=HEAVY_LINK, shock=Shock(case.force, 0.2, 1 / 50))
     run = simulate(scene, [0.0, *np.linspace(0.4, 8, 200)], "spheres", 1e-11).after(0.4)
@@ -158,8 +158,8 @@ C14 = ClaimTest(
 )
 C24 = ClaimTest(
     "C24",
-    SmallMotion(),
-    {TOPPLING: SmallMotion(EQUAL), PRECESSION: SmallMotion(EQUAL), TWO: SmallMotion(force=(5, 3, 0))},
+    _SmallMotion(),
+    {TOPPLING: _SmallMotion(EQUAL), PRECESSION: _SmallMotion(EQUAL), TWO: _SmallMotion(force=(5, 3, 0))},
     "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
     measure_c24,
     decide_c24,
