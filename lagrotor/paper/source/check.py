@@ -17,7 +17,7 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal
 from lagrotor.errors import LagrotorError
-from lagrotor.paper.source.dimensions import Dimensions
+from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import PrintedStatement, Reading, Side, read_formula
 from lagrotor.paper.source.markup import read_source
@@ -337,7 +337,7 @@ class _Checker:
 
     def _dimensions(self) -> Iterator[StepFinding]:
         """Equations whose dimensions contradict those of the others."""
-        known = Dimensions()
+        known = FormulaDimensions()
         broken = []
         for read in self.statements:
             compared = read.statement.kind in ("equation", "approximation", "inequality")

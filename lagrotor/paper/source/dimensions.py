@@ -25,7 +25,7 @@ class _UnknownError(Exception):
     """A dimension that cannot be given."""
 
 
-class Dimensions:
+class FormulaDimensions:
     """What the equations so far say, as rows in echelon form."""
 
     def __init__(self) -> None:
