@@ -10,7 +10,7 @@ from lagrotor.paper.record import row_of
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.units import Dimensions, dimension_of, dimensions, unit_text
-from lagrotor.paper.verdict_text import as_data, in_words
+from lagrotor.paper.verdict_text import in_words, verdict_data
 
 GLOSSARY = Glossary()
 m = GLOSSARY.letter("m", "mass", "kg", positive=True)
@@ -170,7 +170,7 @@ def test_the_missing_inertia_is_found_by_itself() -> None:
     assert [each.answer for each in found] == ["inconsistent", "consistent"]
     said = "printed 1/s, derived kg m²/s; derived/printed is kg m²"
     assert f"B: inconsistent: {said}" in in_words(decided, PAPER)
-    assert as_data(decided, PAPER)["lines"][0]["dimensions"] == {"answer": "inconsistent", "says": said}
+    assert verdict_data(decided, PAPER)["lines"][0]["dimensions"] == {"answer": "inconsistent", "says": said}
     assert row_of(decided, PAPER.equations).dimensions == (f"B: inconsistent: {said}",)
     assert [line.dimensions.answer for line in decided.correction_lines] == ["consistent"] * len(
         decided.correction_lines
