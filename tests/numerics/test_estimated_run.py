@@ -278,3 +278,11 @@ def test_between_two_events_that_differ_only_what_is_read_there_is_compared() ->
     evolution = replace(Made().evolution(), integrate=integrate)
     run = estimate_run(evolution, T, 1e-3)
     assert run.errors[5] > 1 and run.errors[6] < 1e-3 and run.ending.kind == "end"
+
+
+def test_no_looser_pair_is_tried_once_one_is_given_up() -> None:
+    """All local errors fail: each pair is looser, and the last is the first beyond GIVEN_UP."""
+    made, limit = Made(share=0.1), estimated_run.GIVEN_UP.value
+    made.fails[1.0] = StopError(7.3, "too many", cause="budget")
+    made.run(1e-7)
+    assert limit < max(made.locals) <= limit * APART**2

@@ -5,10 +5,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from lagrotor import Link, Rotor, Structure
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics import estimated_run
+from lagrotor.structures.exact import simulating
+from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from tests.structures.extended import exact
 
 PLANS = (
@@ -121,3 +125,25 @@ def test_it_is_the_same_motion_in_any_units(units: tuple[float, float, float]) -
         other = in_units(s, *units).simulate(**there, tol=tol)
         assert np.abs(other.axes - run.axes).max() < run.error + other.error
         assert other.evaluations == pytest.approx(run.evaluations, rel=0.1)
+
+
+@pytest.mark.slow
+def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact() -> None:
+    """Evaluations over those of one call of scipy's DOP853, at the loosest tolerance that gives the same true error."""
+    ratios = []
+    for s, given, tol, axes in references(11, 30):
+        run = s.simulate(**given, tol=tol)  # type: ignore[arg-type]
+        error = max(float(np.linalg.norm(run.axes - axes, axis=-1).max()), 1e-15)
+        motion = exact_motion(s)
+        start = simulating._start(motion, given["tilt"], given["rates"])  # type: ignore[arg-type]
+        t, n = motion.c.rate * (run.t - run.t[0]), len(axes)
+        for local in 10.0 ** -np.arange(1, 14, 0.5):
+            alone = solve_ivp(
+                right_hand_side(motion), (0, t[-1]), start, "DOP853", t, rtol=max(local, 2.3e-14), atol=local
+            )
+            seen = alone.y.T[:, : 3 * n].reshape(-1, n, 3).swapaxes(0, 1)
+            if np.linalg.norm(seen - axes, axis=-1).max() <= error:
+                ratios.append(run.evaluations / alone.nfev)
+                break
+    assert len(ratios) > 20 and max(ratios) < 10
+    assert max(ratios) > 1  # twin: two runs are never for nothing
