@@ -222,11 +222,11 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
                 made = step_of(motion, node, w, left if last else arb(h), n, slope_terms, rows)
                 break
             except (TailError, ZeroDivisionError, ValueError) as error:
-                reason = error if isinstance(error, TailError) else "the set is too wide for its frame"
+                why = error if isinstance(error, TailError) else "the set is too wide for its frame"
                 h = min(h, float(left)) * _SHORTER
                 if h < SHORTEST * longest:
                     raise NotProved(
-                        f"the enclosure ends at t = {float(node.t):.6g}: {reason}; shorten the time, or narrow the start"
+                        f"the enclosure ends at t = {float(node.t):.6g}: {why}; shorten the time, or narrow the start"
                     ) from None
         yield made
         if last:

@@ -522,8 +522,10 @@ def check(certificate: Any) -> str:
         ctx.prec = int(certificate.get("bits", 64)) + _MORE_BITS
         rule(certificate)
         words = theorem_of(certificate)
-    except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError) as error:
-        raise NotProved(f"check: the certificate cannot be followed: {error!r}") from None
+    except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError):
+        raise NotProved(
+            "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
+        ) from None
     finally:
         ctx.prec = before
     return words

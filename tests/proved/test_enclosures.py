@@ -125,7 +125,7 @@ def test_random_systems_hold_the_truth(seed: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(100, 400))
+@pytest.mark.parametrize("seed", range(100, 200))
 def test_many_random_systems_hold_the_truth(seed: int) -> None:
     check_random(seed, 1.5, 60)
 
@@ -270,6 +270,8 @@ def test_errors_name_the_value_and_the_way_out() -> None:
         enclose(Program((x, v, k := sp.Symbol("k")), (), (v, -k * x)), {}, [1, 0], t=1)
     with pytest.raises(InputError, match="Abs in the equations has no rigorous series"):
         enclose(Program((x, v), (), (v, -sp.Abs(x))), {}, [1, 0], t=1)
+    with pytest.raises(NotProved, match="ends at t = 0: a denominator, or a root's or logarithm's argument"):
+        enclose(Program((x, v), (), (v, 1 / x)), {}, [0, 1], t=1)
     with pytest.raises(InputError, match="must be a System"):
         enclose(3, t=1)
 

@@ -297,6 +297,8 @@ def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
     assert check(CERTIFICATE | {"theorem": "It falls."}) == check(CERTIFICATE)
     with pytest.raises(InputError, match="a certificate is the dictionary"):
         check({"kind": "theorem"})
+    with pytest.raises(NotProved, match="an entry is missing, is no number"):
+        check(CERTIFICATE | {"A": [["zz"]]})
 
 
 def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
