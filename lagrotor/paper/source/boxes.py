@@ -277,8 +277,17 @@ class _Reader:
     def prime(self, found: list[Box], item: Token) -> None:
         if not found:
             raise FormulaError(item.at, "' has nothing before it", "write the letter that it belongs to")
-        found[-1].primes += 1
+        self.primed(found[-1], item, 1)
         found[-1].end = item.at + 1
+
+    @staticmethod
+    def primed(target: Box, item: Token, count: int) -> None:
+        """Give primes to a letter; behind anything else they mean what only the author knows."""
+        if target.kind != "letter":
+            raise FormulaError(
+                item.at, "a prime stands behind what is no letter", "write the derivative, or give it a letter"
+            )
+        target.primes += count
 
     def script(self, found: list[Box]) -> None:
         item = self.take()
@@ -290,7 +299,7 @@ class _Reader:
         content = self.argument()
         if item.text == "^":
             if content and all(b.kind == "letter" and b.name == "prime" for b in content):
-                target.primes += len(content)
+                self.primed(target, item, len(content))
             elif target.sup is not None:
                 raise FormulaError(item.at, "two powers follow each other", "write braces around the first")
             else:
@@ -532,7 +541,12 @@ class _Reader:
 
     def _overset(self, item: Token, style: str) -> list[Box]:
         self.plain()
-        return self.argument(style)
+        base = self.argument(style)
+        if any(box.kind not in ("relation", "arrow") for box in base):
+            raise FormulaError(
+                item.at, f"{item.text} sets a mark on what is no relation", "give it a letter of its own"
+            )
+        return base
 
     def _underbrace(self, item: Token, style: str) -> list[Box]:
         content = self.argument(style)

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from lagrotor.errors import InputError
 from lagrotor.paper.source import packages
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import Expander, Macro
@@ -89,7 +90,10 @@ class Row:
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
     found = Source(title)
-    _Walker(text, file, found).read()
+    try:
+        _Walker(text, file, found).read()
+    except RecursionError:
+        raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None
     return found
 
 

@@ -15,6 +15,8 @@ from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Expansions in a row before a token of the source is taken, and tokens that wait; beyond, a macro calls itself without end.
 _MOST_EXPANSIONS, _MOST_TOKENS, _MOST_FILES = 20_000, 2_000_000, 500
+# TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
+_CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 _INPUTS = (r"\input", r"\include", r"\subfile", r"\subfileinclude", r"\@input")
 _DEFINITIONS = (r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand")
 _DOCUMENT_COMMANDS = (
@@ -60,6 +62,7 @@ class Expander:
         self._take_in(text, file.name if file else "")
 
     def _take_in(self, text: str, name: str) -> None:
+        text = text.translate(_CONTROL)
         self.files += 1
         if self.files > _MOST_FILES:
             raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: one may take in itself")

@@ -24,6 +24,48 @@ _ANGLES = ("theta", "phi", "varphi", "psi", "alpha", "beta", "vartheta", "gamma"
 _TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK)
+_CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne"}
+_MOST_DIGITS = 1000
+_ARITHMETIC = ("sum", "product", "quotient", "power", "negative", "sin", "cos", "sqrt", "exp")
+_UNIT_LETTERS = frozenset(
+    [
+        "m",
+        "s",
+        "g",
+        "kg",
+        "K",
+        "N",
+        "J",
+        "W",
+        "V",
+        "A",
+        "C",
+        "F",
+        "H",
+        "T",
+        "Pa",
+        "Hz",
+        "rad",
+        "sr",
+        "mol",
+        "cd",
+        "eV",
+        "keV",
+        "MeV",
+        "GeV",
+        "cm",
+        "mm",
+        "nm",
+        "km",
+        "min",
+        "h",
+        "ms",
+        "ns",
+        "yr",
+        "pc",
+    ]
+)
+_DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather)\b")
 _UNIT = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s,·]|\\[,.%]|-?\d+|[{}]")
 
 
@@ -163,6 +205,7 @@ class _Formula:
         parts: list[tuple[str, list[Box]]] = [("", [])]
         for place, box in enumerate(row):
             if box.kind == "arrow" or (box.kind == "text" and not self._is_side(row, place)):
+                self._check_words(box)
                 parts.append((box.kind, []))
             elif (
                 box.kind == "comma"
@@ -185,11 +228,24 @@ class _Formula:
             if not _trimmed(part):
                 continue
             has_relation = any(box.kind == "relation" for box in part)
+            if parted == "comma" and has_relation and found and found[-1].kind == "expression":
+                raise FormulaError(
+                    part[0].at, "what stands before the comma has no relation", "write it for each letter"
+                )
             if not has_relation and found and parted in ("comma", "wide"):
                 self._further(found, _trimmed(part))
             else:
                 found.append(self._statement(_trimmed(part)))
         return found
+
+    def _check_words(self, box: Box) -> None:
+        """Words that deny what they join are not read; of "or" it is taken that both are stated."""
+        if _DENYING.search(box.name):
+            raise FormulaError(
+                box.at, f"{box.name}: the words deny what they join", "write the statements by themselves"
+            )
+        if re.search(r"\bor\b", box.name):
+            self.guesses.append("what or joins are two statements, and both are meant")
 
     def _goes_on(self, row: list[Box], place: int, part: list[Box]) -> bool:
         """Whether a wide space stands within a formula: beside an operator or a relation."""
@@ -201,7 +257,7 @@ class _Formula:
 
     def _is_side(self, row: list[Box], place: int) -> bool:
         """Whether words are a whole side of a relation, or a unit behind a number."""
-        before = row[place - 1] if place else None
+        before = next((b for b in reversed(row[:place]) if b.kind != "thin"), None)
         after = row[place + 1] if place + 1 < len(row) else None
         if before is not None and before.kind == "number" and _unit_like(row[place].name):
             return True
@@ -211,6 +267,12 @@ class _Formula:
     def _further(self, found: list[PrintedStatement], part: list[Box]) -> None:
         """What follows a comma without a relation: n = 1, 2, …."""
         last = found[-1]
+        if part[0].kind == "number" and part[0].at and self.source[part[0].at - 2 : part[0].at - 1].isdigit():
+            raise FormulaError(
+                part[0].at - 1,
+                "whether the comma is in a number is open",
+                "write {,} in the number, or a space behind the comma",
+            )
         simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
         if simple and last.kind in ("equation", "range") and len(last.sides) == 2:
             end = last.sides[-1].node
@@ -249,6 +311,12 @@ class _Formula:
         if len(degrees) > 1 and not any(relation in ("->", "in") for relation in relations):
             raise FormulaError(
                 row[0].at, "a differential stands on one side only", "write the derivative, or both differentials"
+            )
+        vectors = any(isinstance(n, Letter) and n.vector for s in read if vector_valued(s.node) for n in walk(s.node))
+        scalar = next((side for side in read if _scalar(side.node)), None)
+        if vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
+            raise FormulaError(
+                scalar.at, "a vector is equal to a number", "mark the vectors alike, as \\hat{\\mathbf r}"
             )
         order = None
         final = read[-1].node
@@ -400,15 +468,22 @@ class _Formula:
             right = Call("negative", (right,))
         if made is None:
             return right
+        return self._vector_product(made, operator, right, part[0].at, before)
+
+    @staticmethod
+    def _vector_product(made: Node, operator: str, right: Node, at: int, before: list[Box]) -> Node:
+        """Two factors joined by a dot, a cross or a star, of vectors or of numbers."""
         left_vector, right_vector = vector_valued(made), vector_valued(right)
         if left_vector and right_vector:
             if operator not in ("cdot", "times"):
-                raise FormulaError(part[0].at, "two vectors are multiplied by *", "write \\cdot or \\times")
+                raise FormulaError(at, "two vectors are multiplied by *", "write \\cdot or \\times")
+            if operator == "times" and isinstance(made, Call) and made.name == "cross" and not _bracket_last(before):
+                raise FormulaError(at, "which × comes first is open", "write brackets")
             return Call("dot" if operator == "cdot" else "cross", (made, right))
+        if operator == "cdot" and (left_vector or _hatted(made)) and (right_vector or _hatted(right)):
+            raise FormulaError(at, "whether a letter with a hat is a vector is open", "write \\hat{\\mathbf n}")
         if operator == "times" and not (_numeric(made) or _numeric(right)):
-            raise FormulaError(
-                part[0].at, "whether × is of vectors or of numbers is open", "mark the vectors, or write \\cdot"
-            )
+            raise FormulaError(at, "whether × is of vectors or of numbers is open", "mark the vectors, or write \\cdot")
         return _product([made, right])
 
     def _count(self, part: list[Box]) -> int:
@@ -480,8 +555,20 @@ class _Formula:
     @staticmethod
     def _numbers_apart(row: list[Box], place: int) -> None:
         """Numbers side by side are groups of digits, or not read."""
-        if place and row[place].kind == "number" and row[place - 1].kind == "number":
-            raise FormulaError(row[place].at, "two numbers stand side by side", "write \\cdot between them")
+        before, box = row[place - 1] if place else None, row[place]
+        if before is None:
+            return
+        if box.kind == "number" and before.kind == "number":
+            raise FormulaError(box.at, "two numbers stand side by side", "write \\cdot between them")
+        if box.kind == "number" and before.kind in ("letter", "root", "group"):
+            raise FormulaError(
+                box.at, "a number stands behind a letter", "write it first, or braces where it is a script"
+            )
+        parts = [each for part in box.parts for each in part] if box.kind == "fraction" else []
+        if before.kind == "number" and before.sup is None and parts and all(each.kind == "number" for each in parts):
+            raise FormulaError(
+                box.at, "whether a mixed number or a product is meant is open", "write \\cdot between them"
+            )
 
     # ---- factors
 
@@ -493,6 +580,10 @@ class _Formula:
             raise FormulaError(
                 box.at, f"{self.source[box.at : box.end] or box.name} is not read here", "write what it stands for"
             )
+        if box.kind in ("infinity", "root", "binomial") and (
+            box.sub is not None or (box.sup and box.kind == "infinity")
+        ):
+            raise FormulaError(box.at, f"{self.source[box.at : box.end]} has an index", "give it a letter of its own")
         node, behind = reader(row, place)
         while behind < len(row) and row[behind].kind == "operator" and row[behind].name == "!":
             node, behind = Call("factorial", (node,)), behind + 1
@@ -523,9 +614,16 @@ class _Formula:
         unit = behind + 1 if behind < len(row) and row[behind].kind == "thin" else behind
         if unit < len(row) and row[unit].kind in ("unit", "text"):
             return _product([node, self._units(row[unit])]), unit + 1
+        if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:
+            self.guesses.append(f"upright {row[unit].name} behind a number is a unit")
+            return _product([node, self._raised(Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1
         return node, behind
 
     def _value(self, text: str, box: Box) -> Fraction:
+        if len(text) > _MOST_DIGITS:
+            raise FormulaError(
+                box.at, f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter"
+            )
         if "{,}" in text:
             whole, *groups = text.split("{,}")
             comma = self.notation.decimal_comma
@@ -649,7 +747,10 @@ class _Formula:
         if simple_argument(content) and bracket.sup is None:
             return True if evidence is not None or any(b.kind == "letter" for b in top) else None
         if evidence is None:
-            return None if box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
+            late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
+            if not late and any(b.kind == "letter" and b.name == "t" for b in top):  # γ(x - vt), g(x + ct)
+                self.guesses.append(f"{box.name}(…) is a product")
+            return None if late or box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
         own = {b.name for b in top if b.kind == "letter"}
         if several:
             return True if own & evidence and key not in known.bare else None
@@ -664,13 +765,13 @@ class _Formula:
             return Call("order", tuple(given))
         if not given:
             raise FormulaError(bracket.at, "a function has no argument", "write it")
-        name = name_of(box, self._index(box))
-        named, _ = self._named(replace(box, sup=None))
+        named, raised = self._named(box)
+        name = name_of(box, self._index(box), self._superscript(box) or ())
         if tuple(given) == (Letter("t"),) and not (self.notation.called.get(name, {"t"}) - {"t"}):
             node: Node = named
         else:
             node = Call(f"{name}", tuple(given))
-        if box.sup is not None and not self._mark(box):
+        if not raised:
             node = self._raised(node, box)
         return self._raised(node, bracket)
 
@@ -724,6 +825,13 @@ class _Formula:
 
     def _check_power(self, box: Box) -> None:
         row = [b for b in box.sup or () if b.kind != "thin"]
+        tensor = self.notation.lowered & set(_TENSOR) and not self.notation.letters
+        if tensor and len(row) == 1 and row[0].kind == "letter" and row[0].name in _TENSOR:
+            raise FormulaError(
+                row[0].at,
+                f"whether {row[0].name} is an upper index or a power is open",
+                f'write brackets around the power, or in paper.toml [notation] letters = "{row[0].name}"',
+            )
         if len(row) == 1 and row[0].kind == "letter":
             name = row[0].name
             if (name in _GREEK or name in ("i", "j", "k", "a", "b")) and name in self.notation.lowered:
@@ -804,6 +912,7 @@ class _Formula:
                 raise FormulaError(
                     box.at, "whether e is Euler's number is open", 'write in paper.toml [notation] numbers = "e"'
                 )
+            self.guesses.append("e is a letter, not Euler's number")
             return False
         if "e" in known.bare:
             raise FormulaError(
@@ -1033,7 +1142,9 @@ class _Formula:
             condition: Node = Letter("otherwise")
             if where:
                 stated = self._statement(_trimmed(where))
-                condition = Call("condition", tuple(side.node for side in stated.sides))
+                if len(stated.relations) != 1 or stated.relations[0] not in _CONDITIONS:
+                    raise FormulaError(where[0].at, "the condition of a case is not read", "write one relation")
+                condition = Call(_CONDITIONS[stated.relations[0]], tuple(side.node for side in stated.sides))
             made.append(Call("case", (self.expression(value), condition)))
         return Call("cases", tuple(made)), place + 1
 
@@ -1536,6 +1647,19 @@ def _is_matrix(node: Node) -> bool:
     return node.name in ("matrix", "transpose", "inverse", "matmul") or (
         node.name in ("sum", "negative") and _is_matrix(node.args[0])
     )
+
+
+def _hatted(node: Node) -> bool:
+    """Whether a node is a letter with a hat that is not marked as a vector, or a product with one."""
+    if isinstance(node, Call) and node.name == "product":
+        return any(map(_hatted, node.args))
+    return isinstance(node, Letter) and not node.vector and node.name.split("_")[0].endswith("hat")
+
+
+def _scalar(node: Node) -> bool:
+    """Whether a node is arithmetic of letters that are no vectors, and not 0."""
+    plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
+    return plain and not _zero(node) and not any(isinstance(n, Letter) and n.vector for n in walk(node))
 
 
 def _bracket_last(part: list[Box]) -> bool:

@@ -52,6 +52,7 @@ _CALLED = FUNCTIONS.keys() - {
     "Float",
     "Rational",
 }
+_MOST_BITS = 20_000  # of a number that is evaluated
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
 _KNOWN = {
@@ -173,6 +174,8 @@ def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
     if not _transparent(node):
         return opaque.symbol(node)
     parts = [sympy_expression(each, opaque) for each in node.args]
+    if _too_large(node, parts):
+        return opaque.symbol(node)
     return _VALUES[node.name](*parts) if node.name in _VALUES else _KNOWN[node.name](*parts)
 
 
@@ -186,6 +189,14 @@ _VALUES: dict[str, Any] = {
     "dot": lambda u, v: u.dot(v),
     "norm": lambda u: sp.sqrt(u.dot(u)),
 }
+
+
+def _too_large(node: Call, parts: list[Any]) -> bool:
+    """Whether the value is a number that no one writes out: 9**9**9, 99999!."""
+    if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
+        base, exponent = parts
+        return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
+    return node.name == "factorial" and isinstance(parts[0], sp.Integer) and parts[0] > _MOST_BITS // 10
 
 
 def _transparent(node: Call) -> bool:

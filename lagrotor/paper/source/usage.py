@@ -121,7 +121,7 @@ def _index(part: Box) -> list[str] | None:
             "times": "times",
         }
         return [named[part.name]] if part.name in named else None
-    if part.kind in ("group", "bracket"):
+    if part.kind == "group":
         inside = _plain(part.parts[0])
         return None if inside is None else [inside]
     if part.kind in ("function", "unit"):

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
 from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source_file
 
 
@@ -50,6 +51,25 @@ def test_a_slip_between_two_rows_has_the_line_of_its_row(tmp_path: Path) -> None
 )
 def test_what_may_be_physics_is_not_refuted(body: str, tmp_path: Path) -> None:
     assert set(verdicts(tmp_path, body)) <= {"undecided", HOLDS}
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        (r"\[ y = 9^{9^{9^9}} = 9^{9^{9^9}} + 1 \]", "undecided"),
+        (r"\[ w = 99999999! = 99999999! + 1 \]", "undecided"),
+        (r"\[ y = 9^{9} a = -9^{9} a \]", REFUTED),
+    ],
+)
+def test_numbers_that_no_one_writes_out_are_not_evaluated(body: str, expected: str, tmp_path: Path) -> None:
+    assert verdicts(tmp_path, body) == [expected]
+
+
+def test_environments_without_end_are_refused_in_words(tmp_path: Path) -> None:
+    many = r"\begin{subequations}" * 3000 + r"\[ a = b \]" + r"\end{subequations}" * 3000
+    with pytest.raises(InputError, match="nested too deeply"):
+        findings(tmp_path, many)
+    assert verdicts(tmp_path, many.replace("subequations", "center")) == []
 
 
 def test_definitions_before_are_put_in(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ READ = {
     r"y = \sin\theta\,\dot\theta": "y = sin(theta)*theta_dot",
     r"x^{(1)} = l_1^2 + x'": "x__1 = l_1**2 + xprime",
     r"n = \sqrt[3]{5} + \sqrt{a+b} + \frac12": "n = 5**(1/3) + sqrt(a + b) + 1/2",
-    r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}": "f = cases(case(1, condition(x, 0)), case(2, otherwise))",
+    r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}": "f = cases(case(1, Lt(x, 0)), case(2, otherwise))",
     r"A = \begin{pmatrix} a & b\\ c & 0\end{pmatrix}": "A = matrix(row(a, b), row(c, 0))",
     r"\left.\frac{\partial V}{\partial x}\right|_{x=0} = 0": "at(Derivative(V, x), x, 0) = 0",
     r"x = a,\qquad y = b \quad\text{where } z = c.": "x = a; y = b; z = c",
@@ -46,6 +46,17 @@ READ = {
     r"\left\{\begin{aligned} \dot x &= y\\ \dot y &= -x\end{aligned}\right.": "x_dot = y; y_dot = -x",
     r"H(q,p) = p\dot q - L(q,\dot q)": "H(q, p) = p*q_dot - L(q, q_dot)",
     r"\frac{dx/dt}{2} = \partial_x u": "x_dot/2 = Derivative(u, x)",
+    r"f^{(4)}(x) = f(x)": "f__4(x) = f(x)",
+    r"y = \dot x' + \theta'_1": "y = xprime_dot + thetaprime_1",
+    r"y = x_1 - 2 + a \cdot 2": "y = x_1 - 2 + a*2",
+    r"y = 2\frac{a}{b}": "y = 2*(a/b)",
+    r"y = k(x - x_0)": "y = k*(x - x_0)",
+    r"a \overset{!}{=} b": "a = b",
+    r"y = (\vec a\times\vec b)\cdot\hat{\mathbf n}": "y = dot(cross(avec, bvec), nboldhat)",
+    r"\vec F = F\hat{\mathbf r}": "Fvec = F*rboldhat",
+    r"\vec F = 0": "Fvec = 0",
+    r"x = 1{,}5,\quad n = 1, 2": "x = 3/2; n = 1",
+    r"a = b \text{ and } c = d": "a = b; c = d",
 }  # fmt: skip
 
 
@@ -56,6 +67,27 @@ def test_what_is_read_is_what_is_printed(latex: str) -> None:
 
 # What may mean two things, and where the reading stops.
 OPEN = {
+    r"y = (a + b)'": "a prime stands behind what is no letter",
+    r"y = \frac{a}{b}'": "a prime stands behind what is no letter",
+    r"y = \sin^\prime x": "a prime stands behind what is no letter",
+    r"y = \sqrt{x}_1": "has an index",
+    r"y = \binom{n}{k}_q": "has an index",
+    r"y = \overset{\circ}{A}": "sets a mark on what is no relation",
+    r"y = x_{1}2": "a number stands behind a letter",
+    r"y = x^12": "a number stands behind a letter",
+    r"y = \sqrt 12": "a number stands behind a letter",
+    r"y = 1\frac12": "whether a mixed number or a product is meant",
+    r"y = 0,5": "whether the comma is in a number",
+    r"y = 1,000": "whether the comma is in a number",
+    r"a, b = 0": "what stands before the comma has no relation",
+    r"\dot x = -kx(t - \tau)": "whether x(…) is a function or a product",
+    r"\Gamma^\lambda_{\mu\nu} = 0": "whether lambda is an upper index or a power",
+    r"\vec a\times\vec b\times\vec c = 0": "which × comes first",
+    r"\hat n\cdot\hat m = \cos\theta": "whether a letter with a hat is a vector",
+    r"\vec F = m a": "a vector is equal to a number",
+    r"a = b \text{ but not } c = d": "the words deny what they join",
+    r"f(x) = \begin{cases} 1 & x \to 0\\ 2 & x > 1\end{cases}": "the condition of a case is not read",
+    rf"y = {'9' * 1001}": "a number has more than 1000 digits",
     r"y = \sin x y": "where the argument of sin ends",
     r"y = \sin\theta^2": "whether the power is of the argument",
     r"y = \sin(\theta)^2": "",
@@ -77,7 +109,6 @@ OPEN = {
     r"x = a.b": "a full stop stands within",
     r"v = \frac{dr}{dt}(0)": "whether a derivative is taken there",
     r"D = |\mathbf{K} - \mathbf{M}|": "whether the bars are a determinant",
-    r"\vec F = m a": "",
     r"x = (a + b": "( is not closed",
     r"x = a + + b": "two signs follow each other",
     r"x = \int f": "the differential of the integral is missing",
@@ -132,6 +163,21 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
 def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None:
     (found,) = read_formula(latex, notation_of([latex])).guesses
     assert guess in found
+
+
+@pytest.mark.parametrize(
+    ("latex", "read", "guess"),
+    [
+        (r"l = 5\,\mathrm{m}", "l = 5*unit_m", "upright m behind a number is a unit"),
+        (r"l = 5\,m", "l = 5*m", ""),
+        (r"y = e^2/r", "y = e**2/r", "e is a letter, not Euler's number"),
+        (r"x' = \gamma(x - vt)", "xprime = gamma*(x - v*t)", "gamma(…) is a product"),
+        (r"a = b \text{ or } c = d", "a = b; c = d", "what or joins are two statements, and both are meant"),
+    ],
+)
+def test_units_products_and_alternatives_are_marked(latex: str, read: str, guess: str) -> None:
+    assert said(latex) == read
+    assert ("".join(read_formula(latex, notation_of([latex])).guesses)) == guess
 
 
 def test_an_order_that_is_claimed_is_kept() -> None:
