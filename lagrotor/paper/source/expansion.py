@@ -37,6 +37,35 @@ class Macro:
     spec: str = ""
 
 
+class ScopedMacros(dict[str, Macro | None]):
+    """Definitions by name, which end with the group that they are made in."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._before: list[dict[str, Macro | None]] = []  # of each open group, what its definitions hide; None: nothing
+
+    def open(self) -> None:
+        self._before.append({})
+
+    def close(self) -> None:
+        for name, macro in (self._before.pop() if self._before else {}).items():
+            if macro is None:
+                super().pop(name, None)
+            else:
+                super().__setitem__(name, macro)
+
+    def __setitem__(self, name: str, macro: Macro | None) -> None:
+        if self._before:
+            self._before[-1].setdefault(name, self.get(name))
+        super().__setitem__(name, macro)
+
+    def define_globally(self, name: str, macro: Macro) -> None:
+        """As \\gdef does: for all groups that are open."""
+        for hidden in self._before:
+            hidden.pop(name, None)
+        super().__setitem__(name, macro)
+
+
 # A command of a package: takes its arguments from the source and gives the tokens that stand for it.
 Package = Callable[["Expander"], Iterable[Token] | None]
 
@@ -47,7 +76,7 @@ class Expander:
     def __init__(self, text: str, file: Path | None = None, packages: dict[str, Package] | None = None) -> None:
         self.file, self.packages = file, packages or {}
         self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
-        self.macros: dict[str, Macro | None] = {}
+        self.macros = ScopedMacros()
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
@@ -185,6 +214,10 @@ class Expander:
     def tokens(self) -> Iterator[Token]:
         """Every token that is left after expansion, definitions and conditions taken out."""
         while (token := self.next()) is not None:
+            if token.kind == "open" or token.text in (r"\begingroup", r"\bgroup"):
+                self.macros.open()
+            elif token.kind == "close" or token.text in (r"\endgroup", r"\egroup"):
+                self.macros.close()
             if token.kind == "command":
                 if not self._expanded(token):
                     yield token
@@ -442,7 +475,11 @@ class Expander:
         if target is not None and target.kind == "command":
             if token.text in (r"\edef", r"\xdef"):
                 body = self.expand(body)
-            self.macros[target.text] = Macro(tuple(body), tuple(head))
+            macro = Macro(tuple(body), tuple(head))
+            if token.text in (r"\gdef", r"\xdef"):
+                self.macros.define_globally(target.text, macro)
+            else:
+                self.macros[target.text] = macro
         return True
 
     def _let(self, token: Token) -> bool:
