@@ -8,7 +8,15 @@ from math import inf, nan, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import DomainError, InputError, IntegrationError, LagrotorError, LagrotorWarning, near
+from lagrotor.errors import (
+    DomainError,
+    InputError,
+    IntegrationError,
+    LagrotorError,
+    LagrotorWarning,
+    SingularError,
+    near,
+)
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.conserved import conservation_defect, pulse_nodes
@@ -299,10 +307,11 @@ class _Door:
         """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
         else the one that comes farthest."""
         begun = [model.name for model in LADDER].index(choice.model)
-        # Where none reaches the end, the first goes on where it is badly conditioned.
+        # Where none reaches the end, those before the last go on where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
-        tries += [(model, False) for model, bounded in tries if bounded]
-        spent, why, early, refused = 0, choice.reason, list[tuple[str, str, EstimatedRun]](), list[IntegrationError]()
+        tries += [(model, False) for model in LADDER[:-1] if self.units.scene.link]
+        spent, why, early = 0, choice.reason, list[tuple[str, str, EstimatedRun]]()
+        refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:
                 run = self.run(model, REPLACEABLE, bounded)
@@ -311,13 +320,15 @@ class _Door:
                 early.append((model.name, why, replace(run, evaluations=spent)))
                 if not run.ending.early:
                     return early[-1]
-            except IntegrationError as refusal:
-                stopped, spent = refusal, spent + refusal.evaluations
-                refused.append(refusal)
+            except (IntegrationError, SingularError) as refusal:
+                stopped = refused[model.name] = refusal
+                spent += refusal.evaluations if isinstance(refusal, IntegrationError) else 0
             why = f"regular everywhere; {model.name}: {stopped}" if bounded else f"{why}; {model.name}: {stopped}"
         if not early:
-            refused[-1].evaluations = spent
-            raise refused[-1]
+            last = refused[LADDER[-1].name]
+            if isinstance(last, IntegrationError):
+                last.evaluations = spent
+            raise last
         name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
         return name, why, replace(run, evaluations=spent)
 

@@ -16,6 +16,7 @@ import lagrotor.numerics.integrate as integrators
 from lagrotor import Trajectory, sweep
 from lagrotor.errors import DomainError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
+from lagrotor.models import spheres
 from lagrotor.numerics import estimated_run, taylor
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.taylor import taylor_order
@@ -83,6 +84,17 @@ def test_no_miss_is_silent(engine: str) -> None:
     silent, refused, needless = judge(SHORT, engine)
     assert not silent, silent
     assert len(refused) + len(needless) <= len(SHORT) / 10, refused + needless
+
+
+AT_THE_DEAD_POINT = [228, 585, 729, 997]  # the unit vectors' constraints are dependent where they start
+
+
+def test_auto_runs_by_minimal_what_the_unit_vectors_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    for outcome in outcomes(AT_THE_DEAD_POINT, "core"):
+        assert outcome.run and outcome.run.model == "minimal", str(outcome)
+        assert outcome.error <= outcome.run.error <= outcome.trial.tol, str(outcome)
+    monkeypatch.setattr(simulating, "LADDER", (spheres.MODEL,))
+    assert all(outcome.run is None for outcome in outcomes(AT_THE_DEAD_POINT, "core"))
 
 
 @pytest.mark.slow
