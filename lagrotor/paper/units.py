@@ -57,6 +57,12 @@ def dimension_of(unit: str) -> sp.Expr:
     return found
 
 
+def _letter_text(name: str) -> str:
+    """A letter by name; of a component Omega_2_z: z of Ω₂."""
+    whole, _, axes = name.rpartition("_")
+    return f"{axes} of {readable(whole)}" if whole and re.fullmatch("[xyz]{1,2}", axes) else readable(name)
+
+
 def _is_monomial(found: Any) -> bool:
     return isinstance(found, sp.Expr) and all(
         exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in found.as_powers_dict().items()
@@ -120,7 +126,7 @@ def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[A
         rest = {s: unit for s, unit in numbers.items() if s != symbol}
         if under(rest).answer != "inconsistent":
             numbers = rest
-    given = ", ".join(f"{readable(str(s))} = {readable(str(values[s]))}" for s in numbers)
+    given = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
     return Dimensions("in units", f"with {given} numbers stand for quantities: {strict.says}")
 
 
@@ -209,7 +215,7 @@ class _Reader:
         name = str(e.func) if isinstance(e, AppliedUndef) else e.name
         named = [unit for symbol, unit in self.units.items() if symbol.name == name and isinstance(e, AppliedUndef)]
         if not named:
-            raise _UnknownError(f"{readable(name)}: {self.unread.get(name, 'no unit is given of it')}")
+            raise _UnknownError(f"{_letter_text(name)}: {self.unread.get(name, 'no unit is given of it')}")
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:

@@ -10,9 +10,8 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Rotor, Structure
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics import estimated_run
+from lagrotor.structures import exact_motion, right_hand_side
 from lagrotor.structures.exact import simulating
-from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from tests.structures.extended import exact
 
 PLANS = (
