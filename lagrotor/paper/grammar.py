@@ -8,6 +8,7 @@ grammar is refused before anything is built.
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 import sympy as sp
@@ -15,7 +16,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 
 # Numbers that would take longer to write down than anybody reads: of digits, and powers of numbers.
-_MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS = 20_000, 400, 1000, 50
+_MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS, _MOST_BRACKETS = 20_000, 400, 1000, 50, 100
 _SIGNS: dict[type, str] = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**",
 }  # fmt: skip
@@ -35,6 +36,8 @@ def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = F
     line = " ".join(text.split())
     if len(line) > _MOST_CHARACTERS:
         raise InputError(f"{where}: an expression of {len(line)} characters is too long: name its parts as letters")
+    if max(accumulate((c == "(") - (c == ")") for c in line), default=0) > _MOST_BRACKETS:
+        raise InputError(f"{where}: more than {_MOST_BRACKETS} brackets within brackets: name the parts as letters")
     try:
         tree = ast.parse(line, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:

@@ -7,11 +7,12 @@ a point of what is left satisfies all of it.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import sympy as sp
+from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import decide_zero
@@ -46,7 +47,7 @@ class Hypotheses:
 
     def on(self, side: Any) -> Any:
         """A side in the letters that are left."""
-        return sp.sympify(side).xreplace(self.put) if self.put else sp.sympify(side)
+        return replaced(sp.sympify(side), self.put)
 
     @cached_property
     def signed(self) -> "Hypotheses":
@@ -56,8 +57,8 @@ class Hypotheses:
             step = _as_assumption(relation.xreplace(put), self.small)
             if step is not None:
                 letter, value = step
-                put = {old: new.xreplace({letter: value}) for old, new in put.items()} | {letter: value}
-                left = tuple(e.xreplace({letter: value}) for e in left)
+                put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
+                left = tuple(replaced(e, {letter: value}) for e in left)
         region = (relation.xreplace(put) for relation in self.region)
         return Hypotheses(put, left, tuple(r for r in region if isinstance(r, Relational)), self.small)
 
@@ -74,6 +75,12 @@ class Hypotheses:
         return side
 
 
+def replaced(e: Any, put: Mapping[sp.Symbol, sp.Expr]) -> Any:
+    """Letters replaced by their values; what a derivative, a sum or an integral binds stays bound."""
+    bound = put and e.has(sp.Derivative, ExprWithLimits)
+    return e.subs(list(put.items()), simultaneous=True) if bound else e.xreplace(put)
+
+
 def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hypotheses:
     """The premises as one set; `kept` is a letter that is eliminated only where no other can be.
 
@@ -83,7 +90,8 @@ def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hy
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
     replaced = frozenset(old for p in listed for old in p.put if isinstance(old, sp.Symbol))
-    return _solved(equations, region, small, _Wishes(replaced, kept))
+    under = _solved(equations, region, small, _Wishes(replaced, kept))
+    return under if kept is None or kept in small else replace(under, small=(*small, kept))
 
 
 class _ContradictionError(Exception):
@@ -176,8 +184,8 @@ def _solved_or_not(
             break
         letter, value = min(steps, key=wishes.rank)[1:]
         conditions += _own_conditions(letter, value)
-        put = {old: new.xreplace({letter: value}) for old, new in put.items()} | {letter: value}
-        waiting = [e for each in waiting if (e := each.xreplace({letter: value})) != 0]
+        put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
+        waiting = [e for each in waiting if (e := replaced(each, {letter: value})) != 0]
     return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put)), small)
 
 
@@ -335,12 +343,14 @@ def _as_assumption(relation: Any, small: tuple[sp.Symbol, ...]) -> tuple[sp.Symb
         return None
     e = sp.expand(relation.gts - relation.lts)
     strict = isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan)
-    for letter in sorted(e.free_symbols - set(small), key=lambda s: (len(_KINDS) - _declared(s), s.name), reverse=True):
+    for letter in sorted(e.free_symbols, key=lambda s: (len(_KINDS) - _declared(s), s.name), reverse=True):
         slope = sp.expand(e.diff(letter))
         if not slope.is_Rational or slope == 0 or letter.is_integer:
             continue
         kind = {"positive": True} if strict else {"nonnegative": True}
         rest = sp.expand(e - slope * letter)
+        if letter in small and rest != 0:
+            continue  # what is small stays a letter, of one sign at most
         new = sp.Symbol(letter.name if rest == 0 and slope > 0 else f"({e})", **kind)
         value = (new - rest) / slope
         try:

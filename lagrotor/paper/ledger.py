@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra import agreement_order, decide_equal, leading_term, truncated_series
+from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import NotExactError
 from lagrotor.mechanics.glossary import Glossary
@@ -208,7 +208,8 @@ def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
     if a.free_symbols != b.free_symbols:
         return False
     at = next(points(a.free_symbols), {})
-    ratio = a.xreplace(at) / b.xreplace(at) if b.xreplace(at) != 0 else sp.S.Zero
+    here, there = a.subs(at), b.subs(at)
+    ratio = here / there if there != 0 else sp.S.Zero
     return bool(ratio.is_Rational and ratio != 0) and decide_equal(a, ratio * b).answer == "zero"
 
 
@@ -226,9 +227,17 @@ def _branch(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -
                 continue
             premise = Premise(relation_text(condition), where=(condition,))
             found = _under(relation, (*assumed, premise))
-            if found.answer in AGREES and not found.trivial:
+            if found.answer in AGREES and not found.trivial and _has_room(condition, assumed):
                 return (premise,)
     return ()
+
+
+def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
+    """Whether a point of the premises is certainly inside a branch: at its edge alone, where a root is 0, nothing is said."""
+    inside = sp.StrictGreaterThan(condition.gts, condition.lts)
+    return not isinstance(inside, Relational) or bool(
+        witness(sp.S.One, hypotheses((*assumed, Premise("inside", where=(inside,)))))
+    )
 
 
 def _root_of_square(node: sp.Pow) -> bool:
@@ -273,7 +282,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if "denominator vanishes" in exact.reason:
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if small is not None:
-        return _to_order(relation, printed, derived, small, domain)
+        return _to_order(relation, printed, derived, small, domain, under)
     place, gap = _where_apart(relation, under)
     seen = witness(gap, under) if gap is not None else None
     if seen is not None:
@@ -287,7 +296,8 @@ def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) ->
     """The small quantity that the comparison is about: the premise's, or the line's own."""
     letters = printed.free_symbols | derived.free_symbols
     known = relation.known[0] if relation.known else None
-    return next((s for s in (*under.small, relation.small, known) if s is not None and s in letters), None)
+    found = (*under.small, relation.small, known)
+    return next((s for s in found if s is not None and under.signed.on(s).free_symbols & letters), None)
 
 
 def _is_zero(side: Any) -> bool:
@@ -365,17 +375,22 @@ def _constant(ratio: sp.Expr) -> sp.Expr | None:
 
 
 def _to_order(
-    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[Relational, ...]
+    relation: Relation,
+    printed: Any,
+    derived: Any,
+    small: sp.Symbol,
+    domain: tuple[Relational, ...],
+    under: Hypotheses,
 ) -> _Finding:
     """How far two series agree: at least between their leading terms; of vectors, the first component that differs decides."""
     pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]
     name, known = readable(str(small)), relation.known[1] if relation.known else None
     furthest = relation.claimed + BEYOND if known is None else min(relation.claimed + BEYOND, known)
     try:
-        terms = [agreement_order(p, d, small, furthest) for p, d in pairs]
+        terms = [_first_term(p - d, small, furthest, under) for p, d in pairs]
         place, first = min(enumerate(terms), key=lambda t: t[1].through + 1 if t[1].order is None else t[1].order)
         reached = first.vanishes_through
-        lead = _leading_order(pairs, small, furthest)
+        lead = _leading_order(pairs, small, furthest, under)
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
     if lead is None:
@@ -390,13 +405,35 @@ def _to_order(
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
+    if (under.signed.left or under.signed.region) and witness(first.coefficient, under) is None:
+        reason = f"no certified point keeps the sides apart at order {first.order} in {name}"
+        return _Finding("undecided", None, small, domain, (reason,), first.coefficient, at)
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
 
 
-def _leading_order(pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int) -> int | sp.Rational | None:
+def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses) -> LeadingTerm:
+    """The first term in the small quantity whose coefficient is not zero where the equations hold that were not solved.
+
+    A condition may have given the small quantity a sign: then it is plus or minus the letter of the series.
+    """
+    sign, letter = under.signed.on(small).as_coeff_Mul()
+    if any(letter in e.free_symbols for e in under.signed.left):
+        raise NotExactError(f"a premise that is not linear fixes {small}: there is no series in it")
+    while True:
+        term = leading_term(side, letter, through)
+        if term.order is None:
+            return term
+        if _in_ideal(term.coefficient, sp.S.Zero, under) != "zero":
+            return replace(term, coefficient=term.coefficient * sign**term.order)
+        side -= term.coefficient * letter**term.order
+
+
+def _leading_order(
+    pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int, under: Hypotheses
+) -> int | sp.Rational | None:
     """The lowest order at which any of the sides has a term; None where there is none."""
     for most in (0, through):
-        orders = [leading_term(side, small, most).order for pair in pairs for side in pair]
+        orders = [_first_term(side, small, most, under).order for pair in pairs for side in pair]
         if found := [order for order in orders if order is not None]:
             return min(found)
     return None

@@ -2,16 +2,17 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, TypeAlias
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from lagrotor.algebra.enclosed_roots import enclosed_root
 from lagrotor.algebra.enclosures import Bounds, enclosure
 from lagrotor.algebra.evidence import points
-from lagrotor.paper.hypotheses import Hypotheses
+from lagrotor.paper.hypotheses import Hypotheses, replaced
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
 _POINTS = 40
@@ -29,6 +30,8 @@ def witness(difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero)
     """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found."""
     signed = under.signed
     e = signed.on(difference)
+    if _says_more(e, signed):
+        return None
     for values in _points(e, signed):
         between = enclosure(e, values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
@@ -36,10 +39,19 @@ def witness(difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero)
     return None
 
 
+def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
+    """Whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
+    given = sp.Tuple(*signed.left, *signed.put.values())
+    new = e.atoms(sp.Derivative) - given.atoms(sp.Derivative)
+    functions = given.atoms(AppliedUndef)
+    return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
+
+
 def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
     letters = e.free_symbols.union(*(x.free_symbols for x in (*signed.left, *signed.region)))
-    for at in islice(points(letters, _POINTS), _POINTS):
+    scales = (1, 2) if signed.region else (1,)
+    for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
         if signed.left:
             box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed)) else None
@@ -92,7 +104,7 @@ def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, valu
         if value in values:
             found[letter] = values[value]
         elif value.free_symbols <= set(exact):
-            found[letter] = value.xreplace(exact)
+            found[letter] = replaced(value, exact)
         elif (between := enclosure(value, values)) is not None:
             found[letter] = between
     return found

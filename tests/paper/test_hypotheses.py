@@ -229,3 +229,55 @@ def test_membership_in_an_ideal_and_its_radical() -> None:
     assert vanishes_on(a - 1, [x * a - x], [x]) == "zero"
     assert vanishes_on(a - 1, [x * a - x]) == "nonzero"
     assert vanishes_on(x, [a**2 - 1, a**2 - 2]) == "nowhere"
+
+
+@pytest.mark.parametrize("sign", [y > 0, y < 0])
+def test_a_small_quantity_of_one_sign_stays_small(sign: sp.Basic) -> None:
+    near = judge(sp.sin(y), y, given=[sign], small=y, order=1)
+    assert (near.verdict, near.order) == ("holds-to-order", 2)
+    assert judge(sp.sin(y), 2 * y, given=[sign], small=y, order=1).verdict == "refuted"
+    root = y if sign == (y > 0) else -y
+    assert judge(sp.sqrt(y**2 + y**4), root, given=[sign], small=y, order=1).verdict in ("holds-if", "holds-to-order")
+    assert judge(sp.sqrt(y**2 + y**4), -root, given=[sign], small=y, order=1).verdict == "refuted"
+
+
+def test_coefficients_of_a_series_are_compared_where_the_equations_hold() -> None:
+    squares = sp.Eq(a**2, b**2)
+    near = judge(sp.cos(a * y), 1 - b**2 * y**2 / 2, given=squares, small=y, order=2)
+    assert near.verdict == "holds-to-order" and near.condition is not None and "a² = b²" in near.condition
+    wrong = judge(sp.cos(a * y), 1 - b**2 * y**2 / 2, given=sp.Eq(a**2, 2 * b**2), small=y, order=2)
+    assert wrong.verdict == "refuted"
+    # What the equations make zero leads nothing: without them both sides would seem to share a leading term.
+    vacuous = judge(a**2 - b**2 + y**7, a**2 - b**2 + c * y**7, given=squares, small=y, order=1)
+    assert vacuous.verdict != "refuted" and "both sides vanish" in vacuous.evidence[0]
+    # Two inequalities may leave one value only, at which the coefficient is zero.
+    assert judge(sp.sin(x * y) + a, a, given=[x >= 0, x <= 0], small=y, order=1).verdict != "refuted"
+    assert judge(sp.sin(x * y) + a, a, given=[x >= 1, x <= 2], small=y, order=1).verdict == "refuted"
+
+
+def test_a_branch_has_a_point_inside() -> None:
+    e = sp.Abs(1 - x**2)
+    assert judge(e, x**2 - 1, given=[x >= -1, x <= 1]).verdict in ("refuted", "undecided")
+    assert judge(e, x**2 - 1, given=[x >= -1, x <= 2]).verdict == "holds-if"
+
+
+def test_a_function_s_equation_may_fix_its_derivative() -> None:
+    t, f = sp.Symbol("t", real=True), sp.Function("f")
+    rate = f(t).diff(t)
+    assert judge(rate + a, a, given=sp.Eq(f(t), b)).verdict == "undecided"
+    assert judge(rate, sp.cos(t), given=sp.Eq(f(t), sp.sin(t))).verdict != "refuted"
+    assert judge(rate + a, a, given=sp.Eq(c, b)).verdict == "refuted"
+    assert judge(rate**2, b, given=sp.Eq(rate, b)).verdict == "refuted"
+
+
+def test_what_is_bound_stays_bound() -> None:
+    assert judge(sp.Integral(x, (x, 0, 1)), x / 2, given=sp.Eq(x, 1)).verdict == "holds-if"
+    assert judge(sp.Integral(x, (x, 0, 1)), x, given=sp.Eq(x, 1)).verdict in ("refuted", "undecided")
+    assert judge(sp.Derivative(x**2, x), sp.Integer(5), given=sp.Eq(x, 3)).verdict in ("refuted", "undecided")
+    assert judge(sp.Derivative(x**2, x), sp.Integer(6), given=sp.Eq(x, 3)).verdict not in ("refuted",)
+
+
+def test_brackets_are_nested_within_reason() -> None:
+    with pytest.raises(InputError, match="brackets within brackets"):
+        judge("sin(" * 200 + "x" + ")" * 200, sp.sin(x))
+    assert repr(judge("sin(" * 50 + "x" + ")" * 50, sp.sin(x)))
