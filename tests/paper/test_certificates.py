@@ -64,7 +64,7 @@ IDENTITIES: list[tuple[Any, Any, Any]] = [
     (J * x + I_3 * y, I_3 * (x + y), {J: I_3}),
     (sp.sin(y) / J, -sp.sin(x) / (I_3 + R), {y: -x, J: I_3 + R}),
     (sp.sin(x * y + z), sp.sin(x * y) * sp.cos(z) + sp.cos(x * y) * sp.sin(z), ()),
-    (sp.cos(y), sp.S.Zero, {y: sp.pi / 2}),
+    (sp.cos(y) + 1, sp.S.One, {y: sp.pi / 2}),
 ]
 
 
