@@ -18,8 +18,6 @@ from lagrotor.mechanics.running.programs import (
     depends_on_time,
     energy_program,
     function_program,
-    parameter_values,
-    values_of,
 )
 from lagrotor.mechanics.symmetry import cyclic_coordinates
 
@@ -44,27 +42,21 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 
 def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], float] | None:
     """(times (n,), states (n, d)) → the error, relative to the sizes, that would explain how far the integrals are off."""
-    programs = [(each, parameter_values(each, values)) for each in integrals(system)]
-    n = len(system.c.q)
+    conserved = [program.along(values) for program in integrals(system)]
+    n = 2 * len(system.c.q)
 
     def defect(times: Array, states: Array) -> float:
         worst = 0.0
-        for program, parameters in programs:
-
-            def value(y: Array, program: Generated = program, parameters: tuple[float, ...] = parameters) -> Array:
-                return values_of(program, y[:n], y[n:], times, parameters)[0]
-
-            y = states[:, : 2 * n].T
+        for integral in conserved:
+            y = states[:, :n]
             slope = np.zeros(len(times))
-            for i, size in enumerate(sizes):
-                step = np.zeros((2 * n, 1))
-                step[i] = _STEP * size
+            for step in np.diag(_STEP * sizes):
                 with np.errstate(all="ignore"):
-                    slope += np.abs(value(y + step) - value(y - step)) / (2 * _STEP)
-            known = value(y)
+                    slope += np.abs(integral(y + step, times) - integral(y - step, times))[0] / (2 * _STEP)
+            known = integral(y, times)[0]
             rounding = 1e-15 * np.abs(known).max()
             off = np.maximum(np.abs(known - known[0]) - rounding, 0.0)
             worst = max(worst, float((off / np.maximum(slope, 1e-3 * slope.max() + 1e-300)).max()))
         return worst
 
-    return defect if programs else None
+    return defect if conserved else None

@@ -1,6 +1,5 @@
 """A motion of a system that was run: its states at some times, and whatever else is a function of them."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from math import inf
@@ -16,7 +15,7 @@ from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Integrate, Values, smooth_motion
 from lagrotor.mechanics.running.phases import Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
-from lagrotor.mechanics.running.programs import energy_program, function_program, parameter_values, values_of
+from lagrotor.mechanics.running.programs import energy_program, function_program
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.mechanics.running.starts import increasing
 from lagrotor.numerics.any_run import Quantity, Run
@@ -51,14 +50,13 @@ class SampledMotion(Run):
     @property
     def energy(self) -> Array:
         """The Jacobi integral v·∂L/∂v − L, (n,)."""
-        program = energy_program(self.system)
-        return values_of(program, self.q.T, self.v.T, self.t, parameter_values(program, self.values))[0]
+        return energy_program(self.system).along(self.values)(self.states, self.t)[0]
 
     @property
     def drift(self) -> Array:
         """The largest violation of a constraint, |g| or |G v + b|, (n,); zero without constraints."""
         off = (*self.system.constraints, *self.system.residual)
-        return np.abs(self._values(self.system, off, self.t)).max(0) if off else np.zeros(len(self.t))
+        return np.abs(self._values(*off)).max(0) if off else np.zeros(len(self.t))
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ
@@ -69,12 +67,11 @@ class SampledMotion(Run):
         """
         e = checked("evaluate: expression", expression)
         if self.switched.smooth:
-            return self._values(self.system, (e,), self.t)[0]
+            return self._values(e)[0]
         return evaluate_in_phases(self.switched, e, self.t, self.states)
 
-    def _values(self, system: Equations, expressions: Sequence[sp.Expr], times: Array) -> Array:
-        program = function_program(system, *expressions)
-        return values_of(program, self.q.T, self.v.T, times, parameter_values(program, self.values))
+    def _values(self, *expressions: sp.Expr) -> Array:
+        return function_program(self.system, *expressions).along(self.values)(self.states, self.t)
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""

@@ -5,7 +5,7 @@ one of its conditions does: a gap or a sliding velocity reaches zero, a reaction
 own steps, as zeros of smooth functions, so none depends on the times at which a run is read.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -23,7 +23,6 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
     start_program,
-    values_of,
 )
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
 from lagrotor.numerics.any_run import Ending
@@ -48,6 +47,22 @@ class ContactMode(NamedTuple):
     closed: tuple[int, ...]
     ended: int = 0
 
+    def with_sign(self, i: int, sign: int) -> "ContactMode":
+        """The mode with another sign of surface i."""
+        return self._replace(signs=(*self.signs[:i], sign, *self.signs[i + 1 :]))
+
+    def with_gap(self, i: int, closed: bool) -> "ContactMode":
+        """The mode with the gap of impact i closed or open."""
+        return self._replace(closed=(*self.closed[:i], int(closed), *self.closed[i + 1 :]))
+
+
+class Moment(NamedTuple):
+    """A state (q, v, …), when, and the mode of its contacts."""
+
+    y: Array
+    t: float
+    mode: ContactMode
+
 
 class Hit(NamedTuple):
     """The end of a phase: the time since its start, and of which kind is the condition that ended, with its index."""
@@ -69,7 +84,7 @@ class Phase:
         return motion_program(self.system)
 
     @cached_property
-    def watched(self) -> Generated:
+    def condition_program(self) -> Generated:
         return function_program(self.system, *(e for _, _, e in self.conditions))
 
 
@@ -120,6 +135,11 @@ class Switched:
         """(q, v, t, mode): what a run carries from stage to stage."""
         return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, [mode.ended]])
 
+    def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
+        """Expressions at one moment, of the motion of `system`."""
+        program = function_program(system, *expressions)
+        return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
+
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
         """The values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
@@ -132,7 +152,7 @@ class Switched:
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
         if key not in self.phases:
-            self.phases[key] = self._phase(sticking, mode.closed)
+            self.phases[key] = self._phase(*key)
         return self.phases[key]
 
     def _phase(self, sticking: tuple[int, ...], closed: tuple[int, ...]) -> Phase:
@@ -166,7 +186,7 @@ class Switched:
         return Phase(system, tuple(conditions))
 
 
-def switched(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
+def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
     """The system with its events and the surfaces of its jumps."""
     smooth, surfaces = without_jumps(system)
     return Switched(smooth, values, surfaces, events, np.ones(2 * len(system.c.q)))
@@ -174,11 +194,12 @@ def switched(system: Equations, values: Mapping[Any, Any], events: tuple[Event |
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
     """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
-    y = np.concatenate([q, v])
+    start = Moment(np.concatenate([q, v]), time, h.slipping)
     try:
-        return h.state(y, time, _settled(h, y, time, h.slipping))
+        mode = _settle(h, start)
     except StopError as stop:
-        return h.state(y, time, _ended(h, h.slipping, Ending(stop.cause, time, stop.reason)))
+        mode = _end(h, h.slipping, Ending(stop.cause, time, stop.reason))
+    return h.state(start.y, time, mode)
 
 
 def march(
@@ -224,9 +245,9 @@ def march(
         habit = past[-1] - past[-2] if len(past) > 1 else 0.0
         try:
             gone = _accumulating(history, past, span)
-            y, mode = _switch(h, y, now, mode, hit, gone)
+            y, now, mode = _switch(h, Moment(y, now, mode), hit, gone)
         except StopError as stop:
-            mode, now = _ended(h, mode, Ending(stop.cause, stop.at, stop.reason.rstrip("."))), stop.at
+            mode, now = _end(h, mode, Ending(stop.cause, stop.at, stop.reason.rstrip("."))), stop.at
         if hit.kind in ("gap", "event"):
             jumps.append(now)
     last = h.state(y, now, mode)
@@ -235,7 +256,7 @@ def march(
     return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
 
 
-def _ended(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
+def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
     """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
     same = [i for i, each in enumerate(h.endings) if (each.kind, each.reason) == (ending.kind, ending.reason)]
     if not same:
@@ -262,8 +283,7 @@ def _smooth(
         y, scale = np.append(y, now), np.append(scale, 1.0)
     project = projection_of(system, numbers) if system.multipliers else None
     y = y if project is None else project(y)
-    program, n = phase.watched, h.n
-    parameters = parameter_values(program, numbers)
+    watch = phase.condition_program.along(numbers)
 
     rhs = scaled_rhs(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
     segment = Segment(
@@ -278,8 +298,7 @@ def _smooth(
                 return np.asarray(dense(s).T * scale)
 
             def conditions(s: Array, curve: Any = curve) -> Array:
-                y = curve(s)
-                return values_of(program, y[:, :n].T, y[:, n : 2 * n].T, now + s, parameters)
+                return watch(curve(s), now + s)
 
             hit = _first(h, phase, conditions, left, right, habit) if phase.conditions else None
             until = right if hit is None else hit.since
@@ -316,7 +335,7 @@ def _first(h: Switched, phase: Phase, conditions: Any, left: float, right: float
             # A condition that began at zero touches it once more by rounding, and is true again at twice the time.
             rounding = not begun and s < _FRESH * right and event is None and conditions(np.array([2 * s]))[k, 0] > 0
             if s > start and wanted in (0, way) and not rounding:
-                hits.append(Hit(polished(conditions, int(k), float(s), left, right), kind, i))
+                hits.append(Hit(polish(conditions, int(k), float(s), left, right), kind, i))
     if not begun and not hits:  # a condition that does not hold from the start on
         ends = conditions(np.array([10 * start, right]))
         scale = np.abs(ends).max(1)
@@ -326,7 +345,7 @@ def _first(h: Switched, phase: Phase, conditions: Any, left: float, right: float
     return min(hits) if hits else None
 
 
-def polished(functions: Any, k: int, t: float, left: float, right: float) -> float:
+def polish(functions: Any, k: int, t: float, left: float, right: float) -> float:
     """A zero to the last digit that the dense output has, by the secant method."""
     other = min(t + 1e-5 * (right - left), right) if t < right else t - 1e-5 * (right - left)
     f, g = functions(np.array([t, other]))[k]
@@ -341,136 +360,107 @@ def polished(functions: Any, k: int, t: float, left: float, right: float) -> flo
     return t
 
 
-def _switch(
-    h: Switched, y: Array, now: float, mode: ContactMode, hit: Hit, gone: float | None
-) -> tuple[Array, ContactMode]:
+def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
     kind, i = hit.kind, hit.i
-    n, signs, closed = h.n, list(mode.signs), list(mode.closed)
-    q, v = y[:n], y[n:]
+    mode, v = at.mode, at.y[h.n : 2 * h.n]
     if kind == "surface":
-        signs[i] = _decided(h, y, now, mode._replace(signs=tuple(signs)), i)
+        mode = mode.with_sign(i, _sign_beyond(h, at, i))
     elif kind in ("above", "below"):
-        signs[i] = -1 if kind == "above" else 1
+        mode = mode.with_sign(i, -1 if kind == "above" else 1)
     elif kind == "reaction":
-        closed[i] = 0
+        mode = mode.with_gap(i, False)
     elif kind == "gap":
-        e = float(_numbers(h, h.system, [h.impacts[i].restitution], y, now, mode)[0])
+        e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
             e = 0.0
-            h.accumulations[i] = now + gone
-        v, gentle = _rebound(h, y, now, mode, i, e)
-        closed[i] = int(e == 0 or gentle)
+            h.accumulations[i] = at.t + gone
+        v, gentle = _rebound(h, at, i, e)
+        mode = mode.with_gap(i, e == 0 or gentle)
     else:
         event = h.events[i]
         assert isinstance(event, Event)
         if gone is not None:
-            raise StopError(now + gone, "infinitely many events accumulate there", cause="event")
+            raise StopError(at.t + gone, "infinitely many events accumulate there", cause="event")
         if event.velocities is None:
-            raise StopError(now, f"{event.section} = 0", cause="event")
-        v = _numbers(h, h.system, list(event.velocities), y, now, mode)
-    y = np.concatenate([q, v])
-    return y, _settled(
-        h, y, now, mode._replace(signs=tuple(signs), closed=tuple(closed)), fixed=kind in ("above", "below", "surface")
-    )
+            raise StopError(at.t, f"{event.section} = 0", cause="event")
+        v = h.evaluate(h.system, event.velocities, at)
+    after = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
+    return after._replace(mode=_settle(h, after, fixed=kind in ("above", "below", "surface")))
 
 
-def _rebound(h: Switched, y: Array, now: float, mode: ContactMode, i: int, e: float) -> tuple[Array, bool]:
+def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
     there was no velocity of approach."""
-    closed = tuple(1 if k == i else each for k, each in enumerate(mode.closed))
-    slipping = tuple(s or 1 for s in mode.signs)
-    phase = h.phase(ContactMode(slipping, closed))
-    n, system = h.n, phase.system
-    program = start_program(system)
-    numbers = parameter_values(program, h.numbers(mode))
-    values = values_of(program, y[:n, None], y[n : 2 * n, None], np.array([now]), numbers)[:, 0]
-    rows = len(system.multipliers)
-    M, _, G, speeds = np.split(values, np.cumsum([n * n, len(system.constraints), n * rows]))
-    G = G.reshape(rows, n)
-    row = len(h.system.constraints) + sum(closed[:i])
+    mode = at.mode.with_gap(i, True)
+    n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
+    values = start_program(system).along(h.numbers(mode))(at.y[None], np.array([at.t]))[:, 0]
+    M, _, G, speeds = np.split(values, np.cumsum([n * n, len(system.constraints), n * len(system.multipliers)]))
+    G = G.reshape(-1, n)
+    row = len(h.system.constraints) + sum(mode.closed[:i])
     change = -speeds
     gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[n:])
     change[row] *= 1 if gentle else 1 + e
     W = np.linalg.solve(M.reshape(n, n), G.T)
-    return np.asarray(y[n : 2 * n] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
+    return np.asarray(at.y[n : 2 * n] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
 
 
-def _numbers(
-    h: Switched, system: Equations, expressions: list[sp.Expr], y: Array, now: float, mode: ContactMode
-) -> Array:
-    """Expressions at one state."""
-    n, program = h.n, function_program(system, *expressions)
-    parameters = parameter_values(program, h.numbers(mode))
-    return values_of(program, y[:n, None], y[n : 2 * n, None], np.array([now]), parameters)[:, 0]
-
-
-def _decided(h: Switched, y: Array, now: float, mode: ContactMode, i: int) -> int:
+def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
-    above, below = _sides(h, y, now, mode, i, 1)
+    above, below = _rates_beside(h, at, i, 1)
     if not h.surfaces[i].argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE:
-        above, below = _sides(h, y, now, mode, i, 2)  # of a place, passed at rest
+        above, below = _rates_beside(h, at, i, 2)  # of a place, passed at rest
     size = _NOISE * (abs(above) + abs(below))
     if abs(above - below) <= size:  # no jump here
-        return 1 if above > 0 else -1 if above < 0 else mode.signs[i] or 1
+        return 1 if above > 0 else -1 if above < 0 else at.mode.signs[i] or 1
     if above > size and below >= -size:
         return 1
     if below < -size and above <= size:
         return -1
     if above > size and below < -size:
-        raise StopError(now, f"on {h.surfaces[i].argument} = 0 the motion may go on to either side")
+        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may go on to either side")
     if h.surfaces[i].bound is None:
         raise StopError(
-            now, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
+            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
         )
     return 0
 
 
-def _sides(h: Switched, y: Array, now: float, mode: ContactMode, i: int, order: int) -> tuple[float, float]:
+def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, float]:
     """The first or second rate of w above and below its surface."""
-    rates = []
-    for s in (1, -1):
-        there = mode._replace(signs=tuple(s if k == i else each for k, each in enumerate(mode.signs)))
-        system = h.phase(there).system
-        rate = h.surfaces[i].argument
+
+    def rate(sign: int) -> float:
+        mode, e = at.mode.with_sign(i, sign), h.surfaces[i].argument
+        system = h.phase(mode).system
         for _ in range(order):
-            rate = total_derivative(rate, system.c)
-        rates.append(float(_numbers(h, system, [rate], y, now, there)[0]))
-    return rates[0], rates[1]
+            e = total_derivative(e, system.c)
+        return float(h.evaluate(system, [e], at._replace(mode=mode))[0])
+
+    return rate(1), rate(-1)
 
 
-def _settled(h: Switched, y: Array, now: float, mode: ContactMode, fixed: bool = False) -> ContactMode:
+def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
     """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
-    signs, closed = list(mode.signs), list(mode.closed)
+    mode = at.mode
     if h.surfaces and not fixed:
-        w = _numbers(h, h.system, [s.argument for s in h.surfaces], y, now, mode)
-        scale = _NOISE * (1 + np.abs(y).max())
-        for i, value in enumerate(w):
-            signs[i] = int(np.sign(value)) if abs(value) > scale else mode.signs[i]
+        w = h.evaluate(h.system, [s.argument for s in h.surfaces], at)
+        scale = _NOISE * (1 + np.abs(at.y).max())
+        for i in map(int, np.flatnonzero(np.abs(w) > scale)):
+            mode = mode.with_sign(i, int(np.sign(w[i])))
         for i in map(int, np.flatnonzero(np.abs(w) <= scale)):
-            signs[i] = _decided(h, y, now, mode._replace(signs=tuple(signs), closed=tuple(closed)), i)
-    for _ in range(2 * (len(signs) + len(closed)) + 1):
-        phase = h.phase(mode._replace(signs=tuple(signs), closed=tuple(closed)))
-        bounded = [(k, each) for k, each in enumerate(phase.conditions) if each[0] in ("above", "below", "reaction")]
-        if not bounded:
+            mode = mode.with_sign(i, _sign_beyond(h, at._replace(mode=mode), i))
+    for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
+        phase = h.phase(mode)
+        reactions = [each for each in phase.conditions if each[0] in ("above", "below", "reaction")]
+        if not reactions:
             break
-        values = _numbers(
-            h,
-            phase.system,
-            [e for _, (_, _, e) in bounded],
-            y,
-            now,
-            mode._replace(signs=tuple(signs), closed=tuple(closed)),
-        )
+        values = h.evaluate(phase.system, [e for *_, e in reactions], at._replace(mode=mode))
         worst = int(np.argmin(values))
         if values[worst] >= -_NOISE * (1 + np.abs(values).max()):
             break
-        kind, i, _ = bounded[worst][1]
-        if kind == "reaction":
-            closed[i] = 0
-        else:
-            signs[i] = -1 if kind == "above" else 1
-    return mode._replace(signs=tuple(signs), closed=tuple(closed))
+        kind, i, _ = reactions[worst]
+        mode = mode.with_gap(i, False) if kind == "reaction" else mode.with_sign(i, -1 if kind == "above" else 1)
+    return mode
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float) -> float | None:
@@ -493,7 +483,7 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
 def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
     """An expression along a motion in phases (n,): accelerations and multipliers are those of each phase, and the sign of what
     sticks is what holds it over its bound."""
-    n, c, values = h.n, len(h.system.constraints), np.empty(len(times))
+    c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):
         here = np.array([each == mode for each in modes])
@@ -508,6 +498,5 @@ def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> A
             for w, holding in ((s.argument, -reaction / s.bound), (sp.expand(-s.argument), reaction / s.bound)):
                 put |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
         program = function_program(phase.system, expression.xreplace(put))
-        y, parameters = states[here], parameter_values(program, h.numbers(mode))
-        values[here] = values_of(program, y[:, :n].T, y[:, n : 2 * n].T, times[here], parameters)[0]
+        values[here] = program.along(h.numbers(mode))(states[here], times[here])[0]
     return values

@@ -55,6 +55,19 @@ class Generated:
         """(*arguments) → outputs, for numbers and arrays."""
         return compile_program(self.program, "numpy")
 
+    def along(self, values: Mapping[Any, Any]) -> Callable[[Array, Array], Array]:
+        """(states (n, ≥ 2 N), q and v first; times (n,)) → outputs (k, n), for a program in q, v and t."""
+        function, parameters, d = self.function, parameter_values(self, values), len(self.states) - 1
+
+        def outputs(states: Array, times: Array) -> Array:
+            with np.errstate(all="ignore"):
+                rows = function(*states[:, :d].T, times, *parameters)
+            return np.array([np.broadcast_to(np.asarray(e, float), np.shape(times)) for e in rows]).reshape(
+                len(rows), -1
+            )
+
+        return outputs
+
 
 @lru_cache(maxsize=64)
 def motion_program(system: Equations) -> Generated:
@@ -154,17 +167,17 @@ def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], l
         keep = Stages()
         push = system.push + rest_forces(tree, system.c)
         columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
-        found = tree_accelerations(joints(tree, keep), system.c, columns, keep)
-        return bound(keep.made, sp.Matrix(found).T, G, system.gamma)
+        solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.c, columns, keep)).T
+        return constrained(keep.made, solved, G, system.gamma)
     push = system.push - system.bias
     try:
         stages, solved = solve_symmetric(system.mass, push.row_join(G.T), "_m")
     except SingularError:
         raise SingularError(singular_mass("simulate", system.mass, system.c)) from None
-    return bound(stages, solved, G, system.gamma)
+    return constrained(stages, solved, G, system.gamma)
 
 
-def bound(
+def constrained(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints, and the multipliers."""
@@ -247,21 +260,14 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
         )
-    found = []
+    numbers = []
     for p in given.parameters:
         try:
             if isinstance(by_name[str(p)], str | bool):
                 raise TypeError
-            found.append(float(by_name[str(p)]))
+            numbers.append(float(by_name[str(p)]))
         except (TypeError, ValueError, OverflowError):
             raise InputError(f"{where}: {p} = {by_name[str(p)]!r} must be a number") from None
-        if not abs(found[-1]) < float("inf"):
-            raise InputError(f"{where}: {p} = {found[-1]} must be finite")
-    return tuple(found)
-
-
-def values_of(given: Generated, q: Array, v: Array, times: Array, parameters: tuple[float, ...]) -> Array:
-    """The outputs (k, n) of a function's program at states q (N, n), v (N, n) and times (n,)."""
-    with np.errstate(all="ignore"):
-        outputs = given.function(*q, *v, times, *parameters)
-    return np.array([np.broadcast_to(np.asarray(e, float), np.shape(times)) for e in outputs]).reshape(len(outputs), -1)
+        if not abs(numbers[-1]) < float("inf"):
+            raise InputError(f"{where}: {p} = {numbers[-1]} must be finite")
+    return tuple(numbers)

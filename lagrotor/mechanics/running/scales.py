@@ -16,7 +16,7 @@ from lagrotor.mechanics.running.flow import (
     scaled_rhs,
     unscaled,
 )
-from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, values_of
+from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.segment import Segment, StopError, Stretch
 
@@ -129,22 +129,20 @@ def _without_zeros(sizes: Array) -> Array:
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
     """The largest value of each component of states (m, d), with its least."""
-    n, program = len(system.c.q), energy_program(system)
-    parameters = parameter_values(program, values)
-    q, v = states[:, :n].T, states[:, n : 2 * n].T
+    n, jacobi = len(system.c.q), energy_program(system).along(values)
+    q, v = states[:, :n], states[:, n : 2 * n]
     times = states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states))
 
     def energy(v: Array) -> Array:
-        return values_of(program, q, v, times, parameters)[0]
+        return jacobi(np.hstack([q, v]), times)[0]
 
     largest = np.abs(states[:, : 2 * n]).max(0)
     at_rest, moving = energy(0 * v), energy(v)
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
     least = np.zeros(n)
-    for i in range(n):
-        unit = np.zeros((n, 1))
-        unit[i] = largest[n + i] or 1.0
-        mass = np.nanmedian(energy(unit + 0 * v) + energy(-unit + 0 * v) - 2 * at_rest) / unit[i, 0] ** 2
+    for i, speed in enumerate(np.where(largest[n:] > 0, largest[n:], 1.0)):
+        along = 0 * v + speed * np.eye(n)[i]
+        mass = np.nanmedian(energy(along) + energy(-along) - 2 * at_rest) / speed**2
         least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
     speeds = np.maximum(largest[n:], least)
     places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))

@@ -14,8 +14,8 @@ from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
-from lagrotor.mechanics.running.phases import march, polished
-from lagrotor.mechanics.running.programs import function_program, parameter_values, values_of
+from lagrotor.mechanics.running.phases import march, polish
+from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics.zeros import zeros_between
 
 Kind = TypeVar("Kind", bound=SampledMotion)
@@ -35,10 +35,9 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     if len(run.t) < 2:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
     section, n = expression("crossings: section", section), run.q.shape[1]
-    program = function_program(run.system, section)
-    parameters = parameter_values(program, run.values)
+    value = function_program(run.system, section).along(run.values)
     touch = max(run.tol, _LEAST) * _change(run, section)
-    found: list[tuple[float, int, Array]] = []
+    passages: list[tuple[float, int, Array]] = []
     hidden: list[tuple[float, float]] = []
     side = 0.0
 
@@ -46,16 +45,15 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         nonlocal side
 
         def values(s: Array) -> Array:
-            y = curve(s)
-            return values_of(program, y[:, :n].T, y[:, n : 2 * n].T, begun + s, parameters)
+            return value(curve(s), begun + s)
 
         zeros = zeros_between(values, left, right, touch)
         hidden.extend([(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else [])
         for s, way in zip(zeros.t, zeros.direction, strict=True):
-            since = float(s) if way == 0 else polished(values, 0, float(s), left, right)
+            since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
             at, near = begun + since, _ONE * (right - left)
-            if at > run.t[0] + near and not (found and found[-1][1] == way and at - found[-1][0] <= near):
-                found.append((at, int(way), curve(np.array([since]))[0][: 2 * n]))
+            if at > run.t[0] + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
+                passages.append((at, int(way), curve(np.array([since]))[0][: 2 * n]))
         side = float(values(np.array([right]))[0, 0])
 
     # A run without events is followed in one phase, with the time among its states.
@@ -65,15 +63,15 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         if not phases.smooth
         else np.array([phases.state(y, t, phases.slipping) for y, t in zip(run.states, run.t, strict=True)])
     )
-    known = values_of(program, run.q.T, run.v.T, run.t, parameters)[0]
+    known = value(run.states, run.t)[0]
     for i, (a, b) in enumerate(pairwise(run.t)):
         march(phases, full[i], np.array([a, b]), run.local, inf, observe)
         if side * known[i + 1] < 0 and max(abs(side), abs(known[i + 1])) > 0:  # between the end of a piece and the next
             way = 1 if known[i + 1] > 0 else -1
-            if not (found and found[-1][1] == -way and b - found[-1][0] < 1e-3 * (b - a)):
-                found.append((float(b), way, full[i + 1][: 2 * n]))
+            if not (passages and passages[-1][1] == -way and b - passages[-1][0] < 1e-3 * (b - a)):
+                passages.append((float(b), way, full[i + 1][: 2 * n]))
             else:
-                found.pop()
+                passages.pop()
     if hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
@@ -81,7 +79,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             LagrotorWarning,
             stacklevel=2,
         )
-    kept = [(t, y) for t, way, y in found if direction in (0, way)]
+    kept = [(t, y) for t, way, y in passages if direction in (0, way)]
     times = np.array([t for t, _ in kept])
     tail = run.states.shape[1] - 2 * n
     rows = np.array([y for _, y in kept]).reshape(-1, 2 * n)
@@ -103,5 +101,5 @@ def _change(run: SampledMotion, section: sp.Expr) -> float:
     """The most by which a section changes where each component of the state changes by its size."""
     symbols = (*run.system.c.q, *run.system.c.v)
     program = function_program(run.system, *(derivative(section, s) for s in symbols))
-    slopes = values_of(program, run.q.T, run.v.T, run.t, parameter_values(program, run.values))
+    slopes = program.along(run.values)(run.states, run.t)
     return float((np.abs(slopes).T @ run.scales.sizes).max())

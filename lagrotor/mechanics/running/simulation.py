@@ -17,13 +17,12 @@ from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
-from lagrotor.mechanics.running.phases import begin, switched
+from lagrotor.mechanics.running.phases import begin, with_events
 from lagrotor.mechanics.running.programs import (
     depends_on_time,
     function_program,
     parameter_values,
     rows_program,
-    values_of,
 )
 from lagrotor.mechanics.running.scales import Scales, motion_scales
 from lagrotor.mechanics.running.starts import consistent, increasing, state_vector
@@ -76,7 +75,7 @@ class SystemRun(SampledMotion):
         ):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
-        h = replace(switched(system, values, check_events(system, events)), scale=powers_of_two(scales.sizes))
+        h = replace(with_events(system, values, check_events(system, events)), scale=powers_of_two(scales.sizes))
         return SystemRun(
             **saved.fields, system=system, values=values, q=q, v=v, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -108,7 +107,7 @@ def simulate_system(
     """
     times, tol = increasing("simulate", t), check_tolerance(tol)
     check_engine(engine)
-    h, n = switched(system, values, check_events(system, events)), len(system.c.q)
+    h, n = with_events(system, values, check_events(system, events)), len(system.c.q)
     q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     for event in h.events:
@@ -116,9 +115,7 @@ def simulate_system(
             [event.gap, event.restitution] if isinstance(event, Impact) else [event.section, *(event.velocities or ())]
         )
         program = function_program(h.system, *wanted)
-        at_start = values_of(
-            program, q[:, None], v[:, None], times[:1], parameter_values(program, h.numbers(h.slipping))
-        )[:, 0]
+        at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
         if isinstance(event, Impact):
             _check_impact(event, float(at_start[0]), float(at_start[1]), times[0])
     if system.multipliers:
@@ -217,8 +214,7 @@ def _warn_of_dependence(run: SystemRun) -> None:
 
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
     q = CubicHermiteSpline(run.t, run.q, run.v)(fine)
-    program = rows_program(run.system)
-    G = values_of(program, q.T, 0 * q.T, fine, parameter_values(program, run.values))
+    G = rows_program(run.system).along(run.values)(np.hstack([q, 0 * q]), fine)
     G = G.T.reshape(-1, *rows.shape)
     turned = np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0
     if turned.any():

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.programs import energy_program, parameter_values, rows_program, values_of
+from lagrotor.mechanics.running.programs import energy_program, rows_program
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
@@ -48,12 +48,15 @@ def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array
     units = np.eye(n)
     pairs = (units[:, None] + units[None]).reshape(-1, n)
     v = np.vstack([np.zeros(n), units, -units, pairs, -pairs])
-    times = np.full(len(v), state[2 * n] if len(state) > 2 * n else 0.0)
-    q = np.repeat(state[:n, None], len(v), axis=1)
-    E = values_of(program, q, v.T, times, parameter_values(program, values))[0]
+    states = np.hstack([np.tile(state[:n], (len(v), 1)), v])
+    E = program.along(values)(states, np.full(len(v), _time(state, n)))[0]
     alone = (E[1 : n + 1] + E[n + 1 : 2 * n + 1]) / 2 - E[0]
     both = ((E[2 * n + 1 : 2 * n + 1 + n * n] + E[2 * n + 1 + n * n :]) / 2 - E[0]).reshape(n, n)
     return np.asarray(both - alone[:, None] - alone[None])
+
+
+def _time(state: Array, n: int) -> float:
+    return float(state[2 * n]) if len(state) > 2 * n else 0.0
 
 
 def _least(matrix: Array) -> tuple[float, Array]:
@@ -65,10 +68,8 @@ def _least(matrix: Array) -> tuple[float, Array]:
 
 def _dependence(system: Equations, values: Mapping[Any, Any], state: Array) -> float:
     """The least singular value of the rows of G, each of length one."""
-    n, program = len(system.c.q), rows_program(system)
-    time = np.array([state[2 * n] if len(state) > 2 * n else 0.0])
-    G = values_of(program, state[:n, None], state[n : 2 * n, None], time, parameter_values(program, values))
-    G = G.reshape(system.rows.shape)
+    time = np.array([_time(state, len(system.c.q))])
+    G = rows_program(system).along(values)(state[None], time).reshape(system.rows.shape)
     lengths = np.linalg.norm(G, axis=1, keepdims=True)
     if not np.isfinite(G).all() or not lengths.all():
         return 0.0
