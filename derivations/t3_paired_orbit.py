@@ -117,7 +117,7 @@ class Standing:
     def __neg__(self):
         return Standing(-self.of)
 
-    def scaled(self, factor):
+    def times(self, factor):
         return Standing(FIELD.to_sympy(FIELD.convert(factor)) * self.of)
 
     def constant(self, value):

@@ -170,10 +170,10 @@ def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign
     rate, values = orbit.frequency, {}
     for i in range(3):
         once = own[i].derivative() + by * other[i]
-        twice = own[i].derivative().derivative() + (by * other[i].derivative()).scaled(2) + by * back * own[i]
+        twice = own[i].derivative().derivative() + (by * other[i].derivative()).times(2) + by * back * own[i]
         for names, part in ((AXES.q, own[i]), (AXES.v, rate * once), (AXES.a, rate * rate * twice)):
             later = part.half_period_later()
-            values |= {names[i]: part, names[i + 3]: later.scaled(-sign if i == 0 else sign)}
+            values |= {names[i]: part, names[i + 3]: later.times(-sign if i == 0 else sign)}
     return values | {multipliers[0]: own[3], multipliers[2]: own[4]}
 
 

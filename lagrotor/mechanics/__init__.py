@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.bodies.frames import Frame as Frame
+    from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
     from lagrotor.mechanics.constraints import project_position as project_position
     from lagrotor.mechanics.constraints import project_velocity as project_velocity
     from lagrotor.mechanics.constraints import solve_constrained as solve_constrained

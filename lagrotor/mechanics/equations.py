@@ -129,8 +129,8 @@ class Equations:
     @cached_property
     def residual(self) -> sp.Matrix:
         """G v + b, shape (k, 1): the time derivatives of the constraints, and the rolling constraints; zero on a motion."""
-        found = [*(total_derivative(g, self.c) for g in self.constraints), *self.rolling]
-        return sp.Matrix(len(found), 1, found)
+        rows = [*(total_derivative(g, self.c) for g in self.constraints), *self.rolling]
+        return sp.Matrix(len(rows), 1, rows)
 
     @cached_property
     def rows(self) -> sp.Matrix:
@@ -201,5 +201,5 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
 
 
 def _free_of(name: str, e: sp.Expr, unwanted: set[sp.Symbol], way: str) -> None:
-    if found := e.free_symbols & unwanted:
-        raise InputError(f"System: {name} contains {', '.join(sorted(map(str, found)))}: {way}")
+    if inside := e.free_symbols & unwanted:
+        raise InputError(f"System: {name} contains {', '.join(sorted(map(str, inside)))}: {way}")

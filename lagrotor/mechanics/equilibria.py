@@ -67,7 +67,7 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     polynomials, pairs = _polynomials(conditions, wanted)
     symbols = [*(x for pair in pairs.values() for x in pair), *wanted, *system.multipliers]
     fixed = {q: q for q in c.q if q not in wanted and any(q in e.free_symbols for e in conditions)}
-    found: list[Equilibrium] = []
+    places: list[Equilibrium] = []
     circles = {c**2 + s**2 - 1 for c, s in pairs.values()}
     try:
         solutions = [*_solve(polynomials, symbols, {}, circles)]
@@ -79,9 +79,9 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
         equilibrium = _equilibrium(solution, wanted, pairs, fixed)
         if equilibrium is not None:
             equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
-        if equilibrium is not None and equilibrium not in found:
-            found.append(equilibrium)
-    return tuple(found)
+        if equilibrium is not None and equilibrium not in places:
+            places.append(equilibrium)
+    return tuple(places)
 
 
 def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:
@@ -90,13 +90,13 @@ def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:
 
 def _at_right_angles(system: Equations, conditions: Sequence[sp.Expr], wanted: Sequence[sp.Symbol]) -> str:
     """The equilibria whose coordinates are zero or right angles, where they are few enough to be tried one by one."""
-    found = []
+    solutions = []
     for values in product((0, sp.pi / 2, sp.pi, -sp.pi / 2), repeat=len(wanted) if len(wanted) <= _TRIED else 0):
         put = dict(zip(wanted, values, strict=False))
         if put and all(sp.expand(e.subs(put)) == 0 for e in conditions) and _regular(system, put):
-            found.append(put)
-    first = f", the first at {found[0]}" if found else ""
-    return f"; {len(found)} are at multiples of a right angle{first}" if len(wanted) <= _TRIED else ""
+            solutions.append(put)
+    first = f", the first at {solutions[0]}" if solutions else ""
+    return f"; {len(solutions)} are at multiples of a right angle{first}" if len(wanted) <= _TRIED else ""
 
 
 def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:
@@ -113,7 +113,7 @@ def _polynomials(
     """Numerators of the conditions, the cosine and sine of each wanted angle as symbols, tied by c² + s² = 1."""
     roots = {p for e in conditions for p in e.atoms(sp.Pow) if not p.exp.is_integer}
     if any(p.free_symbols & {*wanted} for p in roots):
-        raise _unsolved(conditions, wanted)
+        raise _refusal(conditions, wanted)
     forms = []
     for e in conditions:
         try:
@@ -129,13 +129,9 @@ def _polynomials(
     numerators = [sp.numer(sp.together(e.xreplace(put))) for e in forms]
     angles = [q for u in pairs for q in u.free_symbols & {*wanted}]
     mixed = {q for q in angles if angles.count(q) > 1 or any(q in e.free_symbols for e in numerators)}
-    if mixed or any(e.has(sp.Function) and e.atoms(sp.Function) & _holding(e, wanted) for e in numerators):
-        raise _unsolved(conditions, wanted)
+    if mixed or any(node.free_symbols & {*wanted} for e in numerators for node in e.atoms(sp.Function)):
+        raise _refusal(conditions, wanted)
     return [*numerators, *(c**2 + s**2 - 1 for c, s in pairs.values())], pairs
-
-
-def _holding(e: sp.Expr, wanted: Sequence[sp.Symbol]) -> set[sp.Basic]:
-    return {node for node in e.atoms(sp.Function) if node.free_symbols & {*wanted}}
 
 
 def _solve(
@@ -168,7 +164,7 @@ def _solve(
     place = min(range(len(left)), key=lambda i: (max(effort for _, _, effort in branches[i]), len(branches[i])))
     best, others = branches[place], whole[:place] + whole[place + 1 :]
     if max(effort for _, _, effort in best) == _HOPELESS:
-        raise _unsolved([sp.Mul(*factors) for factors in left], unknowns)
+        raise _refusal([sp.Mul(*factors) for factors in left], unknowns)
     for factor, x, _ in best:
         for root in sp.roots(sp.Poly(factor, x)):
             if root.is_real is not False:
@@ -216,7 +212,7 @@ def _equilibrium(
     return None if sp.false in domain else Equilibrium(at, tuple(domain))
 
 
-def _unsolved(conditions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> InputError:
+def _refusal(conditions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> InputError:
     shown = ", ".join(f"{e} = 0" for e in sorted(conditions, key=sp.count_ops))
     return InputError(
         f"equilibria: {shown if len(shown) < _SHOWN else shown[:_SHOWN] + ' …'} is not solved for "

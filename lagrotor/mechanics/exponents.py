@@ -54,7 +54,7 @@ class Perturbed:
         return self._with(self.orbit + other.orbit, self.p + other.p, self.q + other.q)
 
     def __neg__(self) -> "Perturbed":
-        return self.scaled(-1)
+        return self.times(-1)
 
     def __sub__(self, other: "Perturbed") -> "Perturbed":
         return self + (-other)
@@ -63,9 +63,9 @@ class Perturbed:
         first, second = self.orbit, other.orbit
         return self._with(first * second, first * other.p + self.p * second, first * other.q + self.q * second)
 
-    def scaled(self, factor: Coefficient) -> "Perturbed":
+    def times(self, factor: Coefficient) -> "Perturbed":
         """factor × f."""
-        return self._with(self.orbit.scaled(factor), self.p.scaled(factor), self.q.scaled(factor))
+        return self._with(self.orbit.times(factor), self.p.times(factor), self.q.times(factor))
 
     def derivative(self) -> "Perturbed":
         """df/dPhi: (p' + B q) xi + (q' + A p) eta."""
@@ -74,7 +74,7 @@ class Perturbed:
 
     def half_period_later(self) -> "Perturbed":
         """f(Phi + pi), the perturbation with the sign `exchange`."""
-        p, q = (part.half_period_later().scaled(self.exchange) for part in (self.p, self.q))
+        p, q = (part.half_period_later().times(self.exchange) for part in (self.p, self.q))
         return self._with(self.orbit.half_period_later(), p, q)
 
     def constant(self, value: Coefficient) -> "Perturbed":
@@ -124,7 +124,7 @@ def characteristic_exponents(
     drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
     value = field.convert if numeric is None else float
     growing = Unknowns()
-    unknowns = {part: [growing.series(series.valued(value)) for series in parts[part]] for part in "pq"}
+    unknowns = {part: [growing.series(series.convert(value)) for series in parts[part]] for part in "pq"}
     slow = {
         part: growing.series(FourierSeries({}, order)) for part in "pq"
     }  # B from the equations' p part, A from their q part
@@ -139,9 +139,9 @@ def characteristic_exponents(
                     extra, mean = (drift[part], fixed[part]) if h == 0 else (None, None)
                     solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
                 values, shift = solvers[part, h](now[part], h, value(field.zero))
-                for j, found in enumerate(values):
-                    growing.found(unknowns[part][j], n, -h if parity[part][j] else h, found)
-                growing.found(slow[part], n, 0, shift)
+                for j, coefficient in enumerate(values):
+                    growing.put(unknowns[part][j], n, -h if parity[part][j] else h, coefficient)
+                growing.put(slow[part], n, 0, shift)
         growing.forget(n)
     p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
     return ExponentSeries(growing.through(slow["q"], order), growing.through(slow["p"], order), p, q)
@@ -185,9 +185,9 @@ class _Variation:
         return self.residual(unknowns, at(orbit.frequency, nothing, nothing))
 
     @staticmethod
-    def column(found: Sequence[Perturbed], part: str, n: int) -> Column:
+    def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
         """The coefficients of eps**n in one part of the equations."""
-        return {(i, h): v for i, r in enumerate(found) for h, v in getattr(r, part).harmonics(n).items()}
+        return {(i, h): v for i, r in enumerate(equations) for h, v in getattr(r, part).harmonics(n).items()}
 
     def of_drift(self, part: str, parts: Parts, orbit: PeriodicSeries) -> Column:
         """The response at rest of the equations' `part` to a unit of the slow rate: by it the other part drives this one."""
@@ -203,7 +203,7 @@ class _Variation:
 
         At rest no harmonic acts on another, so that all are put in together.
         """
-        nothing, found = FourierSeries({}, self.order), dict[tuple[str, int], list[Column]]()
+        nothing, columns = FourierSeries({}, self.order), dict[tuple[str, int], list[Column]]()
         for j in range(len(rest.unknowns)):
             moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
             for part in "pq":
@@ -211,5 +211,5 @@ class _Variation:
             answer = self.of(0, moved, dict.fromkeys("pq", nothing), rest)
             for part in "pq":
                 for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
-                    found.setdefault((part, h), []).append(column)
-        return found
+                    columns.setdefault((part, h), []).append(column)
+        return columns

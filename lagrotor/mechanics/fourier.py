@@ -29,7 +29,7 @@ class FourierSeries:
         return FourierSeries({k: v for k, v in total.items() if v}, self.order)
 
     def __neg__(self) -> "FourierSeries":
-        return self.scaled(-1)
+        return self.times(-1)
 
     def __sub__(self, other: "FourierSeries") -> "FourierSeries":
         return self + (-other)
@@ -57,11 +57,11 @@ class FourierSeries:
                         total[n + m, -abs(sine - cosine)] += half if sine > cosine else -half
         return FourierSeries({k: v for k, v in total.items() if v}, self.order)
 
-    def scaled(self, factor: Coefficient) -> "FourierSeries":
+    def times(self, factor: Coefficient) -> "FourierSeries":
         """factor × f."""
         return FourierSeries({k: v * factor for k, v in self.terms.items()}, self.order)
 
-    def valued(self, value: Callable[[Any], Coefficient]) -> "FourierSeries":
+    def convert(self, value: Callable[[Any], Coefficient]) -> "FourierSeries":
         """The same series with its coefficients converted, as by `float`."""
         return FourierSeries({k: value(v) for k, v in self.terms.items()}, self.order)
 

@@ -56,12 +56,12 @@ class LinearSystem:
         """
         if values is not None:
             return self._numeric_modes(values)
-        found: list[Mode] = []
+        modes: list[Mode] = []
         for factor, _ in sp.factor_list(sp.numer(sp.together(self.characteristic(_S))))[1]:
             if factor.has(_S):
                 for rate in _roots(sp.Poly(factor, _S)):
-                    found += [Mode(rate, (self.basis * vector).applyfunc(_reduce)) for vector in self._shapes(rate)]
-        return tuple(found)
+                    modes += [Mode(rate, (self.basis * vector).applyfunc(_reduce)) for vector in self._shapes(rate)]
+        return tuple(modes)
 
     def _shapes(self, rate: sp.Expr) -> list[sp.Matrix]:
         """Null vectors at a root of the characteristic polynomial: a column of the adjugate, where one is not zero."""
@@ -163,17 +163,17 @@ def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol
         if general:  # reduced while its symbols are independent, before roots are put in
             entry = _reduce(entry.xreplace(rest))
         entry = entry.xreplace(parameters)
-        found = entry.xreplace(at)
-        if found.has(sp.nan, sp.zoo, sp.oo):
+        number = entry.xreplace(at)
+        if number.has(sp.nan, sp.zoo, sp.oo):
             try:
-                found = normal_form(entry).xreplace(at)
+                number = normal_form(entry).xreplace(at)
             except NotExactError:
-                found = sp.nan
-        if found.has(sp.nan, sp.zoo, sp.oo):
+                number = sp.nan
+        if number.has(sp.nan, sp.zoo, sp.oo):
             raise SingularError(
                 f"linearise: {entry} is singular at {dict(still)}: use coordinates that are regular there"
             )
-        return found
+        return number
 
     return matrix.applyfunc(value) if len(matrix) else matrix
 

@@ -37,36 +37,36 @@ class GrowingSeries:
             self.kept[n] = self.compute(n)
         return self.kept[n]
 
-    def _made(self, compute: Callable[[int], Waves]) -> GrowingSeries:
+    def _series(self, compute: Callable[[int], Waves]) -> GrowingSeries:
         return GrowingSeries(compute, self.all)
 
     def __add__(self, other: GrowingSeries) -> GrowingSeries:
-        return self._made(lambda n: _sum(self.at(n), other.at(n)))
+        return self._series(lambda n: _sum(self.at(n), other.at(n)))
 
     def __neg__(self) -> GrowingSeries:
-        return self._made(lambda n: {h: -v for h, v in self.at(n).items()})
+        return self._series(lambda n: {h: -v for h, v in self.at(n).items()})
 
     def __sub__(self, other: GrowingSeries) -> GrowingSeries:
         return self + (-other)
 
     def __mul__(self, other: GrowingSeries) -> GrowingSeries:
-        return self._made(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]))
+        return self._series(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]))
 
-    def scaled(self, factor: Coefficient) -> GrowingSeries:
+    def times(self, factor: Coefficient) -> GrowingSeries:
         """factor × f."""
-        return self._made(lambda n: {h: v * factor for h, v in self.at(n).items()})
+        return self._series(lambda n: {h: v * factor for h, v in self.at(n).items()})
 
     def derivative(self) -> GrowingSeries:
         """df/dPhi."""
-        return self._made(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
+        return self._series(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
 
     def half_period_later(self) -> GrowingSeries:
         """f(Phi + pi)."""
-        return self._made(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
+        return self._series(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
 
     def constant(self, value: Coefficient) -> GrowingSeries:
         """The constant `value`."""
-        return self._made(lambda n: {0: value} if n == 0 and value else {})
+        return self._series(lambda n: {0: value} if n == 0 and value else {})
 
 
 class Unknowns:
@@ -85,7 +85,7 @@ class Unknowns:
         self._known[made] = terms
         return made
 
-    def found(self, series: GrowingSeries, n: int, h: int, value: Coefficient) -> None:
+    def put(self, series: GrowingSeries, n: int, h: int, value: Coefficient) -> None:
         """The coefficient of eps**n of an unknown's harmonic h; `forget` what was computed without it."""
         if value:
             self._known[series][n][h] = value

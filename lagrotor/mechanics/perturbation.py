@@ -62,7 +62,7 @@ def lindstedt_poincare(
     ]
     value = field.convert if numeric is None else float
     growing = Unknowns()
-    *unknowns, frequency = (growing.series(begin.valued(value)) for begin in (*begins, constant_series(one, order)))
+    *unknowns, frequency = (growing.series(begin.convert(value)) for begin in (*begins, constant_series(one, order)))
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
     drift, solvers = _frequency_column(residual, begins, one), dict[int, Solver]()
@@ -74,11 +74,11 @@ def lindstedt_poincare(
                 extra, fixed = (drift, amplitude) if h == 1 else (None, None)
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
             values, shift = solvers[h](now, h, -at_zero)
-            for j, found in enumerate(values):
-                growing.found(unknowns[j], n, -h if sines[j] else h, found)
+            for j, coefficient in enumerate(values):
+                growing.put(unknowns[j], n, -h if sines[j] else h, coefficient)
             at_zero += 0 if sines[amplitude] else values[amplitude]
             if shift:
-                growing.found(frequency, n - 1, 0, shift)
+                growing.put(frequency, n - 1, 0, shift)
                 growing.forget(n - 1)
         growing.forget(n)
     return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
@@ -91,13 +91,13 @@ def _columns(
 
     At rest no harmonic acts on another, so that all are put in together.
     """
-    still, found = [constant_series(r, 1) for r in rest], dict[int, list[Column]]()
+    still, columns = [constant_series(r, 1) for r in rest], dict[int, list[Column]]()
     for j, sine in enumerate(sines):
         moved = list(still)
         moved[j] = moved[j] + waves(sine, order, 1, one)
         for h, column in by_harmonic(residual(moved, constant_series(one, 1)), order, 1).items():
-            found.setdefault(h, []).append(column)
-    return found
+            columns.setdefault(h, []).append(column)
+    return columns
 
 
 def waves(sine: bool, most: int, power: int, one: Coefficient) -> FourierSeries:
@@ -107,11 +107,11 @@ def waves(sine: bool, most: int, power: int, one: Coefficient) -> FourierSeries:
 
 def by_harmonic(equations: Sequence[FourierSeries], most: int, power: int) -> dict[int, Column]:
     """Harmonic h up to `most` → the coefficients of eps**power there."""
-    found: dict[int, Column] = {h: {} for h in range(most + 1)}
+    columns: dict[int, Column] = {h: {} for h in range(most + 1)}
     for i, equation in enumerate(equations):
         for key, v in equation.harmonics(power).items():
-            found[abs(key)][i, key] = v
-    return found
+            columns[abs(key)][i, key] = v
+    return columns
 
 
 def _frequency_column(
@@ -145,7 +145,7 @@ def harmonic_solver(
     table = [[column.get(row, field.zero) for column in system] for row in rows]
     if fixed is not None:
         table.append([field.one if j == fixed else field.zero for j in range(len(system))])
-    pivots, turned = _reduced(table, field, value)
+    pivots, turned = _eliminate(table, field, value)
 
     def solve(now: Sequence[Waves], h: int, at: Coefficient) -> tuple[list[Coefficient], Coefficient]:
         left = {(i, key): -v for i, waves in enumerate(now) for key, v in waves.items() if abs(key) == h}
@@ -158,14 +158,14 @@ def harmonic_solver(
         ):
             raise SingularError("lindstedt_poincare: an order cannot be solved: the mode is in resonance with another")
         values = [value(field.zero)] * len(system)
-        for j, found in zip(pivots, solved, strict=False):
-            values[j] = found
+        for j, solution in zip(pivots, solved, strict=False):
+            values[j] = solution
         return values[: len(columns)], values[-1] if extra is not None else value(field.zero)
 
     return solve
 
 
-def _reduced(
+def _eliminate(
     table: list[list[Coefficient]], field: Domain, value: Callable[[Any], Coefficient]
 ) -> tuple[list[int], list[list[Coefficient]]]:
     """The unknowns that a system determines, and the matrix that takes its right side to them, then to what must vanish."""

@@ -39,7 +39,7 @@ def same_as(system: Equations, other: Equations) -> Decision:
     if (direct := _from_lagrangians(system, other)).answer == "zero":
         return direct
     if not (system.multipliers or other.multipliers):
-        return _refuted(system, other) or _without_constraints(system, other)
+        return _refutation(system, other) or _without_constraints(system, other)
     decision = _accelerations(system, other)
     if decision.answer == "nonzero":
         return replace(decision, answer="undecided", reason=f"Off the constraints they differ. {decision.reason}")
@@ -69,7 +69,7 @@ def _accelerations(system: Equations, other: Equations) -> Decision:
     return decide_equal(left, right)
 
 
-def _refuted(system: Equations, other: Equations) -> Decision | None:
+def _refutation(system: Equations, other: Equations) -> Decision | None:
     """Accelerations that differ at a point, where their enclosures are apart; None where none is seen or enclosed."""
     given = [(each.mass, each.push - each.bias) for each in (system, other)]
     symbols = set().union(*(part.free_symbols for pair in given for part in pair))
@@ -123,22 +123,22 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     put = dict(zip(old.q, places, strict=True))
     put |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
 
-    def carried(e: sp.Expr) -> sp.Expr:
+    def put_in(e: sp.Expr) -> sp.Expr:
         return sp.sympify(e).xreplace(put)
 
     slope = jacobian(places, c.q)
-    forces = tuple(slope.T * sp.Matrix([carried(f) for f in system.forces])) if system.forces else ()
+    forces = tuple(slope.T * sp.Matrix([put_in(f) for f in system.forces])) if system.forces else ()
 
     def left(expressions: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
-        moved = [carried(e) for e in expressions]
+        moved = [put_in(e) for e in expressions]
         return tuple(e for e in moved if decide_equal(e, sp.S.Zero).answer != "zero")
 
     return replace(
         system,
         c=c,
-        lagrangian=carried(system.L),
+        lagrangian=put_in(system.L),
         constraints=left(system.constraints),
         rolling=left(system.rolling),
-        dissipation=carried(system.dissipation),
+        dissipation=put_in(system.dissipation),
         forces=forces,
     )

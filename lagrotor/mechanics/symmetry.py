@@ -90,8 +90,8 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
             f"δL = {variation(system, xi)} and the gauge function {gauge}; give gauge=F with δL = dF/dt, or see how "
             "p · ξ changes: noether_rate"
         )
-    found = along(system.L, system.c.v, xi) - sp.sympify(gauge)
-    return FirstIntegral(shortest(found), decision.domain)
+    integral = along(system.L, system.c.v, xi) - sp.sympify(gauge)
+    return FirstIntegral(shortest(integral), decision.domain)
 
 
 def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
@@ -124,7 +124,7 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
         raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")
     _check_momenta("legendre", c.v, p, {*c.q, *c.v, *c.a} | L.free_symbols)
-    return -_reduced(L, c.v, p, _velocities("legendre", L, c.v, p))
+    return -_legendre(L, c.v, p, _velocities("legendre", L, c.v, p))
 
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
@@ -137,7 +137,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     Raises NotASymmetryError when a coordinate is not cyclic, and DomainError, SingularError, InputError as `legendre`.
     """
     c, L = system.c, system.L
-    chosen = _chosen(c, cyclic)
+    chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
     if bound := [str(q) for q in chosen if q not in free]:
         raise NotASymmetryError(
@@ -162,7 +162,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
             f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
         )
     return replace(
-        system, c=rest, lagrangian=_reduced(L, u, p, velocities), rolling=rolling, dissipation=sp.S.Zero, forces=forces
+        system, c=rest, lagrangian=_legendre(L, u, p, velocities), rolling=rolling, dissipation=sp.S.Zero, forces=forces
     )
 
 
@@ -172,7 +172,7 @@ def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
     return L if at_zero.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else at_zero
 
 
-def _chosen(
+def _momenta(
     c: Coordinates, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]
 ) -> dict[sp.Symbol, sp.Expr]:
     """The coordinates that are named, each with its momentum."""
@@ -210,7 +210,7 @@ def _velocities(where: str, L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.E
     return list(linear_solve(A.subs(at_rest), excess, f"{singular}; use fewer coordinates"))
 
 
-def _reduced(L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], velocities: Sequence[sp.Expr]) -> sp.Expr:
+def _legendre(L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], velocities: Sequence[sp.Expr]) -> sp.Expr:
     """L − p·u at its stationary point, the velocities u = A⁻¹ (p − b):  L|₀ − ½ (p − b)·u."""
     at_rest = dict.fromkeys(u, 0)
     excess = sp.Matrix(list(p)) - gradient(L, u).subs(at_rest)

@@ -14,7 +14,7 @@ TERMS = st.dictionaries(KEYS, st.fractions(-3, 3, max_denominator=4).filter(bool
 # Nested products, of which the inner ones are read again at each order.
 EQUATIONS = {
     "product": lambda x, y: x * y,
-    "nested": lambda x, y: (x * y - y.derivative()) * (x + x.half_period_later()).scaled(Fraction(2, 3)),
+    "nested": lambda x, y: (x * y - y.derivative()) * (x + x.half_period_later()).times(Fraction(2, 3)),
     "constant": lambda x, y: x * x + y * y - x.constant(Fraction(1)),
 }
 
@@ -41,7 +41,7 @@ def found_at(forget: bool) -> tuple[GrowingSeries, Unknowns]:
     x = growing.series(FourierSeries({(0, 0): Fraction(1), (1, 1): Fraction(1)}, ORDER))
     square = x * x
     square.at(2)
-    growing.found(x, 2, 2, Fraction(3))
+    growing.put(x, 2, 2, Fraction(3))
     if forget:
         growing.forget(2)
     return square, growing

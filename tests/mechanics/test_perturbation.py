@@ -44,7 +44,7 @@ def duffing(order: int, cubic: int = 1):
 
     def residual(unknowns, frequency):
         (x,) = unknowns
-        return [frequency * frequency * x.derivative().derivative() + x + (x * x * x).scaled(cubic)]
+        return [frequency * frequency * x.derivative().derivative() + x + (x * x * x).times(cubic)]
 
     one = sp.QQ.one
     return lindstedt_poincare(residual, [sp.QQ.zero], [{1: one}], order, sp.QQ)
@@ -87,7 +87,7 @@ def test_a_resonance_is_refused() -> None:
         squared = frequency * frequency
         return [
             squared * x.derivative().derivative() + x,
-            squared * y.derivative().derivative() + y.scaled(4) + x * x,
+            squared * y.derivative().derivative() + y.times(4) + x * x,
         ]
 
     with pytest.raises(SingularError, match="resonance"):

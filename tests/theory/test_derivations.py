@@ -48,7 +48,7 @@ MUTANTS = [
     ("t4_orbit_family", "al1_v: al2_v, al2_v: al1_v}", "al1_v: -al2_v, al2_v: -al1_v}"),
     ("t5_floquet", "sigma * sp.sin(Phi), 2 * sigma * sp.sin(Phi)", "sp.sin(Phi), 2 * sigma * sp.sin(Phi)"),
     ("t5_floquet", "3 * sigma * r0**4 / (8 * k**2)", "3 * sigma * r0**4 / (4 * k**2)"),
-    ("t5_floquet", "later.scaled(-sign if i == 0 else sign)", "later.scaled(sign if i == 0 else -sign)"),
+    ("t5_floquet", "later.times(-sign if i == 0 else sign)", "later.times(sign if i == 0 else -sign)"),
     pytest.param("t5_floquet", "sp.Rational(3, 16) * sigma**2", "sp.Rational(3, 8) * sigma**2", marks=pytest.mark.slow),
     pytest.param("t5_floquet", "swung * 2 * sp.sqrt(sigma) / G", "swung * sp.sqrt(sigma) / G", marks=pytest.mark.slow),
     ("t6_shock_drift", "(2 + att**2) * P_X**2 + att**2 * sigma", "(2 - att**2) * P_X**2 + att**2 * sigma"),

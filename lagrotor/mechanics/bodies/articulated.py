@@ -21,8 +21,7 @@ import sympy as sp
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.bodies.joints import Joint
-from lagrotor.mechanics.bodies.small_matrices import Small, wedge, zeros
-from lagrotor.mechanics.bodies.stages import Stages
+from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
 from lagrotor.mechanics.bodies.trees import ZERO, Pair
 from lagrotor.mechanics.lagrangian import Coordinates
 
@@ -54,7 +53,7 @@ def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence
     Raises SingularError where a coordinate moves no mass.
     """
     inertias = [_rigid(joint, keep) for joint in chain]
-    forces = [[_needed(joint, keep), *[(ZERO, ZERO)] * (len(torques) - 1)] for joint in chain]
+    forces = [[_bias_force(joint, keep), *[(ZERO, ZERO)] * (len(torques) - 1)] for joint in chain]
     factors: list[list[Factor]] = []
     for i in reversed(range(len(chain))):
         joint, I, parent = chain[i], inertias[i], chain[i].link.parent
@@ -75,13 +74,16 @@ def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence
             factors[-1].append(Factor(number, s, E, [keep(u * inverse) for u in left]))
             if parent < 0 and s is joint.columns[-1]:
                 break
-            I = _eliminated(I, U, E, s, keep)
+            I = _inertia_left(I, U, E, s, keep)
             forces[i] = [
-                _balanced(needed, U, x, tau[number], s, keep)
+                _net_force(needed, U, x, tau[number], s, keep)
                 for needed, x, tau in zip(forces[i], factors[-1][-1].x, torques, strict=True)
             ]
         if parent >= 0:
-            inertias[parent] = _sum(inertias[parent], _shifted(joint, I, keep), keep)
+            mine, own = inertias[parent], _in_parent(joint, I, keep)
+            inertias[parent] = Inertia(
+                keep.symmetric(mine.J + own.J), keep.each(mine.H + own.H), keep.symmetric(mine.M + own.M)
+            )
             for j, (N, F) in enumerate(forces[i]):
                 N, F, (to_N, to_F) = joint.outward(N, keep), joint.outward(F, keep), forces[parent][j]
                 forces[parent][j] = keep.each(to_N + N + joint.shift.cross(F)), keep.each(to_F + F)
@@ -91,17 +93,17 @@ def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence
 
 def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int, keep: Stages) -> Column:
     """Outward again: the accelerations of column j, in the order of the coordinates."""
-    found: dict[int, sp.Expr] = {}
+    solved: dict[int, sp.Expr] = {}
     places: list[Pair] = []
     for joint, eliminated in zip(chain, factors, strict=True):
         b, a = places[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
         a = joint.inward(keep.each(a + b.cross(joint.shift)), keep)
         b = joint.inward(b, keep)
         for f in reversed(eliminated):
-            x = found[f.number] = keep(f.x[j] - f.E[0].dot(b) - f.E[1].dot(a))
+            x = solved[f.number] = keep(f.x[j] - f.E[0].dot(b) - f.E[1].dot(a))
             b, a = keep.each(b + f.s[0] * x), keep.each(a + f.s[1] * x)
         places.append((b, a))
-    return [found[number] for number in range(len(found))]
+    return [solved[number] for number in range(len(solved))]
 
 
 def _rigid(joint: Joint, keep: Stages) -> Inertia:
@@ -115,7 +117,7 @@ def _rigid(joint: Joint, keep: Stages) -> Inertia:
     )
 
 
-def _needed(joint: Joint, keep: Stages) -> Pair:
+def _bias_force(joint: Joint, keep: Stages) -> Pair:
     """(N, F) about the joint, Σ m (a + K c) and its moment, with I α + ω × I ω, for the motion without q''."""
     b, a = joint.lift
     N, F = ZERO, ZERO
@@ -149,16 +151,16 @@ def _share(U: Pair, inverse: sp.Expr, s: Pair, keep: Stages) -> Pair:
     return E
 
 
-def _balanced(needed: Pair, U: Pair, x: sp.Expr, tau: sp.Expr, s: Pair, keep: Stages) -> Pair:
+def _net_force(needed: Pair, U: Pair, x: sp.Expr, tau: sp.Expr, s: Pair, keep: Stages) -> Pair:
     """(N, F) + U x, with s·((N, F) + U x) = τ."""
-    found = keep.each(needed[0] + U[0] * x), keep.each(needed[1] + U[1] * x)
+    wrench = keep.each(needed[0] + U[0] * x), keep.each(needed[1] + U[1] * x)
     if along := _only_axis(s):
         part, k = along
-        found[part].rows[k][0] = keep(tau / s[part][k])
-    return found
+        wrench[part].rows[k][0] = keep(tau / s[part][k])
+    return wrench
 
 
-def _eliminated(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inertia:
+def _inertia_left(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inertia:
     """I − U Uᵀ/D; along s, where that is one axis, nothing is left."""
     J, H, M = I.J - U[0] * E[0].T, I.H - U[0] * E[1].T, I.M - U[1] * E[1].T
     if along := _only_axis(s):
@@ -171,7 +173,7 @@ def _eliminated(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inertia:
     return Inertia(keep.symmetric(J), keep.each(H), keep.symmetric(M))
 
 
-def _shifted(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
+def _in_parent(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
     """The inertia in the parent's axes, about the parent's joint: H + [d] M, J − H [d] + [d] Hᵀ − [d] M [d]."""
     J, M = (joint.outward_symmetric(part, keep) for part in (I.J, I.M))
     H = joint.outward(joint.outward(I.H, keep).T, keep).T
@@ -180,7 +182,3 @@ def _shifted(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
     d = wedge(joint.shift)
     carried = keep.each(H + keep.each(d * M))
     return Inertia(keep.symmetric(J - keep.each(H * d) + d * carried.T), carried, M)
-
-
-def _sum(I: Inertia, other: Inertia, keep: Stages) -> Inertia:
-    return Inertia(keep.symmetric(I.J + other.J), keep.each(I.H + other.H), keep.symmetric(I.M + other.M))

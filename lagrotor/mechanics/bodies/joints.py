@@ -1,4 +1,4 @@
-"""The joints of a tree at one state, from the ground outward: axes, turns, velocities, and accelerations without q''.
+"""The joints of a tree at one state, from the ground outward: axes, turns, velocities, accelerations without q'', energy.
 
 A link that turns is seen in axes that do not turn with it where that is shorter: where it is symmetric about the axis of its
 turn and carries nothing, and where all that it carries turns about the same axis, so that angles add. Bodies and shifts
@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from lagrotor.mechanics.bodies.small_matrices import Small, wedge, zeros
-from lagrotor.mechanics.bodies.stages import Stages
+from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
 from lagrotor.mechanics.bodies.trees import ZERO, Mass, Pair, Tree, TreeLink
+from lagrotor.mechanics.lagrangian import Coordinates
 
 _EYE = sp.eye(3)
 _STILL = zeros(3, 3)
@@ -67,7 +67,7 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class Carried:
+class JointMass:
     """A body in the axes of its joint: mass, centre (3, 1), inertia about that centre and about the joint, (3, 3)."""
 
     mass: sp.Expr
@@ -89,7 +89,7 @@ class Joint:
     rotation: Small | None
     turn: Turn
     own: Turn
-    masses: tuple[Carried, ...]
+    masses: tuple[JointMass, ...]
     columns: tuple[Pair, ...]
     rate: Pair
     spin: Small = ZERO
@@ -115,12 +115,12 @@ class Joint:
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
     """From the ground outward, link by link: ω, and (α, a)."""
-    found: list[Joint] = []
+    chain: list[Joint] = []
     for number, link in enumerate(tree.links):
-        before = found[link.parent] if link.parent >= 0 else None
+        before = chain[link.parent] if link.parent >= 0 else None
         carried = [other for other in tree.links if other.parent == number]
-        found.append(_moved(_joint(link, carried, before, keep), before, -Small.of(tree.field), keep))
-    return found
+        chain.append(_with_motion(_joint(link, carried, before, keep), before, -Small.of(tree.field), keep))
+    return chain
 
 
 def _joint(link: TreeLink, carried: Sequence[TreeLink], before: Joint | None, keep: Stages) -> Joint:
@@ -138,20 +138,20 @@ def _joint(link: TreeLink, carried: Sequence[TreeLink], before: Joint | None, ke
         None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
         turn,
         own,
-        tuple(_carried(mass, own, keep) for mass in link.masses),
+        tuple(_joint_mass(mass, own, keep) for mass in link.masses),
         tuple((keep.each(w), keep.each(v)) for w, v in link.columns),
         (keep.each(link.rate[0]), keep.each(link.rate[1])),
     )
 
 
-def _carried(mass: Mass, own: Turn, keep: Stages) -> Carried:
+def _joint_mass(mass: Mass, own: Turn, keep: Stages) -> JointMass:
     centre, inertia = keep.each(Small.of(mass.centre)), Small.of(mass.inertia)
     c = wedge(centre)
     about = keep.symmetric(inertia - c * c * mass.mass)
-    return Carried(mass.mass, own.of(centre, keep), own.of_symmetric(inertia, keep), own.of_symmetric(about, keep))
+    return JointMass(mass.mass, own.of(centre, keep), own.of_symmetric(inertia, keep), own.of_symmetric(about, keep))
 
 
-def _moved(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
+def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
     """The joint with its ω and (α, a): those of the parent, turned and shifted, and its own.
 
     α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d'', in turn.
@@ -173,3 +173,40 @@ def _centripetal(w: Small, keep: Stages) -> Small:
     for i in range(3):
         rows[i][i] = -products[i - 1, i - 1] - products[i - 2, i - 2]
     return Small(rows)
+
+
+def tree_energy(tree: Tree, chain: Sequence[Joint], c: Coordinates, keep: Stages) -> sp.Expr:
+    """v·∂L/∂v − L, in stages, with the velocities (ω, v) of the links.
+
+    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With v* the
+    velocity that time alone gives, T₂ − T₀ is ½ m (v − 2 v*)·v, and likewise for the turning. Goldstein §2.7.
+    """
+    total, fields, depths = -tree.rest.subs(dict.fromkeys(c.v, 0)), list[Small](), list[sp.Expr]()
+    moving = _velocities(chain, [joint.rate for joint in chain], keep)
+    by_time = [(_at_rest(u, c), _at_rest(d, c)) for u, d in (joint.link.rate for joint in chain)]
+    driven = _velocities(chain, by_time, keep)
+    for joint, (w, v), (w_t, v_t) in zip(chain, moving, driven, strict=True):
+        parent = joint.link.parent
+        field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
+        fields.append(joint.inward(field, keep))
+        depths.append(keep(depth + field.dot(joint.shift)))
+        for mass in joint.masses:
+            centre, I = mass.centre, mass.inertia
+            at, at_t = keep.each(v + w.cross(centre)), keep.each(v_t + w_t.cross(centre))
+            total += keep(mass.mass * at.dot(at - at_t * 2) / 2 + w.dot(I * (w - w_t * 2)) / 2)
+            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))
+    return total
+
+
+def _at_rest(rate: Small, c: Coordinates) -> Small:
+    return rate.each(lambda e: e.subs(dict.fromkeys(c.v, 0)))
+
+
+def _velocities(chain: Sequence[Joint], rates: Sequence[Pair], keep: Stages) -> list[Pair]:
+    """(ω, v) of each link, in its axes: its parent's, and its own relative to it."""
+    velocities: list[Pair] = []
+    for joint, (u, d) in zip(chain, rates, strict=True):
+        w, v = velocities[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
+        v = joint.inward(keep.each(v + w.cross(joint.shift)), keep)
+        velocities.append((keep.each(joint.inward(w, keep) + u), keep.each(v + d)))
+    return velocities

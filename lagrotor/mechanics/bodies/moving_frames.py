@@ -114,12 +114,12 @@ class MovingFrame:
 
     def place(self, point: Vector = (0, 0, 0), seen: "MovingFrame | None" = None) -> sp.Matrix:
         """Where a point of the frame is, in the axes of the ground, or of a frame `seen` that it descends from."""
-        found = sp.Matrix(list(point))
+        position = sp.Matrix(list(point))
         frame: MovingFrame = self
         while frame is not seen and frame.parent is not None:
-            found = frame.rotation * found + frame.shift
+            position = frame.rotation * position + frame.shift
             frame = frame.parent
-        return found
+        return position
 
     def velocity(self, point: Vector = (0, 0, 0), seen: "MovingFrame | None" = None) -> sp.Matrix:
         """The velocity of the point that moves with this frame and is now at `point`; both in the axes of `seen`.

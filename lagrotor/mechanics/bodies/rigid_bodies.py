@@ -99,6 +99,18 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
     return Body(frame, m, I, place)
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Frame(MovingFrame):
+    """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one.
+
+    c = coordinates("phi theta psi")
+    top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    System(c, top.kinetic - top.potential((0, 0, -g)))
+    """
+
+    body = make_body
+
+
 @dataclass(frozen=True)
 class Energy:
     """Σ factor × (kinetic energy, or potential in a field) of bodies, plus an expression; see `Body`."""
@@ -124,15 +136,17 @@ class Energy:
     @cached_property
     def free_symbols(self) -> set[sp.Basic]:
         """The symbols in it, velocities left aside."""
-        found = set(self.rest.free_symbols)
+        symbols = set(self.rest.free_symbols)
         for body, field, factor in self.terms:
-            found |= body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
-            found |= set().union(*(e.free_symbols for e in field or ()))
+            symbols |= (
+                body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
+            )
+            symbols |= set().union(*(e.free_symbols for e in field or ()))
             frame: MovingFrame | None = body.frame
             while frame is not None and frame.parent is not None:
-                found |= frame.amount.free_symbols
+                symbols |= frame.amount.free_symbols
                 frame = frame.parent
-        return found
+        return symbols
 
     def _sympy_(self) -> sp.Expr:
         return self.expression

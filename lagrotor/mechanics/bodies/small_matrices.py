@@ -1,12 +1,15 @@
-"""Matrices of three rows at most, for the many small products of a recursion: zeros cost nothing.
+"""Matrices of three rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
 
 sympy's own matrices do the same, and take most of the recursion's time for it.
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Union
 
 import sympy as sp
+
+from lagrotor.numerics.codegen import Stage
 
 Scalar = Any  # an expression
 _0 = sp.S.Zero
@@ -103,3 +106,30 @@ def wedge(v: Small) -> Small:
 def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
     terms = [x * y for x, y in zip(a, b, strict=True) if x is not _0 and y is not _0]
     return terms[0] if len(terms) == 1 else sp.Add(*terms)
+
+
+@dataclass
+class Stages:
+    """Stages made one after another; an expression that was made before is the stage it was made in."""
+
+    made: list[Stage] = field(default_factory=list)
+    names: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+
+    def __call__(self, e: sp.Expr) -> sp.Expr:
+        if e.is_Atom:
+            return e
+        if e.is_Mul and e.args[0].is_negative and e.args[0].is_Rational:
+            return -self(-e)
+        if e not in self.names:
+            self.names[e] = sp.Symbol(f"_a{len(self.made)}", real=True)
+            self.made.append((self.names[e], e))
+        return self.names[e]
+
+    def each(self, matrix: Small) -> Small:
+        """Every entry."""
+        return matrix.each(self)
+
+    def symmetric(self, matrix: Small) -> Small:
+        """Every entry of a symmetric matrix, once."""
+        upper = {(i, j): self(matrix[i, j]) for i in range(3) for j in range(i, 3)}
+        return Small([[upper[min(i, j), max(i, j)] for j in range(3)] for i in range(3)])

@@ -84,7 +84,9 @@ class Tree:
 def tree_of(system: Equations) -> Tree | None:
     """The tree, if the Lagrangian is one: T of bodies less their potentials in one field, plus a function linear in v."""
     L = system.lagrangian
-    if not isinstance(L, Energy) or not _is_linear(L.rest, system.c):
+    if not isinstance(L, Energy):
+        return None
+    if L.rest.free_symbols & {*system.c.v} and mass_matrix(L.rest, system.c).is_zero_matrix is not True:
         return None
     kinetic = [body for body, field, factor in L.terms if field is None and factor == 1]
     fallen = [(body, field) for body, field, factor in L.terms if field is not None and factor == -1]
@@ -103,16 +105,12 @@ def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
     """The generalised forces of the rest of the Lagrangian, (n, 1), which give no accelerations a part."""
     symbols = tree.rest.free_symbols
     own = [i for i in range(len(c.q)) if c.q[i] in symbols or c.v[i] in symbols]
-    found = sp.zeros(len(c.q), 1)
+    Q = sp.zeros(len(c.q), 1)
     if own:
         forces = -bias(tree.rest, Coordinates(*(tuple(part[i] for i in own) for part in (c.q, c.v, c.a))))
         for i, force in zip(own, forces, strict=True):
-            found[i] = force
-    return found
-
-
-def _is_linear(rest: sp.Expr, c: Coordinates) -> bool:
-    return not rest.free_symbols & {*c.v} or mass_matrix(rest, c).is_zero_matrix is True
+            Q[i] = force
+    return Q
 
 
 class _NoTreeError(Exception):
@@ -124,17 +122,19 @@ def _links(c: Coordinates, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
     walk = _Walk(c)
     try:
         for body in bodies:
-            number, d, R = walk.reached(body.frame)
+            number, d, R = walk.place_of(body.frame)
             if number >= 0:
                 walk.masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
     except _NoTreeError:
         return None
     if len(walk.used) != len(c.q):
         return None
-    return _parted([replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)])
+    return _distribute(
+        [replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)]
+    )
 
 
-def _parted(links: list[TreeLink]) -> tuple[TreeLink, ...]:
+def _distribute(links: list[TreeLink]) -> tuple[TreeLink, ...]:
     """The links, each with the bodies that cost it least.
 
     A point at the joint of a link that turns is that link's. A round link that carries nothing keeps the inertia about its
@@ -178,14 +178,14 @@ class _Walk:
         self.known: dict[MovingFrame, Place] = {}
         self.used: set[sp.Symbol] = set()
 
-    def reached(self, frame: MovingFrame) -> Place:
+    def place_of(self, frame: MovingFrame) -> Place:
         if frame.parent is None:
             return -1, sp.zeros(3, 1), sp.eye(3)
         if frame not in self.known:
-            self.known[frame] = self.stepped(frame, *self.reached(frame.parent))
+            self.known[frame] = self.step(frame, *self.place_of(frame.parent))
         return self.known[frame]
 
-    def stepped(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
+    def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
         """One step of frames on from a place: a new link where the step moves."""
         is_shift = frame.axis is None and frame.amount.cols == 1
         moving = frame.amount.free_symbols & self.moving

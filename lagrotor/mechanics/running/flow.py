@@ -70,7 +70,7 @@ def scaled_rhs(bare: Rhs, scale: Array) -> Rhs:
     return rate
 
 
-def unscaled(stretch: Stretch, scale: Array) -> Stretch:
+def to_units(stretch: Stretch, scale: Array) -> Stretch:
     """A motion of z as one of y = scale z."""
     return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
 
@@ -122,14 +122,14 @@ def smooth_motion(
                 )
                 try:
                     stretch = dop853(segment, local / 20)
-                    return unscaled(replace(stretch, states=np.vstack([problem.start, stretch.states])), scale)
+                    return to_units(replace(stretch, states=np.vstack([problem.start, stretch.states])), scale)
                 except StopError as stop:
                     if stop.cause != "budget":
                         raise
                     problem = replace(problem, budget=budget - stop.evaluations)
-            return unscaled(integrate(problem, times, local), scale)
+            return to_units(integrate(problem, times, local), scale)
         except StopError as stop:
-            stop.reached = None if stop.reached is None else unscaled(stop.reached, scale)
+            stop.reached = None if stop.reached is None else to_units(stop.reached, scale)
             raise
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:

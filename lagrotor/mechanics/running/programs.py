@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, SingularError, near
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
-from lagrotor.mechanics.bodies.joints import joints
-from lagrotor.mechanics.bodies.stages import Stages
-from lagrotor.mechanics.bodies.tree_energies import tree_energy
+from lagrotor.mechanics.bodies.joints import joints, tree_energy
+from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
@@ -77,7 +76,7 @@ def motion_program(system: Equations) -> Generated:
     """
     stages, a, _ = constrained_motion(system)
     states = state_symbols(system)
-    return _generated(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
+    return _program(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
@@ -85,7 +84,7 @@ def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
     return (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
 
 
-def _generated(
+def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
     """A program of a state and parameters, its symbols renamed where a language would not take their names.
@@ -100,13 +99,13 @@ def _generated(
     }
     rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
 
-    def named(e: sp.Expr) -> sp.Expr:
+    def put_in(e: sp.Expr) -> sp.Expr:
         return e.xreplace(rename) if rename else e
 
     program = Program(
         tuple(rename.get(s, s) for s in (*states, *parameters)),
-        tuple((name, named(e)) for name, e in stages),
-        tuple(named(e) for e in outputs),
+        tuple((name, put_in(e)) for name, e in stages),
+        tuple(put_in(e) for e in outputs),
         shared=not moving or len(stages) > MANY,
     )
     return Generated(program, states, parameters)
@@ -129,10 +128,10 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     """(q, v, t) → expressions in q, v, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.c.v, t)
     if not set().union(*(e.free_symbols for e in expressions)) & {*system.c.a, *system.multipliers}:
-        return _generated(states, (), expressions)
+        return _program(states, (), expressions)
     stages, a, lam = constrained_motion(system)
     made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
-    return _generated(states, stages, [e.xreplace(made) for e in expressions])
+    return _program(states, stages, [e.xreplace(made) for e in expressions])
 
 
 @lru_cache(maxsize=64)
@@ -143,7 +142,7 @@ def energy_program(system: Equations) -> Generated:
         return function_program(system, system.energy)
     keep = Stages()
     energy = tree_energy(tree, joints(tree, keep), system.c, keep)
-    return _generated((*system.c.q, *system.c.v, t), keep.made, [energy])
+    return _program((*system.c.q, *system.c.v, t), keep.made, [energy])
 
 
 def _is_plain(name: str) -> bool:
@@ -168,16 +167,16 @@ def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], l
         push = system.push + rest_forces(tree, system.c)
         columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
         solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.c, columns, keep)).T
-        return constrained(keep.made, solved, G, system.gamma)
+        return under_constraints(keep.made, solved, G, system.gamma)
     push = system.push - system.bias
     try:
         stages, solved = solve_symmetric(system.mass, push.row_join(G.T), "_m")
     except SingularError:
         raise SingularError(singular_mass("simulate", system.mass, system.c)) from None
-    return constrained(stages, solved, G, system.gamma)
+    return under_constraints(stages, solved, G, system.gamma)
 
 
-def constrained(
+def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints, and the multipliers."""
@@ -214,7 +213,7 @@ def projection_program(system: Equations) -> Generated:
     moves[:, 1] = W * x
     state = sp.Matrix([*system.c.q, *system.c.v]) - moves[:, 0].col_join(moves[:, 1])
     states = state_symbols(system)
-    return _generated(states, [*stages, *more], [*state, *states[len(state) :]])
+    return _program(states, [*stages, *more], [*state, *states[len(state) :]])
 
 
 def tangent_program(given: Generated) -> Generated:

@@ -14,7 +14,7 @@ from lagrotor.mechanics.running.flow import (
     projection_of,
     scaled_projection,
     scaled_rhs,
-    unscaled,
+    to_units,
 )
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values
 from lagrotor.numerics.dop853 import dop853
@@ -93,9 +93,9 @@ def _coarsely(system: Equations, values: Values, start: Array, span: float) -> I
             project=scaled_projection(project, scale),
         )
         try:
-            return unscaled(dop853(segment, local), scale)
+            return to_units(dop853(segment, local), scale)
         except StopError as stop:
-            reached = None if stop.reached is None else unscaled(stop.reached, scale)
+            reached = None if stop.reached is None else to_units(stop.reached, scale)
             raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None
 
     return motion

@@ -138,13 +138,13 @@ def simulate_system(
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
     )
-    found = estimate_run(evolution, times, tol)
+    estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
-        t=found.t, errors=found.errors, horizon=found.horizon, evaluations=found.evaluations + scales.evaluations,
-        ending=found.ending, system=system, values=values, q=found.states[:, :n], v=found.states[:, n : 2 * n], tol=tol,
-        engine=engine, scales=scales, states=found.states, local=found.local, switched=h,
+        t=estimate.t, errors=estimate.errors, horizon=estimate.horizon, evaluations=estimate.evaluations + scales.evaluations,
+        ending=estimate.ending, system=system, values=values, q=estimate.states[:, :n], v=estimate.states[:, n : 2 * n], tol=tol,
+        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
-    found.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
+    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
     if system.multipliers:
         _warn_of_dependence(run)
     return run if h.smooth else _up_to_its_end(run)
@@ -197,8 +197,8 @@ def _on_constraints(system: Equations, values: Values, q0: Array, v0: Array, beg
     off = np.abs(np.concatenate([q, v]) - start).max()
     if off > _OFF * (1 + np.abs(start).max()):
         raise ConstraintError(
-            f"simulate: the start is off the constraints by {off:.3g}; the nearest state on them is q0 = {_shown(q)}, "
-            f"v0 = {_shown(v)} (system.consistent gives it)"
+            f"simulate: the start is off the constraints by {off:.3g}; the nearest state on them is q0 = {_as_text(q)}, "
+            f"v0 = {_as_text(v)} (system.consistent gives it)"
         )
     return q, v
 
@@ -227,5 +227,5 @@ def _warn_of_dependence(run: SystemRun) -> None:
         )
 
 
-def _shown(values: Sequence[float] | Array) -> str:
+def _as_text(values: Sequence[float] | Array) -> str:
     return "(" + ", ".join(f"{float(x):.12g}" for x in values) + ")"

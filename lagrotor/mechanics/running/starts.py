@@ -24,8 +24,8 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """M, g, G and G v + b."""
         with np.errstate(all="ignore"):
-            found = np.array(given.function(*np.concatenate([at, rates, rest])), float)
-        M, g, G, off = np.split(found, ends)
+            numbers = np.array(given.function(*np.concatenate([at, rates, rest])), float)
+        M, g, G, off = np.split(numbers, ends)
         return M.reshape(n, n), g, G.reshape(-1, n), off
 
     if h:
@@ -37,24 +37,24 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
 
 
 def state_vector(name: str, given: ArrayLike, n: int) -> Array:
-    found = _real(given)
-    if found is None:
+    vector = _real(given)
+    if vector is None:
         raise InputError(f"simulate: {name} = {given!r} must be {n} numbers")
-    if found.shape != (n,) or not np.isfinite(found).all():
+    if vector.shape != (n,) or not np.isfinite(vector).all():
         raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, one for each coordinate")
-    return found
+    return vector
 
 
 def increasing(where: str, given: ArrayLike) -> Array:
-    found = _real(given)
-    if found is None:
+    times = _real(given)
+    if times is None:
         raise InputError(f"{where}: t = {_short(given)} must be an array of times in s")
-    if found.ndim != 1 or not len(found) or not np.isfinite(found).all() or (np.diff(found) <= 0).any():
+    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
         raise InputError(
             f"{where}: t = {_short(given)} must be an increasing array of finite times, t[0] the time of q0 and v0: "
             "np.linspace(0, 10, 101)"
         )
-    return found
+    return times
 
 
 def _real(given: ArrayLike) -> Array | None:

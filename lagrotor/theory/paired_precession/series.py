@@ -182,22 +182,22 @@ def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Re
 
     def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
         x, Y, z, unit, pull = unknowns
-        tension = (pull + pull.half_period_later()).scaled(one / 2)  # the same bar for both rotors
+        tension = (pull + pull.half_period_later()).times(one / 2)  # the same bar for both rotors
         x2, Y2, z2 = -x.half_period_later(), Y.half_period_later(), z.half_period_later()
         xd, Yd, zd = x.derivative(), Y.derivative(), z.derivative()
         squared = frequency * frequency
 
         def inertia(first: Series, second: Series) -> Series:
             return squared * (
-                first.derivative().derivative().scaled(own) + second.derivative().derivative().scaled(shared)
+                first.derivative().derivative().times(own) + second.derivative().derivative().times(shared)
             )
 
         return [
             inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (x.constant(length) + x2),
-            inertia(Y, Y2) - frequency * (z * xd - x * zd).scaled(one / s) - unit * Y + tension * Y2,
+            inertia(Y, Y2) - frequency * (z * xd - x * zd).times(one / s) - unit * Y + tension * Y2,
             inertia(z, z2) - frequency * (x * Yd - Y * xd) - unit * z + tension * z2,
-            x * x + (Y * Y).scaled(s) + z * z - x.constant(one),
-            (x2 - x).scaled(length) + x.constant(one) - x * x2 - (Y * Y2).scaled(s) - z * z2,
+            x * x + (Y * Y).times(s) + z * z - x.constant(one),
+            (x2 - x).times(length) + x.constant(one) - x * x2 - (Y * Y2).times(s) - z * z2,
         ]
 
     return residual
