@@ -19,8 +19,9 @@ from lagrotor.algebra import agreement_order, decide_equal
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
-from lagrotor.paper.source.formula import PrintedStatement, Reading, Side, read_formula
+from lagrotor.paper.source.formula import Reading, read_formula
 from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, letters_of, sympy_expression, text_of, walk
 from lagrotor.paper.source.usage import Notation, notation_of
 

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lagrotor.paper.source.formula import PrintedStatement, Side, read_formula
+from lagrotor.paper.source.formula import read_formula
+from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 from lagrotor.paper.source.tree import Letter, Number, in_catalogue, letters_of, text_of, walk
 from lagrotor.paper.source.usage import Notation, declared_notation, notation_of

@@ -113,6 +113,50 @@ def is_vector(node: Node) -> bool:
     )
 
 
+def is_printed_zero(node: Node) -> bool:
+    return node == number(0)
+
+
+def product_of(factors: list[Node]) -> Node:
+    flat: list[Node] = []
+    for each in factors:
+        flat += each.args if isinstance(each, Call) and each.name == "product" else (each,)
+    return flat[0] if len(flat) == 1 else Call("product", tuple(flat))
+
+
+def is_numeric(node: Node) -> bool:
+    """Whether a node has no letters, or begins with a number."""
+    if isinstance(node, Call) and node.name in ("product", "quotient"):
+        return is_numeric(node.args[0]) or all(map(is_numeric, node.args))
+    return isinstance(node, Number) or (isinstance(node, Call) and all(map(is_numeric, node.args)))
+
+
+def is_matrix(node: Node) -> bool:
+    """Whether a node is a matrix: a bold capital, a matrix as it is written, a transposed one."""
+    if isinstance(node, Letter):
+        return node.vector and node.name[0].isupper() and "bold" in node.name
+    if isinstance(node, Number):
+        return False
+    if node.name == "product":
+        return any(map(is_matrix, node.args))
+    return node.name in ("matrix", "transpose", "inverse", "matmul") or (
+        node.name in ("sum", "negative") and is_matrix(node.args[0])
+    )
+
+
+def has_hat(node: Node) -> bool:
+    """Whether a node is a letter with a hat that is not marked as a vector, or a product with one."""
+    if isinstance(node, Call) and node.name == "product":
+        return any(map(has_hat, node.args))
+    return isinstance(node, Letter) and not node.vector and node.name.split("_")[0].endswith("hat")
+
+
+def is_scalar(node: Node) -> bool:
+    """Whether a node is arithmetic of letters that are no vectors, and not 0."""
+    plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
+    return plain and not is_printed_zero(node) and not any(isinstance(n, Letter) and n.vector for n in walk(node))
+
+
 def in_catalogue(node: Node) -> bool:
     """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
     calls = all(each.name in _ARITHMETIC or each.name in _CALLED for each in walk(node) if isinstance(each, Call))

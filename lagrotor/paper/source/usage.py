@@ -12,6 +12,7 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes
+from lagrotor.paper.source.rows import without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 _KEYS = ("functions", "letters", "numbers", "decimal_comma")
@@ -139,7 +140,7 @@ def _plain(row: list[Box]) -> str | None:
 
 def simple_argument(row: list[Box]) -> bool:
     """Whether what is in brackets is what functions are called with: letters, numbers and their products, a list of them."""
-    inner = [box for box in row if box.kind != "thin"]
+    inner = without_thin(row)
     kinds = {box.kind for box in inner}
     if not inner or not kinds <= {"letter", "number", "comma"}:
         return False
@@ -149,7 +150,7 @@ def simple_argument(row: list[Box]) -> bool:
 
 
 def _look(row: list[Box], found: Notation) -> None:
-    inner = [box for box in row if box.kind != "thin"]
+    inner = without_thin(row)
     for place, box in enumerate(inner):
         following = inner[place + 1] if place + 1 < len(inner) else None
         if box.kind == "letter":

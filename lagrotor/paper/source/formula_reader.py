@@ -1,0 +1,39 @@
+"""What the readers of the parts of a formula share: its source, the paper's notation, and the grammar that they call back."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+
+from lagrotor.paper.source.boxes import Box
+from lagrotor.paper.source.tree import Node
+from lagrotor.paper.source.usage import Notation
+
+
+@dataclass
+class FormulaReader(ABC):
+    """One formula that is read. guesses: what custom settled; bound: indices of the sums that are open here.
+
+    integrating, exponents: how many integrals, and powers of e, the place that is read lies in.
+    """
+
+    source: str
+    notation: Notation
+    guesses: list[str] = field(default_factory=list)
+    bound: list[str] = field(default_factory=list)
+    integrating: int = 0
+    exponents: int = 0
+
+    @abstractmethod
+    def expression(self, row: list[Box]) -> Node:
+        """The sum that a row of boxes is. Raises FormulaError where it is none."""
+
+    @abstractmethod
+    def term(self, row: list[Box]) -> Node:
+        """The product that a row of boxes is, its factors joined by signs."""
+
+    @abstractmethod
+    def product(self, row: list[Box]) -> Node:
+        """Factors side by side."""
+
+    @abstractmethod
+    def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
+        """One factor and the place behind it."""

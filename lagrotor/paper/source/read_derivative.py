@@ -1,0 +1,229 @@
+r"""Fractions and derivatives: \\frac{dx}{dt}, \\partial_x u, \\nabla f."""
+
+import re
+from dataclasses import replace
+
+from lagrotor.paper.source.boxes import BIG, Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of
+from lagrotor.paper.source.rows import (
+    derivative_mark,
+    has_differential_above,
+    is_d,
+    is_derivative_operator,
+    strip,
+    without_thin,
+)
+from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, walk
+from lagrotor.paper.source.usage import simple_argument
+
+
+def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    """dx, d^3 x."""
+    box = row[place]
+    if box.upright and box.primes:
+        raise FormulaError(box.at, "a differential has a prime", "write what it means")
+    behind = place + 1
+    while behind < len(row) and row[behind].kind == "thin":
+        behind += 1
+    if (
+        behind < len(row)
+        and row[behind].kind == "bracket"
+        and row[behind].sup is None
+        and box.upright
+        and box.sup is None
+    ):
+        return Call("differential", (reader.expression(row[behind].parts[0]),)), behind + 1
+    if (
+        box.upright
+        and "d" not in reader.notation.letters
+        and (behind >= len(row) or row[behind].kind not in ("letter", "group"))
+    ):
+        raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
+    if behind >= len(row) or row[behind].kind not in ("letter", "group") or box.primes:
+        return None
+    if "d" in reader.notation.letters or (box.sup is not None and not all(b.kind == "number" for b in box.sup)):
+        return None
+    if not box.upright and "d" in reader.notation.bare and not reader.integrating:
+        raise FormulaError(
+            box.at, "whether d is a letter or a differential is open", "write \\mathrm{d} for the differential"
+        )
+    if row[behind].kind == "group":
+        inner, behind = reader.expression(row[behind].parts[0]), behind + 1
+        return Call("differential", (inner,)), behind
+    target = row[behind]
+    node, raised = letter_of(reader, target)
+    if target.sup is not None and not raised:
+        raise FormulaError(target.at, "a differential has a power", "write brackets around it")
+    args = (node, reader.expression(box.sup)) if box.sup else (node,)
+    return Call("differential", args), behind + 1
+
+
+def read_fraction(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    box = row[place]
+    if box.sub is not None:
+        raise FormulaError(box.at, "a fraction has an index", "write it on a letter")
+    if marks := derivative_mark(box):
+        return _derivative(reader, row, place, marks)
+    over, under = (reader.expression(part) for part in box.parts)
+    if any(map(is_differential, walk(under))) and not any(map(is_differential, walk(over))):
+        raise FormulaError(box.at, "a differential stands below and none above", "write \\frac{d f}{d x}")
+    if is_vector(under):
+        raise FormulaError(box.at, "a vector is divided by", "write its length")
+    return power_of(reader, Call("quotient", (over, under)), box), place + 1
+
+
+def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
+    box = row[place]
+    over, under = (without_thin(part) for part in box.parts)
+    order = _order(reader, over[0])
+    variables = _variables(reader, under, mark)
+    if sum(n for _, n in variables) != order:
+        raise FormulaError(box.at, "the orders of the derivative differ", "write the same order above and below")
+    operand = over[1:]
+    behind = place + 1
+    if operand:
+        node = reader.expression(operand)
+    else:
+        node, behind = _operand(reader, row, behind, box)
+    if len(variables) == 1 and mark != "partial":
+        made = total_derivative_of(reader, node, variables[0][0], order, box)
+    else:
+        made = node
+        for variable, times in variables:
+            made = Call("Derivative", (made, variable, *([number(times)] if times > 1 else [])))
+    return (power_of(reader, made, box) if operand else made), behind
+
+
+def _order(reader: FormulaReader, box: Box) -> int:
+    if box.sup is None:
+        return 1
+    if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name.isdigit():
+        return int(box.sup[0].name)
+    raise FormulaError(box.at, "the order of the derivative is no number", "write a number")
+
+
+def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple[Node, int]]:
+    found: list[tuple[Node, int]] = []
+    place = 0
+    while place < len(under):
+        if not is_d(under[place], mark) or place + 1 >= len(under) or under[place + 1].kind not in ("letter", "group"):
+            raise FormulaError(under[place].at, "what is differentiated by is not clear", "write \\frac{d f}{d x}")
+        target = under[place + 1]
+        if target.kind == "group":
+            variable, times = reader.expression(target.parts[0]), _order(reader, target)
+        else:
+            marked = mark_of(reader, target) is not None
+            variable = letter_of(reader, target if marked else replace(target, sup=None))[0]
+            times = 1 if marked else _order(reader, target)
+        found.append((variable, times))
+        place += 2
+    return found
+
+
+def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tuple[Node, int]:
+    """What a derivative without an operand above acts on: what follows."""
+    rest = strip(row[place:])
+    if not rest or rest[0].kind == "operator":
+        raise FormulaError(box.at, "the derivative has nothing to act on", "write what is differentiated")
+    node, behind = reader.factor(rest, 0)
+    remaining = without_thin(rest[behind:])
+    if not remaining:
+        return node, len(row)
+    if rest[0].kind == "bracket":
+        reader.guesses.append("a derivative acts on the bracket that follows it, not on what is behind")
+        return node, len(row) - len(rest) + behind
+    if any(b.kind == "fraction" and derivative_mark(b) for b in rest):
+        raise FormulaError(
+            box.at, "how far the derivative reaches is open", "write brackets around what is differentiated"
+        )
+    reader.guesses.append("a derivative acts on the whole product that follows it")
+    return reader.product(rest), len(row)
+
+
+def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order: int, box: Box) -> Node:
+    r"""dx/dt as \dot x."""
+    if variable == Letter("t") and isinstance(node, Letter) and order <= 2:
+        dots = re.search(r"_(d*)dot$", node.name)
+        total = order + (len(dots[1]) + 1 if dots else 0)
+        if total <= 2:
+            stem = node.name[: dots.start()] if dots else node.name
+            return Letter(f"{stem}_{'d' * (total - 1)}dot", node.vector)
+    if variable == Letter("t") and order == 1 and not isinstance(node, Letter):
+        return Call("rate", (node,))
+    return Call("Derivative", (node, variable, *([number(order)] if order > 1 else [])))
+
+
+def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    r"""\partial_x f, \partial_t^2 u."""
+    box = row[place]
+    if box.sub is None:
+        raise FormulaError(
+            box.at, "what ∂ differentiates by is missing", "write \\partial_x or \\frac{\\partial f}{\\partial x}"
+        )
+    if len(box.sub) != 1 or box.sub[0].kind != "letter":
+        raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
+    order = _order(reader, box)
+    variable = letter_of(reader, box.sub[0])[0]
+    node, behind = _operand(reader, row, place + 1, box)
+    return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
+
+
+def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    r"""\nabla f, \nabla^2 f; with \cdot and \times it is not read here."""
+    box = row[place]
+    if box.sub is not None:
+        raise FormulaError(box.at, "∇ has an index", "write the derivative")
+    if place + 1 >= len(row) or row[place + 1].kind == "operator":
+        raise FormulaError(box.at, "∇ with a product is not read", "write the components")
+    node, behind = _operand(reader, row, place + 1, box)
+    if box.sup is not None:
+        if _order(reader, box) != 2:
+            raise FormulaError(box.at, "a power of ∇ is not read", "write the derivatives")
+        return Call("laplacian", (node,)), behind
+    if is_vector(node):
+        raise FormulaError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
+    return Call("gradient", (node,)), behind
+
+
+def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: int) -> int:
+    r"""\frac{dx}{dt}(t): the bracket is the derivative's own argument."""
+    box, bracket = row[place], row[behind]
+    mark = derivative_mark(box)
+    if not mark or len(without_thin(box.parts[0])) == 1 or bracket.name != "(" or not simple_argument(bracket.parts[0]):
+        return behind
+    variables = _variables(reader, without_thin(box.parts[1]), mark)
+    if len(bracket.parts[0]) == 1 and reader.expression(bracket.parts[0]) == variables[0][0]:
+        return behind + 1
+    raise FormulaError(
+        bracket.at, "whether a derivative is taken there or multiplied is open", "write |_{t = 0} or \\cdot"
+    )
+
+
+def is_open_integral(part: list[Box]) -> bool:
+    """Whether an integral's differential is still to come: the sign belongs to what is integrated."""
+    opened = 0
+    for place, box in enumerate(part):
+        if box.kind == "big" and BIG.get(box.name, "") == "Integral":
+            opened += 1
+        elif opened and (
+            has_differential_above(box) or ((box.kind, box.name) == ("letter", "d") and place + 1 < len(part))
+        ):
+            opened -= 1
+    return opened > 0
+
+
+def in_integral(reader: FormulaReader, part: list[Box]) -> bool:
+    return any(b.kind == "big" for b in part) or bool(
+        part and part[0].kind == "fraction" and is_derivative_operator(part[0]) and len(part) == 1
+    )
+
+
+def is_differential(node: Node) -> bool:
+    return isinstance(node, Call) and node.name == "differential"
+
+
+def differential_of(node: Node) -> Node | None:
+    if isinstance(node, Call) and node.name == "differential" and len(node.args) == 1:
+        return node.args[0]
+    return None

@@ -1,0 +1,266 @@
+r"""Sums and products: which sign joins what; \\cdot and \\times of vectors and of numbers."""
+
+from lagrotor.paper.source.boxes import Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_bracket import (
+    read_accent,
+    read_binomial,
+    read_bracket,
+    read_cases,
+    read_group,
+    read_infinity,
+    read_matrix,
+    read_root,
+)
+from lagrotor.paper.source.read_derivative import (
+    at_its_variable,
+    differential_of,
+    in_integral,
+    is_open_integral,
+    read_fraction,
+    read_nabla,
+    read_partial,
+    total_derivative_of,
+)
+from lagrotor.paper.source.read_function import read_function
+from lagrotor.paper.source.read_letter import is_called, read_letter
+from lagrotor.paper.source.read_number import read_number, read_unit
+from lagrotor.paper.source.read_sum import read_sum
+from lagrotor.paper.source.rows import ends_with_bracket, pair_bars, refuse_words, strip
+from lagrotor.paper.source.tree import (
+    Call,
+    Node,
+    has_hat,
+    is_matrix,
+    is_numeric,
+    is_printed_zero,
+    is_vector,
+    product_of,
+)
+
+_FACTORS = {
+    "number": read_number, "unit": read_unit, "letter": read_letter, "bracket": read_bracket, "group": read_group,
+    "root": read_root, "binomial": read_binomial, "infinity": read_infinity, "accent": read_accent, "matrix": read_matrix,
+    "cases": read_cases, "fraction": read_fraction, "partial": read_partial, "nabla": read_nabla, "function": read_function,
+    "big": read_sum,
+}  # fmt: skip
+
+
+class Grammar(FormulaReader):
+    """Sums of products of factors."""
+
+    def expression(self, row: list[Box]) -> Node:
+        """The sum that a row of boxes is. Raises FormulaError where it is none."""
+        row = pair_bars(strip(row))
+        if not row:
+            raise FormulaError(0, "nothing stands here", "write what is meant")
+        terms: list[tuple[str, list[Box]]] = []
+        sign = "+"
+        part: list[Box] = []
+        for place, box in enumerate(row):
+            if box.kind == "operator" and box.name in ("+", "-", "pm", "mp"):
+                if not part:
+                    if terms or (place and not (sign == "+" and not terms)):
+                        raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
+                    sign = box.name
+                    continue
+                if part[-1].kind == "operator" and part[-1].name != "!":
+                    if box.name in ("+", "-") and part[-1].name in ("cdot", "times"):
+                        part.append(box)  # a factor with its sign: 3 \cdot -2
+                        continue
+                    raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
+                if is_open_integral(part):
+                    part.append(box)
+                    continue
+                terms.append((sign, part))
+                sign, part = box.name, []
+            else:
+                part.append(box)
+        if not strip(part):
+            raise FormulaError(row[-1].at, "nothing follows the sign", "write what is added")
+        terms.append((sign, part))
+        if any(p and p[0].kind == "dots" for _, p in terms):
+            raise FormulaError(row[0].at, "dots stand for terms", "write them, or as a sum")
+        return _added(self, terms)
+
+    def term(self, row: list[Box]) -> Node:
+        """The product that a row of boxes is."""
+        row = list(row)
+        if row and row[-1].kind == "operator" and row[-1].name != "!":
+            raise FormulaError(row[-1].at, f"nothing follows {row[-1].name}", "write the second factor")
+        groups: list[tuple[str, list[Box]]] = [("", [])]
+        for box in row:
+            if (
+                box.kind == "operator"
+                and box.name in ("cdot", "times", "/", "*")
+                and not in_integral(self, groups[-1][1])
+            ):
+                if not strip(groups[-1][1]):
+                    raise FormulaError(box.at, f"nothing is before {box.name}", "write the first factor")
+                groups.append((box.name, []))
+            else:
+                groups[-1][1].append(box)
+        made: Node | None = None
+        for place, (operator, part) in enumerate(groups):
+            more = place + 1 < len(groups)
+            made = _joined(self, made, operator, part, more, groups[place - 1][1] if place else [])
+        assert made is not None
+        return made
+
+    def product(self, row: list[Box]) -> Node:
+        """Factors side by side."""
+        row = strip(row)
+        if not row:
+            raise FormulaError(0, "a factor is missing", "write it")
+        refuse_words(row)
+        factors: list[Node] = []
+        place = 0
+        while place < len(row):
+            if row[place].kind == "thin":
+                place += 1
+                continue
+            _numbers_apart(row, place)
+            node, behind = self.factor(row, place)
+            if row[place].kind == "fraction" and behind < len(row) and row[behind].kind == "bracket":
+                behind = at_its_variable(self, row, place, behind)
+            factors.append(node)
+            place = behind
+        if sum(map(is_vector, factors)) > 1:
+            return _matrices(self, factors, row)
+        return product_of(factors)
+
+    def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
+        """One factor and the place behind it."""
+        box = row[place]
+        reader = _FACTORS.get(box.kind)
+        if reader is None:
+            raise FormulaError(
+                box.at, f"{self.source[box.at : box.end] or box.name} is not read here", "write what it stands for"
+            )
+        if box.kind in ("infinity", "root", "binomial") and (
+            box.sub is not None or (box.sup and box.kind == "infinity")
+        ):
+            raise FormulaError(box.at, f"{self.source[box.at : box.end]} has an index", "give it a letter of its own")
+        node, behind = reader(self, row, place)
+        while behind < len(row) and row[behind].kind == "operator" and row[behind].name == "!":
+            node, behind = Call("factorial", (node,)), behind + 1
+        return node, behind
+
+
+def _added(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> Node:
+    made: list[Node] = []
+    for sign, part in terms:
+        term = reader.term(part)
+        if sign == "-":
+            term = Call("negative", (term,))
+        elif sign in ("pm", "mp"):
+            rest = made and (made[0] if len(made) == 1 else Call("sum", tuple(made)))
+            term = Call("plus_minus" if sign == "pm" else "minus_plus", (rest, term) if rest else (term,))
+            made = []
+        made.append(term)
+    if len(made) == 1:
+        return made[0]
+    _check_sums(reader, terms)
+    kinds = {is_vector(each) for each in made if not is_printed_zero(each)}
+    if len(kinds) > 1 and not any(isinstance(n, Call) and n.name == "order" for n in made):
+        raise FormulaError(terms[1][1][0].at, "a vector and a number are added", "mark the vectors alike")
+    return Call("sum", tuple(made))
+
+
+def _check_sums(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> None:
+    """A term behind a sum that has its index: whether the sum ends before it is not clear."""
+    indices: set[str] = set()
+    for _, part in terms:
+        indexed = any(b.kind == "letter" and b.sub and any(s.name in indices for s in b.sub) for b in part)
+        if indexed and not any(b.kind == "big" for b in part):
+            raise FormulaError(part[0].at, "whether the sum ends here is open", "write brackets around what is summed")
+        for box in part:
+            if box.kind == "big" and box.name in ("sum", "prod") and box.sub:
+                indices |= {s.name for s in box.sub if s.kind == "letter"}
+
+
+def _joined(
+    reader: FormulaReader, made: Node | None, operator: str, part: list[Box], more: bool, before: list[Box]
+) -> Node:
+    if operator == "/":
+        part = strip(part)
+        right = reader.product(part)
+        factors = _count(reader, part)
+        assert made is not None
+        if factors > 1:
+            raise FormulaError(part[0].at, "what the slash divides by is open", "write \\frac or brackets")
+        if len([b for b in before if b.kind == "function"]) and not ends_with_bracket(before):
+            raise FormulaError(part[0].at, "whether the slash is within the function is open", "write brackets")
+        if is_vector(right):
+            raise FormulaError(part[0].at, "a vector is divided by", "write its length")
+        differentials = [differential_of(each) for each in (made, right)]
+        if all(differentials):
+            return total_derivative_of(reader, differentials[0], differentials[1], 1, part[0])  # type: ignore[arg-type]
+        return Call("quotient", (made, right))
+    sign = None
+    if part and part[0].kind == "operator" and part[0].name in ("+", "-"):
+        sign, part = part[0].name, part[1:]
+    right = reader.product(strip(part))
+    if sign == "-":
+        right = Call("negative", (right,))
+    if made is None:
+        return right
+    return _vector_product(made, operator, right, part[0].at, before)
+
+
+def _vector_product(made: Node, operator: str, right: Node, at: int, before: list[Box]) -> Node:
+    """Two factors joined by a dot, a cross or a star, of vectors or of numbers."""
+    left_vector, right_vector = is_vector(made), is_vector(right)
+    if left_vector and right_vector:
+        if operator not in ("cdot", "times"):
+            raise FormulaError(at, "two vectors are multiplied by *", "write \\cdot or \\times")
+        if operator == "times" and isinstance(made, Call) and made.name == "cross" and not ends_with_bracket(before):
+            raise FormulaError(at, "which × comes first is open", "write brackets")
+        return Call("dot" if operator == "cdot" else "cross", (made, right))
+    if operator == "cdot" and (left_vector or has_hat(made)) and (right_vector or has_hat(right)):
+        raise FormulaError(at, "whether a letter with a hat is a vector is open", "write \\hat{\\mathbf n}")
+    if operator == "times" and not (is_numeric(made) or is_numeric(right)):
+        raise FormulaError(at, "whether × is of vectors or of numbers is open", "mark the vectors, or write \\cdot")
+    return product_of([made, right])
+
+
+def _count(reader: FormulaReader, part: list[Box]) -> int:
+    """How many factors stand there: of dx one, of f(x) one."""
+    count = place = 0
+    while place < len(part):
+        box = part[place]
+        if box.kind == "thin":
+            return 2 if place + 1 < len(part) else count
+        if box.kind == "letter" and box.name in ("d", "delta", "Delta") and place + 1 < len(part):
+            place += 1
+        elif box.kind == "function":
+            return count + 1 if place == 0 else 2
+        elif box.kind == "bracket" and place and part[place - 1].kind == "letter":
+            count -= is_called(reader, part[place - 1], box) is True
+        count += 1
+        place += 1
+    return count
+
+
+def _matrices(reader: FormulaReader, factors: list[Node], row: list[Box]) -> Node:
+    """Matrices times vectors, side by side; two vectors side by side are not read."""
+    scalars = [each for each in factors if not is_vector(each)]
+    others = [each for each in factors if is_vector(each)]
+    if not all(map(is_matrix, others[:-1])):
+        raise FormulaError(row[0].at, "two vectors stand side by side", "write \\cdot or \\times between them")
+    made = Call("matmul", tuple(others))
+    return product_of([*scalars, made])
+
+
+def _numbers_apart(row: list[Box], place: int) -> None:
+    """Numbers side by side are groups of digits, or not read."""
+    before, box = row[place - 1] if place else None, row[place]
+    if before is None:
+        return
+    if box.kind == "number" and before.kind == "number":
+        raise FormulaError(box.at, "two numbers stand side by side", "write \\cdot between them")
+    if box.kind == "number" and before.kind in ("letter", "root", "group"):
+        raise FormulaError(box.at, "a number stands behind a letter", "write it first, or braces where it is a script")
+    parts = [each for part in box.parts for each in part] if box.kind == "fraction" else []
+    if before.kind == "number" and before.sup is None and parts and all(each.kind == "number" for each in parts):
+        raise FormulaError(box.at, "whether a mixed number or a product is meant is open", "write \\cdot between them")

@@ -1,0 +1,150 @@
+r"""Functions by name, \\sin and \\ln, and how far an argument without brackets reaches."""
+
+from dataclasses import replace
+
+from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_letter import is_called
+from lagrotor.paper.source.read_scripts import mark_of
+from lagrotor.paper.source.rows import is_moving
+from lagrotor.paper.source.tree import Call, Node, number
+from lagrotor.paper.source.usage import arguments
+
+_ANGLES = ("theta", "phi", "varphi", "psi", "alpha", "beta", "vartheta", "gamma", "chi")
+_ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
+
+
+def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    box = row[place]
+    name = FUNCTIONS.get(box.name, box.name)
+    if name in ("max", "min", "sup", "inf") and box.sub is not None:
+        raise FormulaError(box.at, f"{box.name} over a set is not read", "write its value")
+    inner, behind = _argument(reader, row, place)
+    node = _applied(reader, name, box, inner)
+    if box.sup is None:
+        return node, behind
+    power = reader.expression(box.sup)
+    if power == Call("negative", (number(1),)):
+        inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
+        if name not in inverse:
+            raise FormulaError(box.at, f"whether {box.name}^{{-1}} is the inverse function is open", "write a fraction")
+        reader.guesses.append(f"{box.name}^{{-1}} is the inverse function")
+        return _applied(reader, inverse[name], replace(box, sup=None), inner), behind
+    return Call("power", (node, power)), behind
+
+
+def _applied(reader: FormulaReader, name: str, box: Box, inner: tuple[Node, ...]) -> Node:
+    if name == "log10" or (name == "log" and box.sub):
+        base = reader.expression(box.sub) if box.sub else number(10)
+        return Call("quotient", (Call("log", inner), Call("log", (base,))))
+    if box.sub is not None:
+        raise FormulaError(box.at, f"{box.name} has an index", "write what it means")
+    if box.name == "log":
+        reader.guesses.append("log is the natural logarithm")
+    if name == "det" or name in ("tr", "Tr"):
+        return Call(name.lower(), inner)
+    return Call(name, inner)
+
+
+def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
+    """The arguments of a function: a bracket, or what follows it as custom has it."""
+    behind = place + 1
+    while behind < len(row) and row[behind].kind == "thin":
+        behind += 1
+    if behind >= len(row):
+        raise FormulaError(row[place].at, f"{row[place].name} has no argument", "write it in brackets")
+    first = row[behind]
+    if first.kind == "bracket" and first.name in ("(", "[", r"\{"):
+        if first.sup is not None:
+            raise FormulaError(
+                first.at, "whether the power is of the argument or of the function is open", "write brackets"
+            )
+        parts = [reader.expression(p) for p in arguments(first.parts[0])]
+        return tuple(parts), behind + 1
+    end = _reach(reader, row, behind, row[place])
+    for box in row[behind:end]:
+        if box.sup is not None and mark_of(reader, box) is None:
+            raise FormulaError(
+                box.at, "whether the power is of the argument or of the function is open", "write brackets"
+            )
+    if row[behind].kind == "function":
+        node, end = reader.factor(row, behind)
+        return (node,), end
+    return (reader.product(row[behind:end]),), end
+
+
+def _reach(reader: FormulaReader, row: list[Box], start: int, function: Box) -> int:
+    """Where the argument of a function without brackets ends."""
+    end = start
+    while end < len(row) and row[end].kind in ("number", "letter", "fraction", "root", "group", "thin"):
+        if row[end].kind == "thin" and end > start:
+            break
+        end += 1
+    run = row[start:end]
+    after = next((b for b in row[end:] if b.kind != "thin"), None)
+    if not run:
+        raise FormulaError(row[start].at, f"the argument of {function.name} is not clear", "write it in brackets")
+    while run and run[-1].kind == "letter" and after is not None and after.kind == "bracket" and len(run) > 1:
+        break
+    if len(run) == 1:
+        _after_one(reader, run[0], row, end, function)
+        return end
+    if run[0].kind == "number" and len(run) == 2 and run[1].kind == "letter" and not is_moving(run[1]):
+        return end
+    return start + _within(reader, run, function)
+
+
+def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, function: Box) -> None:
+    """One thing behind a function; what follows a thin space is another factor where it is plain that it is."""
+    after = next((b for b in row[end:] if b.kind != "thin"), None)
+    if after is None or after.kind in (*_ENDING, "function", "big"):
+        return
+    if after.kind == "bracket" and only.kind == "letter":
+        if is_called(reader, only, after):
+            raise FormulaError(
+                after.at,
+                f"whether the bracket belongs to the argument of {function.name} is open",
+                "write brackets",
+            )
+        if after.name == "(" and only.name not in _ANGLES and only.name not in reader.notation.angles:
+            raise FormulaError(
+                after.at,
+                f"whether the bracket belongs to the argument of {function.name} is open",
+                "write brackets",
+            )
+        reader.guesses.append(f"the argument of {function.name} ends before the bracket")
+        return
+    if only.kind == "letter" and (only.name in _ANGLES or only.name in reader.notation.angles or is_moving(after)):
+        reader.guesses.append(f"the argument of {function.name} is {only.name} alone")
+        return
+    if only.kind in ("fraction", "group") and is_moving(after):
+        return
+    raise FormulaError(after.at, f"where the argument of {function.name} ends is open", "write it in brackets")
+
+
+def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
+    """How many of the factors behind a function are its argument."""
+    moving = next((n for n, b in enumerate(run) if n and is_moving(b)), len(run))
+    kept = run[:moving]
+    if moving < len(run):
+        if len(kept) == 1 or (kept[0].kind == "number" and len(kept) == 2):
+            reader.guesses.append(f"the argument of {function.name} ends before what moves")
+            return moving
+        raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
+    letters = [b for b in kept if b.kind == "letter"]
+    if len(letters) == len(kept) or (kept[0].kind in ("number", "fraction") and len(letters) == len(kept) - 1):
+        first = letters[0].name if letters else ""
+        ends = letters and letters[-1].name in ("t", "tau", "x", "y", "z", "s", "theta", "phi", "varphi")
+        begins = first not in reader.notation.angles and first not in (
+            *_ANGLES[:4],
+            "vartheta",
+            "x",
+            "y",
+            "z",
+            "r",
+            "t",
+        )
+        if ends and begins and (len(letters) <= 2 or kept[0].kind == "number"):
+            reader.guesses.append(f"the argument of {function.name} is the product that follows it")
+            return len(run)
+    raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")

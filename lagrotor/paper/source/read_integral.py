@@ -1,0 +1,142 @@
+"""Integrals: from the sign to the differential; terms with as many differentials on each side."""
+
+import re
+
+from lagrotor.paper.source.boxes import BIG, Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_derivative import is_differential, read_differential
+from lagrotor.paper.source.rows import derivative_mark, without_thin
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
+
+
+def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    """From the sign to its differential."""
+    box = row[place]
+    rest = row[place + 1 :]
+    reader.integrating += 1
+    try:
+        end, before = _differential_at(reader, rest, box)
+        if before:  # \int dx f(x): the differential comes first
+            variable = read_differential(reader, without_thin(rest), 0)
+            assert variable is not None
+            inner_row = without_thin(rest)[variable[1] :]
+            inner: Node = reader.expression(inner_row) if inner_row else number(1)
+            differential, behind = variable[0], len(row)
+        else:
+            inner, differential = _taken_out(reader.expression(rest[:end]), box)
+            behind = place + 1 + end
+    finally:
+        reader.integrating -= 1
+    assert isinstance(differential, Call)
+    bounds: list[Node] = []
+    if box.sub is not None and box.sup is not None:
+        bounds = [reader.expression(box.sub), reader.expression(box.sup)]
+    elif box.sub is not None or box.sup is not None:
+        bounds = [Letter("over_" + "_".join(re.findall(r"\w+", reader.source[(box.sub or box.sup)[0].at : box.end])))]  # type: ignore[index]
+    variable_of = differential.args[0] if len(differential.args) == 1 else differential
+    return Call("Integral", (inner, variable_of, *bounds)), behind
+
+
+def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[int, bool]:
+    """Where the integral's differential ends, and whether it comes first."""
+    inner = 0
+    first = next((k for k, b in enumerate(rest) if b.kind != "thin"), None)
+    for place, each in enumerate(rest):
+        if each.kind == "big" and BIG.get(each.name) == "Integral":
+            inner += 1
+        is_d = (
+            each.kind == "letter" and each.name == "d" and place + 1 < len(rest) and not each.marks and each.sub is None
+        )
+        if is_d:
+            target = place + 1
+            while target < len(rest) and rest[target].kind == "thin":
+                target += 1
+            if target >= len(rest) or rest[target].kind not in ("letter", "group"):
+                continue
+            if inner:
+                inner -= 1
+                continue
+            if place == first and any(b.kind not in ("thin",) for b in rest[target + 1 :]):
+                return target + 1, True
+            behind = without_thin(rest[target + 1 :])
+            if behind and behind[0].kind == "letter" and behind[0].name == "d":
+                raise FormulaError(
+                    behind[0].at,
+                    "two differentials follow one integral",
+                    "write as many integrals as differentials",
+                )
+            return target + 1, False
+        if (
+            each.kind == "fraction"
+            and not derivative_mark(each)
+            and any(b.kind == "letter" and b.name == "d" for b in each.parts[0])
+        ):
+            if inner:
+                inner -= 1
+                continue
+            return place + 1, False
+    raise FormulaError(box.at, "the differential of the integral is missing", "write d and its letter")
+
+
+def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
+    """What is integrated, and the differential that is a factor of it."""
+    if isinstance(node, Call):
+        if node.name == "differential":
+            return number(1), node
+        if node.name == "negative":
+            inner, found = _taken_out(node.args[0], box)
+            return Call("negative", (inner,)), found
+        if node.name == "quotient":
+            inner, found = _taken_out(node.args[0], box)
+            return Call("quotient", (inner, node.args[1])), found
+        if node.name == "product":
+            for place, each in enumerate(node.args):
+                if _holds(each):
+                    inner, found = _taken_out(each, box)
+                    rest = [*node.args[:place], *([] if inner == number(1) else [inner]), *node.args[place + 1 :]]
+                    return product_of(rest or [number(1)]), found
+        if node.name == "sum" and _holds(node.args[-1]):
+            inner, found = _taken_out(node.args[-1], box)
+            return Call("sum", (*node.args[:-1], inner)), found
+        if node.name in ("dot", "cross") and _holds(node.args[-1]) and not _vector_differential(node.args[-1]):
+            inner, found = _taken_out(node.args[-1], box)
+            return Call(node.name, (*node.args[:-1], inner)), found
+        if node.name in ("dot", "cross") and _holds(node.args[-1]):
+            differential = next(
+                each for each in walk(node.args[-1]) if isinstance(each, Call) and each.name == "differential"
+            )
+            return node, differential
+    raise FormulaError(box.at, "the differential is no factor of what is integrated", "write it at the end")
+
+
+def _vector_differential(node: Node) -> bool:
+    """Whether the differential is of a vector, as in F·dr."""
+    return any(is_differential(each) and is_vector(each) for each in walk(node))
+
+
+def _holds(node: Node) -> bool:
+    return isinstance(node, Call) and (
+        node.name == "differential"
+        or (node.name in ("product", "quotient", "negative", "sum") and any(map(_holds, node.args)))
+    )
+
+
+def differential_degree(node: Node, at: int) -> int:
+    """How many differentials its terms have as factors. Raises FormulaError where the terms of a sum have not as many."""
+    if not isinstance(node, Call):
+        return 0
+    if node.name == "differential":
+        return 1
+    degrees = [differential_degree(each, at) for each in node.args]
+    if node.name in ("product", "dot", "cross", "matmul"):
+        return sum(degrees)
+    if node.name == "quotient":
+        return degrees[0] - degrees[1]
+    if node.name == "power" and isinstance(node.args[1], Number):
+        return int(degrees[0] * node.args[1].value)
+    if node.name in ("sum", "plus_minus", "minus_plus", "column"):
+        terms = {d for d, each in zip(degrees, node.args, strict=True) if not is_printed_zero(each)}
+        if len(terms) > 1:
+            raise FormulaError(at, "a differential stands in one term only", "write what is added in each")
+        return terms.pop() if terms else 0
+    return degrees[0] if node.name in ("negative", "Sum", "Abs", "norm", "sqrt", "transpose") and degrees else 0

@@ -1,0 +1,206 @@
+r"""Letters: as quantities, as functions before a bracket, and those that custom gives a meaning: e, i, d, \\Delta."""
+
+from dataclasses import replace
+
+from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_derivative import read_differential
+from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
+from lagrotor.paper.source.rows import strip, without_thin
+from lagrotor.paper.source.tree import Call, Letter, Node, number
+from lagrotor.paper.source.usage import arguments, index_of, name_of, simple_argument
+
+_ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
+
+
+def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    """A letter that may be a sign: d, Δ, e, i, π."""
+    box = row[place]
+    if box.marks or box.sub is not None:
+        return None
+    if box.name == "d" and not box.style:
+        return read_differential(reader, row, place)
+    if box.name in ("delta", "Delta") and box.sup is None:
+        return _difference(reader, row, place)
+    if box.name == "e" and not box.style and not box.primes and _euler(reader, box):
+        return _exponential(reader, box), place + 1
+    if box.name in ("i", "j", "imath") and not box.style:
+        return power_of(reader, _imaginary(reader, box), box), place + 1
+    if box.name == "pi" and not box.primes and not _may_call(row, place):
+        return power_of(reader, Letter("pi"), box), place + 1
+    return None
+
+
+def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    box = row[place]
+    if (special := _special(reader, row, place)) is not None:
+        return special
+    if _may_call(row, place):
+        called = is_called(reader, box, row[place + 1])
+        if called is None:
+            raise FormulaError(
+                box.at,
+                f"whether {box.name}(…) is a function or a product is open",
+                f'write \\cdot, or in paper.toml [notation] functions = "{box.name}" or letters = "{box.name}"',
+            )
+        if called:
+            return _call(reader, box, row[place + 1]), place + 2
+    if place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "[":
+        inside = row[place + 1].parts[0]
+        if (
+            box.sup is None
+            and not any(b.kind == "operator" for b in inside[1:])
+            and not any(b.kind == "comma" for b in inside)
+        ):
+            raise FormulaError(
+                box.at,
+                f"whether {box.name}[…] is a functional or a product is open",
+                "write \\cdot, or round brackets",
+            )
+    if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
+        after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
+        if after is not None and after.kind not in _ENDING:
+            raise FormulaError(
+                box.at,
+                f"whether {box.name} acts on what follows is open",
+                f"write \\operatorname{{{box.name}}}(…) or \\cdot",
+            )
+    node, raised = letter_of(reader, box)
+    return (node if raised else power_of(reader, node, box)), place + 1
+
+
+def _may_call(row: list[Box], place: int) -> bool:
+    return place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "("
+
+
+def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
+    """Whether a letter before a bracket is a function; None where that is open."""
+    known, content = reader.notation, bracket.parts[0]
+    key = name_of(box, index_of(box) or ())
+    plain = name_of(
+        replace(box, primes=0, marks=tuple(m for m in box.marks if not m.endswith("dot"))), index_of(box) or ()
+    )
+    if {box.name, key, plain} & known.functions:
+        return True
+    if {box.name, key, plain} & known.letters:
+        return False
+    if any(b.kind == "comma" and b.name != "." for b in content) or box.name == "O":
+        return True
+    evidence = known.called.get(key, known.called.get(plain))
+    top = without_thin(content)
+    several = any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in top[1:])
+    if box.sup is not None and mark_of(reader, box) is None:
+        return False if several else None if evidence else (False if not simple_argument(content) else None)
+    if any(b.kind == "relation" for b in top):
+        return None
+    if simple_argument(content) and bracket.sup is None:
+        return True if evidence is not None or any(b.kind == "letter" for b in top) else None
+    if evidence is None:
+        late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
+        if not late and any(b.kind == "letter" and b.name == "t" for b in top):  # γ(x - vt), g(x + ct)
+            reader.guesses.append(f"{box.name}(…) is a product")
+        return None if late or box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
+    own = {b.name for b in top if b.kind == "letter"}
+    if several:
+        return True if own & evidence and key not in known.bare else None
+    if bracket.sup is not None:
+        return None
+    return True if own & evidence or (not own and any(b.kind == "number" for b in top)) else None
+
+
+def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
+    """A function of its arguments; x(t) is the letter x."""
+    given = [reader.expression(part) for part in arguments(bracket.parts[0]) if strip(part)]
+    if box.name == "O" or (box.name == "o" and not box.sub):
+        return Call("order", tuple(given))
+    if not given:
+        raise FormulaError(bracket.at, "a function has no argument", "write it")
+    named, raised = letter_of(reader, box)
+    name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())
+    if tuple(given) == (Letter("t"),) and not (reader.notation.called.get(name, {"t"}) - {"t"}):
+        node: Node = named
+    else:
+        node = Call(f"{name}", tuple(given))
+    if not raised:
+        node = power_of(reader, node, box)
+    return power_of(reader, node, bracket)
+
+
+def _euler(reader: FormulaReader, box: Box) -> bool:
+    """Whether e is Euler's number here."""
+    known = reader.notation
+    if "e" in known.letters:
+        return False
+    if "e" in known.numbers or box.upright:
+        return True
+    if box.sup is None:
+        return False
+    symbolic = any(b.kind == "letter" or b.parts for b in box.sup)
+    if not symbolic:
+        if known.exponential and "e" not in known.bare:
+            raise FormulaError(
+                box.at, "whether e is Euler's number is open", 'write in paper.toml [notation] numbers = "e"'
+            )
+        reader.guesses.append("e is a letter, not Euler's number")
+        return False
+    if "e" in known.bare:
+        raise FormulaError(
+            box.at,
+            "whether e is Euler's number is open",
+            'write in paper.toml [notation] numbers = "e" or letters = "e"',
+        )
+    reader.guesses.append("e is Euler's number")
+    return True
+
+
+def _exponential(reader: FormulaReader, box: Box) -> Node:
+    if box.sup is None:
+        return Call("exp", (number(1),))
+    reader.exponents += 1
+    power = reader.expression(box.sup)
+    reader.exponents -= 1
+    return Call("exp", (power,))
+
+
+def _imaginary(reader: FormulaReader, box: Box) -> Node:
+    """i where it is no index."""
+    known = reader.notation
+    if box.name in reader.bound or box.name in known.letters or (box.name == "j" and box.name not in known.numbers):
+        return Letter(name_of(box))
+    if box.name in known.numbers or (box.upright and box.name == "i"):
+        return Letter("imaginary_unit")
+    if known.imaginary and box.name == "i" and (reader.exponents or "i" not in known.lowered):
+        reader.guesses.append("i is the imaginary unit")
+        return Letter("imaginary_unit")
+    raise FormulaError(
+        box.at,
+        f"whether {box.name} is the imaginary unit is open",
+        f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"',
+    )
+
+
+def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    r"""\Delta x, \delta x as one letter."""
+    box = row[place]
+    behind = place + 1
+    if behind >= len(row) or box.primes or box.name in reader.notation.letters:
+        return None
+    if row[behind].kind != "letter":
+        if row[behind].kind in ("bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root"):
+            raise FormulaError(
+                box.at,
+                f"whether \\{box.name} is a factor or a difference is open",
+                f'write in paper.toml [notation] letters = "{box.name}"',
+            )
+        return None
+    if box.name in reader.notation.bare:
+        raise FormulaError(
+            box.at,
+            f"whether \\{box.name} is a factor or a difference is open",
+            f'write in paper.toml [notation] letters = "{box.name}"',
+        )
+    node, raised = letter_of(reader, row[behind])
+    assert isinstance(node, Letter)
+    reader.guesses.append(f"{box.name} {row[behind].name} is one quantity, a difference")
+    letter = Letter(f"{box.name}_{node.name}", node.vector)
+    return (letter if raised else power_of(reader, letter, row[behind])), behind + 1

@@ -1,0 +1,93 @@
+"""Numbers, with their unit, percent sign or degrees."""
+
+import re
+from fractions import Fraction
+
+from lagrotor.paper.source.boxes import Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_scripts import power_of
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, number, product_of
+
+_MOST_DIGITS = 1000
+_UNIT_WORDS = "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc"
+_UNIT_LETTERS = frozenset(_UNIT_WORDS.split())
+_UNIT = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s,·]|\\[,.%]|-?\d+|[{}]")
+
+
+def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    box, behind = row[place], place + 1
+    text = box.name
+    while (
+        behind + 1 < len(row)
+        and row[behind].kind == "thin"
+        and row[behind + 1].kind == "number"
+        and len(row[behind + 1].name) == 3
+        and re.fullmatch(r"\d{1,3}(?:\d{3})*", text)
+        and box.sup is None
+    ):
+        box = row[behind + 1]
+        text += box.name
+        behind += 2
+    node: Node = Number(_value(reader, text, box))
+    if box.sub is not None:
+        raise FormulaError(box.at, "a number has an index", "write the letter that it belongs to")
+    if box.sup and len(box.sup) == 1 and (box.sup[0].name in ("circ", "degree")):
+        return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
+    node = power_of(reader, node, box)
+    if behind < len(row) and row[behind].kind == "percent":
+        return Call("quotient", (node, number(100))), behind + 1
+    unit = behind + 1 if behind < len(row) and row[behind].kind == "thin" else behind
+    if unit < len(row) and row[unit].kind in ("unit", "text"):
+        return product_of([node, _units(reader, row[unit])]), unit + 1
+    if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:
+        reader.guesses.append(f"upright {row[unit].name} behind a number is a unit")
+        return product_of([node, power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1
+    return node, behind
+
+
+def _value(reader: FormulaReader, text: str, box: Box) -> Fraction:
+    if len(text) > _MOST_DIGITS:
+        raise FormulaError(box.at, f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter")
+    if "{,}" in text:
+        whole, *groups = text.split("{,}")
+        comma = reader.notation.decimal_comma
+        if comma is None:
+            comma = len(groups) == 1 and (len(groups[0]) != 3 or whole == "0")
+            if not comma and len(groups) == 1:
+                reader.guesses.append(f"{text} is {whole}{groups[0]}, the comma parts thousands")
+        if comma and len(groups) == 1 and "." not in text:
+            return Fraction(f"{whole}.{groups[0]}")
+        if not all(len(each.partition(".")[0]) == 3 for each in groups):
+            raise FormulaError(box.at, f"{text} is no number", "write a decimal point")
+        return Fraction(whole + "".join(groups))
+    return Fraction(text if not text.startswith(".") else f"0{text}")
+
+
+def read_unit(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    raise FormulaError(row[place].at, "upright letters are no letter of a formula", "write \\text{…} for words")
+
+
+def _units(reader: FormulaReader, box: Box) -> Node:
+    """A unit such as m/s^2 as letters unit_m, unit_s."""
+    parts = _UNIT.findall(box.name)
+    if "".join(parts).replace(" ", "") != box.name.replace(" ", "") or not parts:
+        raise FormulaError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
+    factors: list[Node] = []
+    below = False
+    for part in parts:
+        if part == "/":
+            if below:
+                raise FormulaError(box.at, f"{box.name} has two slashes", "write powers")
+            below = True
+        elif part[0] in "^-" or part.isdigit():
+            if not factors:
+                raise FormulaError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
+            power = number(int(part.strip("^{}")))
+            last = factors[-1]
+            inverse = isinstance(last, Call)
+            base = last.args[0] if isinstance(last, Call) else last
+            factors[-1] = Call("power", (base, Number(-power.value if inverse else power.value)))
+        elif part[0].isalpha() or part[0] == "%":
+            letter = Letter(f"unit_{part}")
+            factors.append(Call("power", (letter, number(-1))) if below else letter)
+    return product_of(factors)

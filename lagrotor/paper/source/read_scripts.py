@@ -1,0 +1,126 @@
+"""What an index, a mark or a power makes of a letter: a name, or a power of it."""
+
+from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.rows import without_thin
+from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
+from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
+
+_TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
+_GREEK = frozenset(name.removeprefix("\\") for name in GREEK)
+
+
+def index_parts(reader: FormulaReader, box: Box) -> list[str]:
+    found = index_of(box)
+    if found is None:
+        part = (box.sub or [box])[0]
+        raise FormulaError(part.at, "an index is not letters and numbers", "give the letter another index")
+    return found
+
+
+def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
+    """What a superscript adds to the name, where it is a mark or an upper index and no power."""
+    row = without_thin(box.sup or [])
+    if not row:
+        return None
+    if all(b.kind == "operator" and b.name in ("*", "star", "+", "-") for b in row) and len(row) == 1:
+        return [{"*": "star", "star": "star", "+": "plus", "-": "minus"}[row[0].name]]
+    if len(row) == 1 and row[0].kind == "letter" and row[0].name == "dagger":
+        return ["dagger"]
+    if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and len(row[0].parts[0]) == 1:
+        inner = row[0].parts[0][0]
+        if inner.kind in ("number", "letter") and inner.sup is None and inner.sub is None:
+            return [inner.name]
+    if len(row) == 1 and row[0].kind == "text":
+        return [row[0].name] if row[0].name.isalnum() else None
+    if len(row) >= 1 and row[0].kind == "letter" and row[0].upright and len(row[0].name) > 1:
+        return [row[0].name]
+    greek = all(b.kind == "letter" and b.name in _TENSOR and b.sup is None for b in row)
+    if greek and len(row) > 1:
+        return [b.name for b in row]
+    return None
+
+
+def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
+    """The letter, and whether its superscript is part of its name."""
+    raised = mark_of(reader, box)
+    if raised is None and box.sup is not None:
+        _check_power(reader, box)
+    if raised is not None and raised[0] in _TENSOR and len(raised) > 0:
+        reader.guesses.append("an index that is repeated, up and down, is summed over")
+    name = name_of(box, index_parts(reader, box), raised or ())
+    vector = (
+        is_printed_as_vector(box) and not box.sub_is_component
+        if hasattr(box, "sub_is_component")
+        else is_printed_as_vector(box)
+    )
+    hat = "hat" in box.marks and box.style == "bold"
+    return Letter(name, vector or hat), raised is not None
+
+
+def _check_power(reader: FormulaReader, box: Box) -> None:
+    row = without_thin(box.sup or [])
+    tensor = reader.notation.lowered & set(_TENSOR) and not reader.notation.letters
+    if tensor and len(row) == 1 and row[0].kind == "letter" and row[0].name in _TENSOR:
+        raise FormulaError(
+            row[0].at,
+            f"whether {row[0].name} is an upper index or a power is open",
+            f'write brackets around the power, or in paper.toml [notation] letters = "{row[0].name}"',
+        )
+    if len(row) == 1 and row[0].kind == "letter":
+        name = row[0].name
+        if (name in _GREEK or name in ("i", "j", "k", "a", "b")) and name in reader.notation.lowered:
+            raise (
+                FormulaError(
+                    row[0].at,
+                    f"whether {name} is an upper index or a power is open",
+                    f'write brackets around the power, or in paper.toml [notation] letters = "{name}"',
+                )
+                if name not in reader.notation.letters
+                else FormulaError(0, "", "")
+            )
+    if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
+        raise FormulaError(
+            row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"
+        )
+    if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":
+        raise FormulaError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
+
+
+def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
+    """The node to the power that its box has."""
+    if box.sup is None:
+        return node
+    row = without_thin(box.sup)
+    if not row:
+        raise FormulaError(box.at, "a power is empty", "write it")
+    if (
+        len(row) == 1
+        and row[0].kind == "letter"
+        and row[0].name in ("T", "top", "intercal")
+        and (is_vector(node) or row[0].name != "T")
+    ):
+        return Call("transpose", (node,))
+    if len(row) == 1 and row[0].kind == "letter" and row[0].name == "T" and "T" not in reader.notation.letters:
+        raise FormulaError(
+            row[0].at, "whether T is a power or transposes is open", "write \\top, or the letter in bold"
+        )
+    if is_vector(node):
+        power = reader.expression(box.sup)
+        if power == number(2) and not is_matrix(node):
+            return Call("dot", (node, node))
+        if power == Call("negative", (number(1),)) and is_matrix(node):
+            return Call("inverse", (node,))
+        raise FormulaError(row[0].at, "a vector has a power", "write its length")
+    if any(b.kind == "letter" and b.name in ("dagger", "prime") for b in row) or (
+        row[0].kind == "operator" and len(row) == 1
+    ):
+        raise FormulaError(row[0].at, "a mark stands over what is no letter", "write what it means")
+    if len(row) == 1 and row[0].kind in ("text", "relation", "comma"):
+        raise FormulaError(row[0].at, "words stand as a power", "write them as an index")
+    if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and isinstance(node, Call):
+        raise FormulaError(row[0].at, "whether it is an order of derivative or a power is open", "write what it means")
+    power = reader.expression(box.sup)
+    if power == Call("quotient", (number(1), number(2))):
+        return Call("sqrt", (node,))
+    return Call("power", (node, power))
