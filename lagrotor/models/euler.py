@@ -33,7 +33,7 @@ def program(massive: bool, body: int) -> Program:
 
 @generated((*kind, False) for kind in product((False, True), (0, 1, 2)))
 def _rhs(massive: bool, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rhs_source
+    from lagrotor.numerics.printers import rhs_source
 
     return rhs_source(program(massive, body), 12, body > 0, bounded)
 
@@ -41,7 +41,7 @@ def _rhs(massive: bool, body: int, bounded: bool) -> str:
 @generated(((False,), (True,)))
 def _projected(massive: bool) -> str:
     from lagrotor.models.programs.euler_program import projection
-    from lagrotor.numerics.codegen import program_source
+    from lagrotor.numerics.printers import program_source
 
     return program_source(projection(massive), "numpy")
 
@@ -49,7 +49,7 @@ def _projected(massive: bool) -> str:
 @generated(((),))
 def _axes() -> str:
     from lagrotor.models.programs.euler_program import observation
-    from lagrotor.numerics.codegen import program_source
+    from lagrotor.numerics.printers import program_source
 
     return program_source(observation(), "numpy")
 

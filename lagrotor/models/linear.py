@@ -79,7 +79,8 @@ def _integral(t: Array, values: Array) -> Array:
 @generated(((),))
 def _matrices() -> str:
     """(a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
-    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import impulse_matrices
     from lagrotor.theory.natural_frequency import natural_frequency
 
@@ -222,10 +223,8 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
 
 def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, states: Array) -> Array:
     """Exact less linear acceleration along the linear motion, (n, 3)."""
-    assert scene.link is not None
-    (own, shared), k = scene.inertias, scene.link.length / scene.rotor.length
-    ratio = "equal" if k == 1 else "short" if k < 1 else "long"
-    parameters: list[Any] = [own, *((shared,) if shared else ()), *(() if k == 1 else (k,)), *scene.momenta]
+    kind, values = MODEL.kind(replace(scene, shock=shock), True)
+    parameters: list[Any] = [*values]
     acceleration = -states[:, 3:] @ linear.turning.T
     if shock is not None:
         pulse = scene.rotor.length * np.exp(-(((t - shock.at) / shock.width) ** 2))
@@ -234,5 +233,5 @@ def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, sta
         push = np.zeros(3)
         push[0], push[shock.body] = straight.force[:2]
         acceleration = acceleration + pulse[:, None] * np.linalg.solve(linear.mass, linear.upright.T @ push)
-    exact = rhs_on_arrays(shared != 0, ratio, shock.body if shock else 0)(*states.T, *parameters)
+    exact = rhs_on_arrays(*kind)(*states.T, *parameters)
     return np.stack(exact[3:], axis=1) - acceleration

@@ -35,7 +35,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
 
 @generated((*kind, bounded) for kind in _KINDS for bounded in (False, True))
 def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rhs_source
+    from lagrotor.numerics.printers import rhs_source
 
     return rhs_source(program(massive, ratio, body), 6, body > 0, bounded)
 
@@ -43,7 +43,7 @@ def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
 @generated(_KINDS)
 def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
     """The outputs of one kind's program on arrays that broadcast."""
-    from lagrotor.numerics.codegen import program_source
+    from lagrotor.numerics.printers import program_source
 
     return program_source(program(massive, ratio, body), "numpy")
 
@@ -51,7 +51,7 @@ def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
 @generated((ratio,) for ratio in RATIOS)
 def _axes(ratio: Ratio) -> str:
     from lagrotor.models.programs.minimal_program import observation
-    from lagrotor.numerics.codegen import program_source
+    from lagrotor.numerics.printers import program_source
 
     return program_source(observation(ratio), "numpy")
 

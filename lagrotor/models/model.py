@@ -185,7 +185,7 @@ def integrate_model(
         model.angles,
     )
     if bounded:
-        from lagrotor.numerics.codegen import compile_program
+        from lagrotor.numerics.printers import compile_program
 
         program, values = model.program(scene, False)
         bounds = compile_program(replace(program, outputs=program.positive), "numpy")

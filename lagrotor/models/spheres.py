@@ -38,7 +38,7 @@ def program(massive: bool, bar: bool, body: int) -> Program:
 
 @generated((*kind, False) for kind in _KINDS)
 def _rhs(massive: bool, bar: bool, body: int, bounded: bool) -> str:
-    from lagrotor.numerics.rhs import rhs_source
+    from lagrotor.numerics.printers import rhs_source
 
     return rhs_source(program(massive, bar, body), 12, body > 0, bounded)
 
@@ -46,7 +46,7 @@ def _rhs(massive: bool, bar: bool, body: int, bounded: bool) -> str:
 @generated(kind[:2] for kind in _KINDS if kind[2] == 0)
 def _projected(massive: bool, bar: bool) -> str:
     from lagrotor.models.programs.spheres_program import projection
-    from lagrotor.numerics.codegen import program_source
+    from lagrotor.numerics.printers import program_source
 
     return program_source(projection(massive, bar), "numpy")
 

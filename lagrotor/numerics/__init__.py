@@ -7,9 +7,7 @@ from lagrotor.faces import face
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program as Program
     from lagrotor.numerics.codegen import Stage as Stage
-    from lagrotor.numerics.codegen import compile_program as compile_program
     from lagrotor.numerics.codegen import operations as operations
-    from lagrotor.numerics.codegen import program_source as program_source
     from lagrotor.numerics.curves import mean_between as mean_between
     from lagrotor.numerics.curves import measured_order as measured_order
     from lagrotor.numerics.curves import peak as peak
@@ -19,6 +17,8 @@ if TYPE_CHECKING:
     from lagrotor.numerics.harmonic_fit import best_harmonics as best_harmonics
     from lagrotor.numerics.harmonic_fit import harmonics_at as harmonics_at
     from lagrotor.numerics.integrate import Problem as Problem
+    from lagrotor.numerics.printers import compile_program as compile_program
+    from lagrotor.numerics.printers import program_source as program_source
     from lagrotor.numerics.rotations import between_samples as between_samples
     from lagrotor.numerics.rotations import body_rotations as body_rotations
     from lagrotor.numerics.rotations import skew_matrix as skew_matrix

@@ -1,27 +1,21 @@
-"""From expressions to fast functions: a straight-line program, its operation count, and code for it.
+"""A straight-line program: how its common parts are found, what it costs, its derivatives; `printers` writes it as code.
 
 A `Program` is a list of named stages and the outputs made of them. Stages keep what a derivation has already shown to be
 one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
 """
 
-import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from operator import attrgetter
-from typing import Any
 
-import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from sympy.simplify.cse_main import tree_cse
 
-from lagrotor.algebra import check_names
+from lagrotor.algebra import check_names, derivative
 from lagrotor.errors import SingularError
 
-Array = NDArray[np.float64]
 Stage = tuple[sp.Symbol, sp.Expr]
-_BLOCK = 8192  # values at once: what a processor keeps close
 
 
 @dataclass(frozen=True)
@@ -126,46 +120,31 @@ def _count(expression: sp.Expr) -> int:
     return found
 
 
-def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
-    """The program as a function of its arguments, returning a list of outputs.
+def tangent_program(
+    program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
+) -> Program:
+    """The program with its derivatives along k directions: its outputs, then of each output the k derivatives.
 
-    `module="math"` takes Python floats, one state at a time (the fastest where a solver calls one state at a time);
-    `module="numpy"` takes arrays that broadcast together.
+    slopes: of arguments that change, their k derivatives, numbers or among the new program's `arguments`. Forward
+    differentiation, stage by stage: exact, and no longer than k + 1 times the program and a little.
     """
     stages, outputs = reduce_common(program)
-    function = sp.lambdify(list(program.arguments), list(outputs), modules=module, cse=lambda _: (stages, outputs))
-    function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(outputs)} numbers"
-    return function
+    known, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
+    both: list[Stage] = []
 
+    def along(e: sp.Expr) -> list[sp.Expr]:
+        partial = {s: derivative(e, s) for s in sorted(e.free_symbols, key=str) if s in known}
+        return [sp.Add(*(d * known[s][j] for s, d in partial.items())) for j in range(count)]
 
-def program_source(program: Program, module: str = "math") -> str:
-    """The source of what `compile_program` returns, for `lagrotor.numerics.generated`."""
-    function = compile_program(program, module)
-    used = ", ".join(sorted(function.__code__.co_names))
-    return (f"from {module} import {used}\n" if used else "") + inspect.getsource(function).rstrip()
-
-
-def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
-    """A numpy program's outputs (outputs, n), where an argument is one number or an array (n,), some thousands at a time.
-
-    A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
-    """
-    found = np.empty((outputs, n))
-    for i in range(0, n, _BLOCK):
-        part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
-        for row, values in zip(found, part, strict=True):
-            row[i : i + _BLOCK] = values
-    return found
-
-
-def javascript(program: Program, name: str) -> str:
-    """The program as a JavaScript function that returns an array."""
-    stages, outputs = reduce_common(program)
-    lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
-    values = ", ".join(sp.jscode(e) for e in outputs)
-    return "\n".join(
-        [f"function {name}({', '.join(map(str, program.arguments))}) {{", *lines, f"  return [{values}];", "}"]
-    )
+    for name, e in stages:
+        both.append((name, e))
+        known[name] = along(e)
+        for j, slope in enumerate(known[name]):
+            if not slope.is_Atom:
+                known[name][j] = sp.Symbol(f"d{j}_{name}", real=True)
+                both.append((known[name][j], slope))
+    whole = (*outputs, *(slope for e in outputs for slope in along(e)))
+    return Program(arguments, tuple(both), whole)
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:

@@ -1,4 +1,4 @@
-"""The fast extra: heyoka's Taylor integrator, compiled from the same generated programs.
+"""The fast extra: heyoka's functions and Taylor integrator, compiled from the same generated programs.
 
 A cyclic coordinate and an angle, which may grow without end, are carried so small that they are never the largest state, which
 heyoka measures its error by. What is compiled, one or two seconds a program and order, is kept for the process, by heyoka on
@@ -11,16 +11,18 @@ order: three orders serve every tolerance, each in the steps that pay.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from math import exp
+from operator import mul
 from threading import get_ident
 from typing import Any
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
+from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.heyoka_programs import heyoka_module, translated
 from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.segment import Projection, StopError, Stretch
 
@@ -31,6 +33,72 @@ MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (with the pulse or not) → the program and the values of its parameters, without the force.
 _Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
+
+
+def heyoka_module() -> Any:
+    try:
+        import heyoka
+    except ImportError:
+        raise InputError("engine='fast' needs heyoka: pip install 'lagrotor[fast]', or use engine='core'") from None
+    return heyoka
+
+
+def heyoka_sum(terms: Sequence[Any]) -> Any:
+    """The sum of expressions and numbers."""
+    heyoka = heyoka_module()
+    return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
+
+
+def heyoka_expressions(program: Program, known: dict[sp.Symbol, Any]) -> list[Any]:
+    """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
+    heyoka, named = heyoka_module(), dict(known)
+    stages, outputs = reduce_common(program)
+    for name, expression in stages:
+        named[name] = _translate(expression, named, heyoka)
+    return [_translate(e, named, heyoka) for e in outputs]
+
+
+def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
+    if e in known:
+        return known[e]
+    if e.is_Number:
+        return heyoka.expression(float(e))
+    if e.is_Pow:
+        base, power = _translate(e.base, known, heyoka), e.exp
+        if power == sp.Rational(1, 2):
+            return heyoka.sqrt(base)
+        if not power.is_Integer:
+            return base ** float(power)
+        product = reduce(mul, [base] * abs(int(power)))
+        return product if power > 0 else 1.0 / product
+    parts = [_translate(x, known, heyoka) for x in e.args]
+    if e.is_Add:
+        return heyoka.sum(parts)
+    if e.is_Mul:
+        return reduce(mul, parts)
+    if not hasattr(heyoka, e.func.__name__):
+        raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
+    return getattr(heyoka, e.func.__name__)(*parts)
+
+
+def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:
+    """The program, for given parameters, as a compiled right-hand side (s, y) → y', for any solver."""
+    compiled, inputs = _compiled_function(program), np.array([*[0.0] * states, *parameters])
+
+    def rhs(s: float, y: Array) -> Array:
+        inputs[:states] = y
+        return np.asarray(compiled(inputs))
+
+    return rhs
+
+
+@lru_cache(maxsize=16)
+def _compiled_function(program: Program) -> Any:
+    """The program as heyoka's function of an array of its arguments."""
+    heyoka = heyoka_module()
+    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
+    outputs = heyoka_expressions(program, known)
+    return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
 
 
 @dataclass(frozen=True)
@@ -160,7 +228,7 @@ def _solver(
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
-    rates = translated(program, known, heyoka)
+    rates = heyoka_expressions(program, known)
     # A pulse is short: there what compiles faster pays.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))

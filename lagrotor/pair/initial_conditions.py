@@ -16,7 +16,8 @@ Array = NDArray[np.floating[Any]]
 @generated(((),))
 def _constraint_equations() -> str:
     """(r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6), 57 numbers."""
-    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
     from lagrotor.pair.lagrangians import axes_pair
     from lagrotor.pair.notation import AXES, a, b, k
 

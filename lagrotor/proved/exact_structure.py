@@ -1,7 +1,8 @@
 """A structure's equations of motion with exact numbers: what `written_out` writes for floats, recorded as stages."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from operator import add, mul, neg, sub, truediv
 from typing import Any
 
 import numpy as np
@@ -9,66 +10,22 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
+from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.codegen import Program, Stage
+from lagrotor.numerics.recorded_numbers import Recorded, Term
 from lagrotor.proved.balls import rational
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients
 from lagrotor.structures.exact.written_out import structure_accelerations
 
-Vector = list[sp.Expr]
-
-
-class _Recorded:
-    """A number of a recorded calculation: each operation becomes a stage of its own."""
-
-    def __init__(self, stages: list[Stage], e: sp.Expr) -> None:
-        self.stages, self.e = stages, e
-
-    def _keep(self, e: sp.Expr) -> "_Recorded":
-        if not e.is_Atom:
-            name = sp.Symbol(f"w_{len(self.stages)}", real=True)
-            self.stages.append((name, e))
-            e = name
-        return _Recorded(self.stages, e)
-
-    def __add__(self, other: Any) -> "_Recorded":
-        return self._keep(self.e + expression_of(other))
-
-    def __sub__(self, other: Any) -> "_Recorded":
-        return self._keep(self.e - expression_of(other))
-
-    def __rsub__(self, other: Any) -> "_Recorded":
-        return self._keep(expression_of(other) - self.e)
-
-    def __mul__(self, other: Any) -> "_Recorded":
-        return self._keep(self.e * expression_of(other))
-
-    def __truediv__(self, other: Any) -> "_Recorded":
-        return self._keep(self.e / expression_of(other))
-
-    def __rtruediv__(self, other: Any) -> "_Recorded":
-        return self._keep(expression_of(other) / self.e)
-
-    def __neg__(self) -> "_Recorded":
-        return _Recorded(self.stages, -self.e)
-
-    def sqrt(self) -> "_Recorded":
-        return self._keep(sp.sqrt(self.e))
-
-    __radd__, __rmul__ = __add__, __mul__
-
-
-class _Roots:
-    """The functions of recorded numbers that a structure's equations take."""
-
-    @staticmethod
-    def sqrt(x: Any) -> Any:
-        return x.sqrt() if isinstance(x, _Recorded) else sp.sqrt(x)
-
-
-def expression_of(x: Any) -> sp.Expr:
-    """A recorded number, or a constant as it is meant."""
-    return x.e if isinstance(x, _Recorded) else x if isinstance(x, sp.Expr) else exact_number(x)
+_OPERATIONS: dict[str, Callable[..., sp.Expr]] = {
+    "+": add,
+    "-": sub,
+    "*": mul,
+    "/": truediv,
+    "neg": neg,
+    "sqrt": sp.sqrt,
+}
 
 
 def exact_number(x: Any) -> sp.Rational:
@@ -133,24 +90,35 @@ def structure_coordinates(s: Assembly) -> Coordinates:
 def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
     """(r, r'[, t]) → (r', r''[, 1]), and the expressions that stay zero: |r_i|² − 1, |d|² − ell² and their rates, halved."""
     c, letters = exact_coefficients(s), structure_coordinates(s)
-    stages: list[Stage] = []
-    N, timed = len(c.R), any(x != 0 for x in c.decay)
+    N, timed, tape = len(c.R), any(x != 0 for x in c.decay), list[Recorded]()
+    of_time = {f"G_{i}": G * sp.exp(-k * t) for i, (G, k) in enumerate(zip(c.G, c.decay, strict=True)) if k}
     r, v = (
-        [[_Recorded(stages, x) for x in letters_of[3 * i : 3 * i + 3]] for i in range(N)]
-        for letters_of in (letters.q, letters.v)
+        [[Recorded(tape, str(x)) for x in part[3 * i : 3 * i + 3]] for i in range(N)] for part in (letters.q, letters.v)
     )
-    G = [_Recorded(stages, G * sp.exp(-k * t)) if k else G for G, k in zip(c.G, c.decay, strict=True)]
-    found = structure_accelerations(c, r, v, G, _Roots, _total)
-    rates = [*letters.v, *(expression_of(x) for axis in found for x in axis), *((sp.S.One,) if timed else ())]
+    G = [Recorded(tape, f"G_{i}") if f"G_{i}" in of_time else G for i, G in enumerate(c.G)]
+    accelerations = structure_accelerations(c, r, v, G, recorded_numbers)
+    leaves = {str(x): x for x in (*letters.q, *letters.v)} | of_time
+    stages, rates = _stages(tape, leaves, [x for axis in accelerations for x in axis])
     arguments = (*letters.q, *letters.v, *((t,) if timed else ()))
-    return Program(arguments, tuple(stages), tuple(rates), shared=True), _held(c, letters)
+    outputs = (*letters.v, *rates, *((sp.S.One,) if timed else ()))
+    return Program(arguments, tuple(stages), outputs, shared=True), _held(c, letters)
 
 
-def _total(terms: list[Any]) -> Any:
-    total = terms[0]
-    for term in terms[1:]:
-        total = total + term
-    return total
+def _stages(
+    tape: Sequence[Recorded], leaves: Mapping[str, sp.Expr], outputs: Sequence[Term]
+) -> tuple[list[Stage], list[sp.Expr]]:
+    """Each recorded operation as a stage, its constants as they are meant, and the outputs; leaves: what names stand for."""
+    stages, known = list[Stage](), dict[Recorded, sp.Expr]()
+
+    def expression(x: Any) -> sp.Expr:
+        return known[x] if isinstance(x, Recorded) else x if isinstance(x, sp.Expr) else exact_number(x)
+
+    for x in tape:
+        known[x] = _OPERATIONS[x.kind](*map(expression, x.parts)) if x.parts else leaves[x.kind]
+        if x.parts and x.kind != "neg" and not known[x].is_Atom:
+            stages.append((sp.Symbol(f"w_{len(stages)}", real=True), known[x]))
+            known[x] = stages[-1][0]
+    return stages, [expression(x) for x in outputs]
 
 
 def _held(c: Coefficients, letters: Coordinates) -> tuple[sp.Expr, ...]:

@@ -12,7 +12,8 @@ import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.numerics.codegen import Program, compile_program, in_blocks, program_source
+from lagrotor.numerics.codegen import Program
+from lagrotor.numerics.printers import compile_program, in_blocks, program_source
 from lagrotor.pair.notation import GLOSSARY
 
 Array = NDArray[np.float64]
@@ -41,12 +42,12 @@ class ClosedForm:
     bound: _Bound | None = None
 
     @cached_property
-    def _functions(self) -> tuple[Callable[..., Any], tuple[Callable[..., Any], ...]]:
+    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
+        """Of the arguments: the outputs, and whether each condition of the domain holds."""
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
-        return compile_program(self._program, "numpy", doc), tuple(
-            sp.lambdify(self.arguments, condition, "numpy") for condition in self.domain
-        )
+        conditions = Program(self.arguments, (), self.domain)
+        return compile_program(self._program, "numpy", doc), compile_program(conditions, "numpy")
 
     @property
     def _program(self) -> Program:
@@ -110,8 +111,8 @@ class ClosedForm:
                 raise DomainError(f"{self.name}: {argument} = {array.min():g} must be greater than zero")
         # One value for all stays one number.
         flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in given]
-        for relation, condition in zip(self.domain, self._functions[1], strict=True):
-            inside = np.broadcast_to(condition(*flat), prod(shape))
+        for relation, holds in zip(self.domain, self._functions[1](*flat), strict=True):
+            inside = np.broadcast_to(holds, prod(shape))
             if not inside.all():
                 where = int(np.argmin(inside))
                 at = ", ".join(

@@ -136,7 +136,8 @@ def shock_response(scene: Scene) -> ShockResponse:
 @generated(((),))
 def _response() -> str:
     """(a, b, G_1, G_2, p_x, p_1, p_2) → displacement, drift, swing, both energies: 11 numbers."""
-    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import shock_displacement, shock_drift, shock_energy, shock_swing
 
     forms = shock_displacement(), shock_drift(), shock_swing(), shock_energy()
@@ -146,7 +147,8 @@ def _response() -> str:
 @generated(((),))
 def _mass() -> str:
     """(a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
-    from lagrotor.numerics.codegen import Program, program_source
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import a, b
     from lagrotor.theory.impulse_response import impulse_matrices
 

@@ -15,7 +15,7 @@ from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.rhs import make_rhs
+from lagrotor.numerics.printers import make_rhs
 from lagrotor.numerics.segment import Array, Segment, StopError
 from lagrotor.pair import HEAVY_LINK
 

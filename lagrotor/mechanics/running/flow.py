@@ -11,11 +11,10 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.heyoka_programs import taylor_rhs
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
 from lagrotor.numerics.segment import Projection, Segment, StopError, Stretch
 from lagrotor.numerics.solver_constants import CROSSOVER
-from lagrotor.numerics.taylor import companion_order, integrate_taylor, taylor_order
+from lagrotor.numerics.taylor import companion_order, integrate_taylor, taylor_order, taylor_rhs
 
 Array = NDArray[np.float64]
 Values = Mapping[Any, Any]

@@ -7,7 +7,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.motion import SampledMotion
-from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_program
+from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.shown import Shown
 
@@ -48,7 +48,7 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         raise InputError(
             "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
         )
-    given, n = tangent_program(motion_program(run.system)), 2 * run.q.shape[1]
+    given, n = tangent_motion(motion_program(run.system)), 2 * run.q.shape[1]
     rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)

@@ -15,7 +15,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, SingularError, near
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints, tree_energy
@@ -24,8 +23,8 @@ from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import singular_mass, t
-from lagrotor.numerics.codegen import Program, Stage, compile_program, reduce_common, solve_symmetric
-from lagrotor.numerics.rhs import make_rhs
+from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
+from lagrotor.numerics.printers import compile_program, make_rhs
 
 Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
@@ -216,25 +215,12 @@ def projection_program(system: Equations) -> Generated:
     return _program(states, [*stages, *more], [*state, *states[len(state) :]])
 
 
-def tangent_program(given: Generated) -> Generated:
-    """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ): each stage differentiated as it is."""
-    program, d = given.program, len(given.states)
-    body, outputs = reduce_common(program)
+def tangent_motion(given: Generated) -> Generated:
+    """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
+    d, arguments = len(given.states), given.program.arguments
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
-    slopes: dict[sp.Symbol, sp.Expr] = dict(zip(program.arguments[:d], names, strict=True))
-
-    def along(e: sp.Expr) -> sp.Expr:
-        return sp.Add(*(derivative(e, s) * slopes[s] for s in sorted(e.free_symbols, key=str) if s in slopes))
-
-    stages: list[Stage] = []
-    for name, e in body:
-        stages.append((name, e))
-        slope = along(e)
-        if slope != 0:
-            slopes[name] = sp.Symbol(f"d_{name}", real=True)
-            stages.append((slopes[name], slope))
-    arguments = (*program.arguments[:d], *names, *program.arguments[d:])
-    both = Program(arguments, tuple(stages), (*outputs, *(along(e) for e in outputs)))
+    slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
+    both = tangent_program(given.program, slopes, (*arguments[:d], *names, *arguments[d:]))
     return Generated(both, (*given.states, *names), given.parameters)
 
 

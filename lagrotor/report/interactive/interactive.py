@@ -15,8 +15,9 @@ import sympy as sp
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
-from lagrotor.numerics.codegen import Program, Stage, javascript
+from lagrotor.numerics.codegen import Program, Stage
 from lagrotor.numerics.generated import generated
+from lagrotor.numerics.printers import javascript
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from lagrotor.pair.notation import (
     AXES,

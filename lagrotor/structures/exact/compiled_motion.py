@@ -12,9 +12,16 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.heyoka_programs import heyoka_module, summed
 from lagrotor.numerics.segment import RightHandSide, Stretch
-from lagrotor.numerics.taylor import companion_order, compiled_solver, dummy_size, taylor_march, taylor_order
+from lagrotor.numerics.taylor import (
+    companion_order,
+    compiled_solver,
+    dummy_size,
+    heyoka_module,
+    heyoka_sum,
+    taylor_march,
+    taylor_order,
+)
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion
@@ -122,5 +129,5 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
         for i in range(N)
     ]
 
-    found = structure_accelerations(plain, r, v, G, heyoka, summed, more if forced or shaken else ())
+    found = structure_accelerations(plain, r, v, G, heyoka, heyoka_sum, more if forced or shaken else ())
     return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in found for x in axis)], strict=True))

@@ -6,8 +6,8 @@ import numpy as np
 
 from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.printers import rhs_text
 from lagrotor.numerics.recorded_numbers import Recorded
-from lagrotor.numerics.rhs import rhs_text
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.structures.coefficients import Coefficients
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion

@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.numerics.heyoka_programs import heyoka_module, summed
 from lagrotor.numerics.segment import RightHandSide
+from lagrotor.numerics.taylor import heyoka_module, heyoka_sum
 from lagrotor.structures.coefficients import Array, Index
 from lagrotor.structures.exact.exact_motion import ExactMotion
 from lagrotor.structures.exact.levels import eliminate_in_levels
@@ -62,17 +62,17 @@ def programs(length: int, names: tuple[str, ...], pushed: bool) -> Programs:
     own = [bar, *[first, first + 1, first + 2, unit, *[bar + 1] * (length > 1)] * heavy]
     kept = [*own, last, *[masses - 3, masses - 2, masses - 1] * heavy]
     left = eliminate_in_levels(
-        diagonal, off, right, masses, summed, {*kept, 0, 1, 2, masses - 3, masses - 2, masses - 1, masses, bar - 1}
+        diagonal, off, right, masses, heyoka_sum, {*kept, 0, 1, 2, masses - 3, masses - 2, masses - 1, masses, bar - 1}
     )
     found = {(p, p): left.pivots[i] for p, i in enumerate(kept)}
     found |= {(p, q): left.rows[i].get(j, []) for p, i in enumerate(kept) for q, j in enumerate(kept) if p < q}
     found = {pair: terms for pair, terms in found.items() if any(x != 0.0 for x in terms)}
     inputs = [*(x for each in (r, v) for axis in each for x in axis), *G, *(x for axis in push for x in axis)]
-    outputs = [summed(terms) for terms in [*found.values(), *(left.right[i] for i in kept)]]
+    outputs = [heyoka_sum(terms) for terms in [*found.values(), *(left.right[i] for i in kept)]]
     known = dict(zip(kept, heyoka.make_vars(*(f"x{p}" for p in range(len(kept)))), strict=True))
     return Programs(
         heyoka.cfunc(outputs, inputs, fast_math=True),
-        heyoka.cfunc(left.solved(known, summed)[3 : masses - 3], [*inputs, *known.values()], fast_math=True),
+        heyoka.cfunc(left.solved(known, heyoka_sum)[3 : masses - 3], [*inputs, *known.values()], fast_math=True),
         len(own),
         np.transpose(list(found)),
     )

@@ -8,7 +8,7 @@ and r_2(Phi) = r_1(Phi + pi) with x → −x. `harmonics` is the array (X, Y, Z)
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lagrotor.numerics.codegen import in_blocks
+from lagrotor.numerics.printers import in_blocks
 
 Array = NDArray[np.float64]
 

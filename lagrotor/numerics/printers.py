@@ -1,7 +1,7 @@
-"""A program as the rate that a solver calls with one state at a time: Python floats, and nothing done twice.
+"""Programs as code: Python functions of numbers or of arrays, the right-hand side that a solver calls, JavaScript.
 
-What depends on the parameters alone is worked out once, and squares are products: about three quarters of the time that
-`compile_program` and a wrapper around it take.
+A right-hand side takes one state at a time: what depends on the parameters alone is worked out once, and squares are products,
+which takes about three quarters of the time of a function and a wrapper around it.
 """
 
 from collections.abc import Callable, Sequence
@@ -9,18 +9,25 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import Any
 
+import numpy as np
 import sympy as sp
-from sympy.printing.pycode import PythonCodePrinter
+from numpy.typing import NDArray
+from sympy.printing.numpy import NumPyPrinter
+from sympy.printing.pycode import AbstractPythonCodePrinter, MpmathPrinter, PythonCodePrinter
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.segment import RightHandSide
 
+Array = NDArray[np.float64]
+_BLOCK = 8192  # values at once: what a processor keeps close
 
-class _Products(PythonCodePrinter):  # type: ignore[misc]
-    """Python in which a small power of a symbol is a product, no sum begins with a minus sign that it can do without, and
-    symbols may have other names."""
+
+class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
+    """Python in which symbols may have other names."""
+
+    module: str
 
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
@@ -30,9 +37,15 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
         return self.names.get(expr) or super()._print_Symbol(expr)
 
     def _print_not_supported(self, expr: sp.Expr) -> str:
-        raise InputError(f"{expr} has no code in Python's math module: write it with elementary functions")
+        raise InputError(f"{expr} has no code in Python's {self.module} module: write it with elementary functions")
 
     _print_Integral = _print_Derivative = _print_Limit = _print_not_supported
+
+
+class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
+    """Of numbers: a small power of a symbol is a product, no sum begins with a minus sign that it can do without."""
+
+    module = "math"
 
     def _as_ordered_terms(self, expr: sp.Add, order: Any = None) -> list[sp.Expr]:
         return sorted(super()._as_ordered_terms(expr, order), key=lambda term: term.could_extract_minus_sign())
@@ -43,7 +56,22 @@ class _Products(PythonCodePrinter):  # type: ignore[misc]
         return super()._print_Pow(expr, rational=rational)
 
 
-def _quick(e: sp.Expr, show: _Products) -> str:
+class _Arrays(_Printer, NumPyPrinter):  # type: ignore[misc]
+    """Of arrays."""
+
+    module = "numpy"
+
+
+class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]
+    """Of mpmath's numbers."""
+
+    module = "mpmath"
+
+
+_PRINTERS: dict[str, type[_Printer]] = {printer.module: printer for printer in (_Scalars, _Arrays, _Digits)}
+
+
+def _quick(e: sp.Expr, show: _Printer) -> str:
     """What `show` prints of a sum of products, without the search for the finest order of its terms."""
     if e.is_Symbol:
         return show.names.get(e) or e.name
@@ -57,12 +85,12 @@ def _quick(e: sp.Expr, show: _Products) -> str:
     return str(show.doprint(e))
 
 
-def _factor(e: sp.Expr, show: _Products) -> str:
+def _factor(e: sp.Expr, show: _Printer) -> str:
     return _quick(e, show) if e.is_Symbol or e.is_Integer else f"({_quick(e, show)})"
 
 
-def _lines(stages: list[Stage], outputs: Sequence[sp.Expr], show: _Products, quick: bool) -> list[str]:
-    """The stages as assignments to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
+def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Printer, quick: bool) -> list[str]:
+    """The stages, assigned to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
     used_in = [e.free_symbols for _, e in stages]
     last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
@@ -75,6 +103,28 @@ def _lines(stages: list[Stage], outputs: Sequence[sp.Expr], show: _Products, qui
         show.names[name] = free.pop()
         lines.append(f"{show.names[name]} = {right}")
     return lines
+
+
+def program_source(program: Program, module: str = "math") -> str:
+    """Source of (arguments) → list of outputs, as `compile_program` has it."""
+    stages, outputs = reduce_common(program)
+    show = _PRINTERS[module]()
+    lines = _assignments(stages, outputs, show, program.shared)
+    lines.append(f"return [{', '.join(map(show.doprint, outputs))}]")
+    imports = [f"from {name} import {', '.join(sorted(used))}" for name, used in show.module_imports.items()]
+    head = f"def outputs({', '.join(map(str, program.arguments))}):"
+    return "\n".join([*imports, head, *(f"    {line}" for line in lines)])
+
+
+def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
+    """The program as a function of its arguments, returning a list of outputs.
+
+    `module="math"` takes Python floats, one state at a time (the fastest where a solver calls one state at a time);
+    `module="numpy"` takes arrays that broadcast together; `module="mpmath"` numbers of any precision.
+    """
+    function = function_of(program_source(program, module))
+    function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"
+    return function
 
 
 def make_rhs(
@@ -95,7 +145,7 @@ def rhs_source(program: Program, states: int, driven: bool = False, bounded: boo
     wanted = (*program.outputs, *(program.positive if bounded else ()))
     stages, reduced = reduce_common(replace(program, outputs=wanted))
     outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]
-    show = _Products()
+    show = _Scalars()
     state, parameters = program.arguments[:states], program.arguments[states:]
     force = parameters[-3:] if driven else ()
     fixed, moving, known = list[str](), list[Stage](), set(parameters) - set(force)
@@ -105,7 +155,7 @@ def rhs_source(program: Program, states: int, driven: bool = False, bounded: boo
             fixed.append(f"{name} = {show.doprint(expression)}")
         else:
             moving.append((name, expression))
-    lines = _lines(moving, reduced, show, program.shared)
+    lines = _assignments(moving, reduced, show, program.shared)
     within = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
@@ -136,3 +186,26 @@ def rhs_text(body: list[str], fixed: list[str], given: list[str], outputs: int) 
         "    return rate",
     ]
     return "\n".join(source)
+
+
+def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
+    """A numpy program's outputs (outputs, n), where an argument is one number or an array (n,), some thousands at a time.
+
+    A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
+    """
+    found = np.empty((outputs, n))
+    for i in range(0, n, _BLOCK):
+        part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
+        for row, values in zip(found, part, strict=True):
+            row[i : i + _BLOCK] = values
+    return found
+
+
+def javascript(program: Program, name: str) -> str:
+    """The program as a JavaScript function that returns an array."""
+    stages, outputs = reduce_common(program)
+    lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
+    values = ", ".join(sp.jscode(e) for e in outputs)
+    return "\n".join(
+        [f"function {name}({', '.join(map(str, program.arguments))}) {{", *lines, f"  return [{values}];", "}"]
+    )
