@@ -42,7 +42,8 @@ class Opening:
 class ReportPart:
     """A part of the report: what some derivations, by the beginnings of their names, and figures, by their letter, show.
 
-    remarks, tables: beginnings of the names of derivations. figures: the letter before their numbers.
+    remarks, tables: beginnings of the names of derivations. figures: the letter before their numbers. front: whether it
+    stands on the report's first page.
     """
 
     name: str
@@ -50,6 +51,7 @@ class ReportPart:
     remarks: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
     figures: tuple[str, ...] = ()
+    front: bool = False
 
 
 USUAL_PARTS = (

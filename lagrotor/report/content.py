@@ -19,7 +19,8 @@ from lagrotor.pictures.figures import Picture
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
 # File of the report's folder → what it is.
 _BESIDE = {
-    "index.html": "this report as a page",
+    "index.html": "this report as pages",
+    "whole.html": "as one page that needs nothing else",
     "report.md": "as Markdown",
     "report.tex": "as LaTeX",
     "errata.md": "the errata alone",

@@ -220,7 +220,7 @@ _PARTS: dict[str, Callable[[Report], Iterable[str]]] = {
     "model": lambda report: ["Sliders and both tips in motion, in a browser: [index.html](index.html#model)."],
     "claims": lambda report: [_claim(result, report) for result in report.claims],
     "derivations": lambda report: [
-        "\n".join(f"- [{_prose(name)}](index.html#derivation-{stem})" for stem, name, _ in report.derivations)
+        "\n".join(f"- [{_prose(name)}](pages/derivation-{stem}.html)" for stem, name, _ in report.derivations)
     ],
     "waiting": lambda report: [_rows(("Equation", "Title"), [(e.id, _prose(e.title)) for e in report.waiting])],
     "cite": _cite,

@@ -467,7 +467,9 @@ def test_report_is_complete(work: Path, capsys: pytest.CaptureFixture[str]) -> N
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
     kept = {name for name in kept if not name.startswith(folder.PRODUCTS)}
     drawn = {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
-    assert kept == folder.CONTENTS - {"figures", folder.PRODUCTS, folder.CERTIFICATES} | drawn
+    pages = {name for name in kept if name.startswith("pages/")}
+    assert {"pages/page.css", "pages/words.js", "pages/section-5.2.html", "pages/about.html"} <= pages
+    assert kept - pages == folder.CONTENTS - {"figures", "pages", folder.PRODUCTS, folder.CERTIFICATES} | drawn
     rows = json.loads((report / "verdicts.json").read_text())
     assert {row["id"] for row in rows if row["verdict"] != "not-yet-judged"} == set(found())
     assert {row["id"] for row in rows} == set(PAPER.equations)

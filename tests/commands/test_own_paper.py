@@ -37,7 +37,7 @@ def test_a_new_paper_is_green_at_once(work: Path, capsys: pytest.CaptureFixture[
     for name in ("index.html", "report.md", "report.tex", "errata.tex"):
         text = (work / "report" / name).read_text(encoding="utf-8")
         assert "my-paper" in text and "otor Pairs" not in re.sub(r"(?s)How to cite.*", "", text), name
-    assert 'id="model"' not in (work / "report" / "index.html").read_text(encoding="utf-8"), "it has none"
+    assert 'id="model"' not in (work / "report" / "whole.html").read_text(encoding="utf-8"), "it has none"
     assert main(["reproduce", "--paper", "my-paper", "--jobs", "1"]) == 0
     assert "all taken from the last run" in capsys.readouterr().out
 

@@ -340,7 +340,7 @@ def test_a_report_links_each_verdict_to_its_certificate(tmp_path: Path) -> None:
         main(["reproduce", "--paper", str(HEAVY_TOP), "--out", str(tmp_path / "report"), "--jobs", "1", "--certify"])
         == 0
     )
-    page = (tmp_path / "report" / "index.html").read_text()
+    page = (tmp_path / "report" / "whole.html").read_text()
     listed = read_certificates(tmp_path / "report" / "certificates")
     assert all((f'href="certificates/{row.file}"' in page) == bool(row.file) for row in listed) and listed[0].file
     assert main(["reproduce", "--paper", str(HEAVY_TOP), "--out", str(tmp_path / "report"), "--jobs", "1"]) == 0

@@ -13,6 +13,8 @@ TIMES, MADE, PRODUCTS = "times.json", "made.json", "products"
 CERTIFICATES = "certificates"  # where the job was given `--certify`
 CONTENTS = {
     "index.html",
+    "pages",
+    "whole.html",
     "api.html",
     "report.md",
     "report.tex",

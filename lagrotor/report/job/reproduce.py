@@ -32,7 +32,7 @@ from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
 from lagrotor.report.job.steps import Derived, JobStep, steps
 from lagrotor.report.markdown import errata_blocks, markdown
-from lagrotor.report.page.whole_page import page
+from lagrotor.report.page.pages import FOLDER, pages, whole_page
 from lagrotor.report.supplement import supplement
 
 StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
@@ -178,7 +178,10 @@ def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
 
 
 def _write(folder: Path, report: Report) -> None:
-    write_text(folder / "index.html", page(report))
+    files = pages(report) | {"whole.html": whole_page(report)}
+    (folder / FOLDER).mkdir()
+    for name, text in files.items():
+        write_text(folder / name, text)
     write_text(folder / "api.html", api_page())
     write_text(folder / "report.md", markdown(report))
     write_text(folder / "report.tex", supplement(report))

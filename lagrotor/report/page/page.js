@@ -24,56 +24,54 @@ function search(query, entries) {
   return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
 }
 
-// What is read of the page is read once, when it is first searched.
-function kept(entry, read) {
-  const text = read().toLowerCase();
-  Object.defineProperty(entry, "text", { value: text });
-  return text;
+// What can be found: [address, anchor, name, words] of each entry, in the page or in a file that is loaded at the first query.
+function loadWords(script) {
+  if (typeof WORDS !== "undefined") return Promise.resolve();
+  return new Promise((resolve, reject) => {
+    const loaded = document.createElement("script");
+    loaded.src = script.dataset.words;
+    loaded.onload = resolve;
+    loaded.onerror = reject;
+    document.body.append(loaded);
+  });
 }
 
-function setUpSearch() {
+const MOST = 30; // hits that are listed
+function setUpSearch(script) {
   const form = document.getElementById("search");
-  const [input, said, elsewhere] = ["query", "found", "elsewhere"].map((id) => document.getElementById(id));
-  // An equation's words are those of its row and of its own entry below.
-  const whole = (row, { hash }) => row.textContent + " " + (document.getElementById(hash.slice(1))?.textContent ?? "");
-  const rows = [...document.querySelectorAll(".verdicts tbody tr")].map((row) => ({
-    id: row.cells[0].textContent,
-    get text() { return kept(this, () => whole(row, row.querySelector("a"))); },
-    target: row.querySelector("a").hash,
-    row,
-  }));
-  const others = document.querySelectorAll(
-    "main article[id^=claim-], main article[id^=erratum-], main figure[id], main details.derivation, main h2[id=notation]",
-  );
-  const entries = [...others].map((entry) => ({
-    id: entry.id.replace("claim-", "").toLowerCase(),
-    get text() { return kept(this, () => (entry.closest("section:has(> #notation)") ?? entry).textContent); },
-    target: "#" + entry.id,
-    name: (entry.id.startsWith("erratum") ? "Erratum " : "") + (entry.querySelector("h3, summary") ?? entry).textContent,
-  }));
+  const [input, said, hits] = ["query", "found", "hits"].map((id) => document.getElementById(id));
+  const up = script.dataset.up ?? "";
+  let entries = null;
   let first = null;
-  function show() {
+  async function show() {
+    await loadWords(script);
+    entries ??= WORDS.map(([address, anchor, name, text]) => ({
+      id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
+      text: text.toLowerCase(),
+      address: address.startsWith("#") ? address : up + address,
+      name: (anchor.startsWith("erratum-") ? "Erratum " : "") + name,
+    }));
     const sought = input.value.trim();
-    const [inTable, outside] = [search(sought, rows), search(sought, entries)];
-    for (const { row } of rows) row.hidden = sought !== "" && !inTable.some((entry) => entry.row === row);
-    elsewhere.replaceChildren(
-      ...outside.slice(0, 12).map(({ target, name }) => {
+    const found = search(sought, entries);
+    hits.replaceChildren(
+      ...found.slice(0, MOST).map(({ address, name }) => {
         const [item, anchor] = [document.createElement("li"), document.createElement("a")];
-        anchor.href = target;
+        anchor.href = address;
         anchor.textContent = name;
         item.append(anchor);
         return item;
       }),
     );
-    const more = outside.length > 12 ? ", of which 12 are listed" : "";
-    said.textContent = sought && `${inTable.length} of ${rows.length} equations; ${outside.length} claims, figures, derivations and errata${more}`;
-    first = search(sought, [...inTable, ...outside])[0] ?? null;
+    const more = found.length > MOST ? `, the first ${MOST}:` : "";
+    said.textContent = sought && `${found.length} found${more}`;
+    first = found[0] ?? null;
   }
   form.hidden = false;
   form.addEventListener("input", show);
-  form.addEventListener("submit", (event) => {
+  form.addEventListener("submit", async (event) => {
     event.preventDefault();
-    if (first) location.hash = first.target;
+    await show();
+    if (first) location.href = first.address;
   });
 }
 
@@ -131,7 +129,7 @@ function fitFormulas() {
   }
 }
 
-function setUpPage() {
+function setUpPage(script) {
   const contents = document.getElementById("contents");
   const wide = matchMedia("(min-width: 75rem)");
   const unfold = () => (contents.open = wide.matches);
@@ -152,7 +150,7 @@ function setUpPage() {
   addEventListener("afterprint", () => {
     for (const fold of opened) fold.open = false;
   });
-  setUpSearch();
+  setUpSearch(script);
 }
 
-if (typeof document !== "undefined") setUpPage();
+if (typeof document !== "undefined") setUpPage(document.currentScript);

@@ -11,7 +11,7 @@ from lagrotor.report.content import Report, anchor, as_read, derived_heading, de
 from lagrotor.report.errata import Erratum
 from lagrotor.report.facts import facts, figure_facts, linked_facts
 from lagrotor.report.page.derivation_pages import link_to_derivation
-from lagrotor.report.page.embed import data_address, size
+from lagrotor.report.page.embed import size
 from lagrotor.report.page.page_pieces import (
     badge,
     code,
@@ -103,9 +103,10 @@ def picture_entry(picture: Picture, report: Report) -> str:
 
 
 def _image(picture: Picture) -> str:
-    """The drawing alone; a click opens it large (page.js)."""
+    """The drawing alone, loaded when it is come to; a click opens it large (page.js)."""
     width, height = size(picture)
-    return f'<img src="{data_address(picture)}" width="{width}" height="{height}" alt="{escape(picture.alt)}">'
+    source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
+    return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
 
 
 def headline_entry(headline: Headline, report: Report) -> str:

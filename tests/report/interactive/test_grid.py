@@ -12,7 +12,7 @@ import pytest
 from lagrotor import Link, Structure
 from lagrotor.report.interactive import grid as module
 from lagrotor.report.interactive.grid import grid_section
-from lagrotor.report.page import whole_page
+from lagrotor.report.page import pages
 from tests.report.interactive.in_node import NODE, value_of
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -124,6 +124,6 @@ def misplaced_bars(style: str, folder: Path) -> list[int]:
 
 @pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
 def test_the_bars_lie_between_their_rotors_on_the_whole_page(tmp_path: Path) -> None:
-    style = Path(whole_page.__file__).with_name("page.css").read_text(encoding="utf-8")
+    style = Path(pages.__file__).with_name("page.css").read_text(encoding="utf-8")
     assert misplaced_bars(style, tmp_path) == []
     assert misplaced_bars(style + " .grid-across { right: .75rem; bottom: .75rem }", tmp_path) != []

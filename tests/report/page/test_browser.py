@@ -20,7 +20,7 @@ from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import correction_lines
 from lagrotor.report.formulas.font import FONT_FAMILY, font_face
 from lagrotor.report.formulas.mathml_latex import mathml
-from lagrotor.report.page.whole_page import page
+from lagrotor.report.page.pages import whole_page
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
@@ -125,7 +125,7 @@ def wrong() -> str:
 def found(tmp_path_factory: pytest.TempPathFactory) -> Seen:
     """A page, all formulas and what is wrong, looked at together."""
     report = Report(PAPER, tuple(map(decide, PAPER.statements("s5_2a_single_rotor"))), (), ())
-    pages = {"page": page(report), "formulas": sheet(every_formula()), "wrong": wrong()}
+    pages = {"page": whole_page(report), "formulas": sheet(every_formula()), "wrong": wrong()}
     return looked_at(pages, tmp_path_factory.mktemp("browser"))
 
 

@@ -2,6 +2,7 @@
 
 import ast
 import json
+import posixpath
 import re
 import shutil
 import subprocess
@@ -35,7 +36,8 @@ from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page_pieces
-from lagrotor.report.page.whole_page import page
+from lagrotor.report.page.page_sections import sections
+from lagrotor.report.page.pages import pages, whole_page
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}
@@ -169,7 +171,7 @@ def reached(text: str) -> list[str]:
 
 
 def test_page_has_no_faults(longer: Report) -> None:
-    text = page(longer)
+    text = whole_page(longer)
     assert faults(text) == []
     assert {f"#eq-{verdict.id}" for verdict in longer.verdicts} <= set(read(text).all("a", "href"))
 
@@ -189,33 +191,89 @@ def test_page_has_no_faults(longer: Report) -> None:
     ],
 )
 def test_faults_are_seen(whole: str, broken: str, says: str, longer: Report) -> None:
-    text = page(longer)
+    text = whole_page(longer)
     assert whole in text
     assert any(fault.startswith(says) for fault in faults(text.replace(whole, broken, 1)))
 
 
+def scattered(files: dict[str, str]) -> list[str]:
+    """What a reader of the pages would stumble over: faults within each, links and images that lead nowhere, what is left out."""
+    readers = {name: read(text) for name, text in files.items() if name.endswith(".html")}
+    result = []
+    for name, reader in readers.items():
+        result += [f"{name}: {fault}" for fault in faults(files[name]) if not fault.startswith("leads nowhere")]
+        for link in (*reader.all("a", "href"), *reader.all("link", "href"), *reader.all("script", "src")):
+            target, _, place = link.partition("#")
+            file = posixpath.normpath(posixpath.join(posixpath.dirname(name), target)) if target else name
+            there = place in readers[file].ids if place and file in readers else file in files or file in CONTENTS
+            result += [f"{name}: leads nowhere: {link}"] * (not there)
+        for image in reader.all("img", "src"):
+            up = "../" * name.count("/")
+            result += [f"{name}: no such image: {image}"] * (image != f"{up}figures/fig17_stub.svg")
+    return result
+
+
+def test_pages_lead_to_each_other(longer: Report) -> None:
+    files = pages(longer)
+    assert scattered(files) == []
+    assert 'href="pages/section-5.2.html#eq-5.02"' in files["index.html"]
+    assert 'href="section-5.2.html#eq-5.20"' in files["pages/claims.html"]
+    assert 'href="derivation-s5_2a_single_rotor.html#derivation-s5_2a_single_rotor"' in files["pages/section-5.2.html"]
+    assert 'id="figure-17"' in files["pages/section-5.2.html"], "a figure of the paper stands in its section"
+    assert 'src="../figures/fig17_stub.svg"' in files["pages/section-5.2.html"]
+    every = "".join(files.values())
+    for section in sections(longer):
+        assert section.anchor in ("derivations", "figures") or f'id="{section.anchor}"' in every
+
+
+@pytest.mark.parametrize(
+    ("file", "whole", "broken", "says"),
+    [
+        ("index.html", "section-5.2.html#eq-5.02", "section-5.3.html#eq-5.02", "leads nowhere"),
+        ("pages/section-5.2.html", 'src="../figures', 'src="figures', "no such image"),
+        ("pages/section-5.2.html", 'href="page.css"', 'href="pages/page.css"', "leads nowhere"),
+        ("pages/past.html", "</table>", "", "left open"),
+    ],
+)
+def test_a_page_that_leads_astray_is_seen(file: str, whole: str, broken: str, says: str, longer: Report) -> None:
+    files = pages(longer)
+    assert whole in files[file]
+    assert any(says in fault for fault in scattered(files | {file: files[file].replace(whole, broken, 1)}))
+
+
+def test_the_words_of_every_entry_can_be_found(longer: Report) -> None:
+    rows = json.loads(pages(longer)["pages/words.js"].removeprefix("const WORDS = ").rstrip(";\n"))
+    found = {anchor: (address, name, text) for address, anchor, name, text in rows}
+    assert {f"eq-{verdict.id}" for verdict in longer.verdicts} <= found.keys()
+    assert {f"figure-{picture.key}" for picture in longer.pictures} | {"claim-C16", "notation"} <= found.keys()
+    address, name, text = found["eq-5.20"]
+    assert address == "pages/section-5.2.html#eq-5.20"
+    assert "5.20" in name and HOSTILE in text
+    assert "const ORDER" not in "".join(row[3] for row in rows), "no program's text is searched"
+
+
 def test_page_is_escaped(report: Report) -> None:
-    text = page(report)
+    text = whole_page(report)
     assert text.count("<script") == 1, "the page's own"
     assert read(text).text.count(HOSTILE) == 5  # change, evidence, derivation, figure's title, caption
     assert read(text).text.count(HOSTILE.replace("_", " ")) == 1  # measured name
 
 
 def test_page_needs_no_network(longer: Report) -> None:
-    text = page(longer)
+    text = whole_page(longer)
     assert reached(text) == []
     for fetched in ('<img src="figures/a.png" alt="">', "<style>@import 'a.css'</style>", "<style>a{b:url(c)}</style>"):
         assert reached(text.replace("</main>", f"{fetched}</main>"))
 
 
 def test_pictures_have_alternatives(report: Report) -> None:
-    reader = read(page(report))
+    reader = read(whole_page(report))
     assert list(reader.all("img", "alt")) == [HOSTILE]
     assert next(reader.all("img", "src")).startswith("data:image/svg+xml,")
     assert (next(reader.all("img", "width")), next(reader.all("img", "height"))) == ("40", "30")
 
 
-@pytest.mark.parametrize("write", [page, markdown])
+@pytest.mark.parametrize("write", [whole_page, markdown])
 def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> None:
     text = write(report)
     for identifier in PAPER.equations:
@@ -229,7 +287,7 @@ def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> 
     assert "agrees through order 0 in" in text
 
 
-@pytest.mark.parametrize("write", [page, markdown])
+@pytest.mark.parametrize("write", [whole_page, markdown])
 def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], str], longer: Report) -> None:
     text = write(longer)
     listed = contents(longer)
@@ -260,7 +318,7 @@ def test_sections_stand_in_the_order_of_the_contents(write: Callable[[Report], s
         assert f'id="figure-{key}"' in within[name]
 
 
-@pytest.mark.parametrize("write", [page, markdown])
+@pytest.mark.parametrize("write", [whole_page, markdown])
 def test_what_belongs_together_is_linked(write: Callable[[Report], str], longer: Report) -> None:
     text = write(longer)
     assert {"5.19", "5.20"} == set(PAPER.claims["C16"].equations)
@@ -283,15 +341,15 @@ def test_catalogue_names_equations_that_exist() -> None:
 
 
 def test_page_shows_the_source_as_printed(report: Report) -> None:
-    text = read(page(report)).text
+    text = read(whole_page(report)).text
     for verdict in report.verdicts:
         assert PAPER.equation(verdict.id).latex in text
 
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page_pieces, "mathml", lambda source, display=True: None)
-    assert "install latex2mathml" in page(report)
-    assert faults(page(report)) == []
+    assert "install latex2mathml" in whole_page(report)
+    assert faults(whole_page(report)) == []
 
 
 def test_markdown_tables_keep_their_columns(longer: Report) -> None:
@@ -322,20 +380,24 @@ def test_markdown_links_lead_somewhere(longer: Report) -> None:
         assert link in places or link == "figure-t7", link
     assert judged - {"figure-t7"} <= places
     beside = {file.partition("#")[0] for file in re.findall(r"(?<!!)\[[^\]]*\]\(([^#)][^)]*)\)", text)}
-    assert {"api.html", "errata.md", "verdicts.json", "claims.json", "measured.json"} <= beside <= CONTENTS
+    assert (
+        {"api.html", "errata.md", "verdicts.json", "claims.json", "measured.json"}
+        <= beside
+        <= CONTENTS | pages(longer).keys()
+    )
 
 
 def test_page_leads_to_what_lies_beside_it(report: Report) -> None:
-    text = page(report)
+    text = whole_page(report)
     files = {link for link in read(text).all("a", "href") if not link.startswith("#")}
     assert {"api.html", "errata.md", "report.md", "report.tex", "verdicts.json"} <= files <= CONTENTS
     assert "leads nowhere: missing.json" in faults(text.replace('href="api.html"', 'href="missing.json"'))
 
 
 def test_past_the_paper_is_a_section_of_its_own(report: Report, longer: Report) -> None:
-    assert 'id="past"' not in page(report)
+    assert 'id="past"' not in whole_page(report)
     assert "Past the paper" not in markdown(report)
-    text = page(longer)
+    text = whole_page(longer)
     assert "#figure-t6" in set(read(text).all("a", "href"))
     assert "#figure-t7" not in set(read(text).all("a", "href"))
     assert "<msub><mi>r</mi><mn>0</mn></msub>" in text[text.index('id="past"') :]
@@ -392,7 +454,7 @@ def test_search() -> None:
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
-    script = Path(page.__code__.co_filename).with_name("page.js").read_text(encoding="utf-8")
+    script = Path(whole_page.__code__.co_filename).with_name("page.js").read_text(encoding="utf-8")
     asked = SEARCHED.replace("ENTRIES", json.dumps(ENTRIES)).replace("QUERIES", json.dumps(list(QUERIES)))
     done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
     assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES
@@ -403,7 +465,7 @@ def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: 
     stems = PAPER.stating_scripts
     found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
     remarks = ShownPart("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
-    assert typed_formulas(page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
+    assert typed_formulas(whole_page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
 
 
 @pytest.mark.parametrize(

@@ -1,14 +1,13 @@
-"""The report as one HTML page that needs nothing else: style, script, font, formulas and figures are inside it."""
+"""The sections of the report as HTML, links to places of the report and to files beside its front page."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from html import escape
-from pathlib import Path
 
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
     CLAIM_MEANINGS,
     MEANINGS,
-    SUBTITLE,
     Report,
     ShownPart,
     contents,
@@ -17,7 +16,6 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import errata
 from lagrotor.report.facts import note
-from lagrotor.report.formulas.font import font_face
 from lagrotor.report.page.page_parts import (
     claim_entry,
     count_entry,
@@ -44,55 +42,42 @@ from lagrotor.report.page.page_pieces import (
 )
 from lagrotor.report.results import balance, headlines, opening
 
-_HERE = Path(__file__).parent
-# Hidden until the script shows it: without the script there is nothing that could search.
-_SEARCH = (
-    '<form id="search" role="search" hidden><label for="query">Find an equation, a claim, a figure</label>'
-    '<input id="query" type="search" autocomplete="off" placeholder="5.1, C08, fig 19, bar length">'
-    '<p id="found" role="status"></p><ul id="elsewhere"></ul></form>'
-)
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the report under its heading: where it is, its heading, HTML."""
+
+    anchor: str
+    heading: str
+    inside: str
+
+    @property
+    def html(self) -> str:
+        """The section; the live model brings its own."""
+        if self.anchor == "model":
+            return self.inside
+        heading = f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
+        return f'<section aria-labelledby="{self.anchor}">{heading}\n{self.inside}</section>'
 
 
-def page(report: Report) -> str:
-    """The whole report."""
-    listed = contents(report)
-    entries = "".join(f'<li><a href="#{anchor}">{escape(heading)}</a></li>' for anchor, heading in listed)
-    style = (_HERE / "page.css").read_text(encoding="utf-8")
-    script = (_HERE / "page.js").read_text(encoding="utf-8")
-    return "\n".join(
-        [
-            "<!DOCTYPE html>",
-            '<html lang="en"><head><meta charset="utf-8">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            '<meta name="color-scheme" content="light dark">',
-            f"<title>{escape(report.title)}: {escape(SUBTITLE.lower())}</title>",
-            f"<style>\n{font_face()}\n{style}</style></head>",
-            '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
-            f"<header><h1>{escape(report.title)}</h1><p>{escape(SUBTITLE)}.</p>{_opening(report)}</header>",
-            '<nav aria-label="Contents"><details id="contents"><summary>Contents</summary>'
-            f"<ul>{entries}</ul></details></nav>",
-            '<main id="content">',
-            *(_section(anchor, heading, report) for anchor, heading in listed),
-            '</main><footer><a class="to-top" href="#top">Back to top</a></footer>',
-            f"<script>\n{script}</script></body></html>\n",
-        ]
-    )
+def sections(report: Report) -> list[Section]:
+    """Every section of the report, in the order of its contents."""
+    return [Section(anchor, heading, _inside(anchor, report)) for anchor, heading in contents(report)]
 
 
-def _opening(report: Report) -> str:
+def introduction(report: Report) -> str:
+    """What stands above the sections: three lines of what is right and wrong, or how the report is to be read."""
     lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
     return f'<ul class="opening">{lines}</ul>' if lines else f"<p>{escape(report.how_to_read)}</p>"
 
 
-def _section(anchor: str, heading: str, report: Report) -> str:
+def _inside(anchor: str, report: Report) -> str:
     if anchor == "model":
         return report.model
     if anchor.startswith("section-"):
         verdicts = report.sections[anchor.removeprefix("section-")]
-        inside = "\n".join(equation_entry(verdict, report) for verdict in verdicts)
-    else:
-        inside = _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
-    return f'<section aria-labelledby="{anchor}"><h2 id="{anchor}">{escape(heading)}</h2>\n{inside}</section>'
+        return "\n".join(equation_entry(verdict, report) for verdict in verdicts)
+    return _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
 
 
 def _summary(report: Report) -> str:
@@ -114,7 +99,7 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return _SEARCH + html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
+    return html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:

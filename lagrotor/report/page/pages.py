@@ -1,0 +1,234 @@
+"""The report as pages: a front page, one page a section of the paper and a derivation; and as one file that needs nothing else.
+
+Both are made of the same sections. In a section a link names a place, `#eq-5.07`, or a file beside the front page, and an
+image its file; the pages put the page before a place, and the single file puts the figures inside.
+"""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from html import escape, unescape
+from pathlib import Path
+from posixpath import dirname, relpath
+
+from lagrotor.paper.readable import readable
+from lagrotor.report.content import SUBTITLE, Report, ShownPart
+from lagrotor.report.formulas.font import font_face
+from lagrotor.report.page.embed import data_address
+from lagrotor.report.page.page_parts import picture_entry
+from lagrotor.report.page.page_pieces import prose, side_by_side
+from lagrotor.report.page.page_sections import Section, introduction, sections
+
+_HERE = Path(__file__).parent
+# Hidden until the script shows it: without the script there is nothing that could search.
+_SEARCH = (
+    '<form id="search" role="search" hidden><label for="query">Find</label>'
+    '<input id="query" type="search" autocomplete="off" placeholder="5.1, C08, fig 19, nutation, 0.7125">'
+    '<p id="found" role="status"></p><ol id="hits"></ol></form>'
+)
+# Sections that have a page together, besides those of the paper, each of which has its own.
+_FRONT = ("model", "summary", "verdicts")
+_ABOUT = ("notation", "waiting", "cite", "made")
+FOLDER = "pages"
+_CURRENT = ' aria-current="page"'
+_PLACE = re.compile(r'\bid="([^"]+)"')
+_ADDRESS = re.compile(r'\b(href|src)="([^"]+)"')
+_ENTRY = re.compile(r'(<(article|figure|details)(?: class="derivation")? id="([^"]+)">(.*?)</\2>)', re.DOTALL)
+_TAG = re.compile(r"<[^>]+>")
+_UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Page:
+    """One file of the report: its address from the front page, its name in the contents, what stands on it."""
+
+    file: str
+    name: str
+    sections: tuple[Section, ...]
+    listed: bool = True
+
+    @property
+    def body(self) -> str:
+        """Its sections, one after the other."""
+        return "\n".join(section.html for section in self.sections)
+
+
+def whole_page(report: Report) -> str:
+    """The whole report as one page: style, script, font, formulas, figures and words to be found are inside it."""
+    everything = sections(report)
+    body = "\n".join(section.html for section in everything)
+    for picture in report.pictures:
+        body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
+    contents = [(f"#{section.anchor}", section.heading) for section in everything]
+    words = _data(_words("", everything))
+    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
+
+
+def pages(report: Report) -> dict[str, str]:
+    """The files of the report as pages, by their address in its folder: HTML, one style, one script, the words to be found."""
+    made = _pages(report)
+    places = {place: page.file for page in made for place in _PLACE.findall(page.body)}
+    words = [row for page in made for row in _words(page.file, page.sections)]
+    assets = {"page.css": _style(), "page.js": _script(), "words.js": _data(words)}
+    files = {f"{FOLDER}/{name}": text for name, text in assets.items()}
+    return {page.file: _page(page, made, places, report) for page in made} | files
+
+
+def _pages(report: Report) -> list[Page]:
+    """The pages in the order of the contents; figures and derivations stand with what they show and derive."""
+    left = {section.anchor: section for section in sections(report)}
+    figures = left.pop("figures", None)
+    derivations = left.pop("derivations", None)
+    if figures:
+        left |= _figures(left, figures, report)
+    if derivations:
+        left |= _derivation_lists(left, report)
+    front = [left.pop(anchor) for anchor in _FRONT if anchor in left]
+    for part in report.paper.about.part:
+        if part.front and part.name in left:
+            front.append(_in_short(report.part(part.name), report) if part.figures else left.pop(part.name))
+    about = [left.pop(anchor) for anchor in _ABOUT if anchor in left]
+    result = [Page("index.html", "In short", tuple(front))]
+    result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in left.items()]
+    result.append(Page(f"{FOLDER}/about.html", "How this was made", tuple(about)))
+    for stem, name, inside in report.derivations:
+        alone = Section(f"derivation-{stem}", name, inside)
+        result.append(Page(f"{FOLDER}/{alone.anchor}.html", name, (alone,), listed=False))
+    return result
+
+
+def _in_short(part: ShownPart, report: Report) -> Section:
+    """The tables of a part, with the way to the rest of it."""
+    tables = "".join(side_by_side(table, report) for table in part.tables)
+    return Section(
+        f"{part.name}-in-short", part.heading, f'{tables}<p><a href="#{part.name}">More, with figures</a></p>'
+    )
+
+
+def _figures(left: Mapping[str, Section], figures: Section, report: Report) -> dict[str, Section]:
+    """The sections of the paper with their figures, and those figures that belong to no section with equations."""
+    of: dict[str, list[str]] = {}
+    numbered = {str(number): entry.section for number, entry in report.paper.figures.items()}
+    for picture in report.part("figures").pictures:
+        section = numbered.get(picture.key, "")
+        while section and f"section-{section}" not in left:
+            section = section.rpartition(".")[0]
+        of.setdefault(f"section-{section}" if section else "figures", []).append(picture_entry(picture, report))
+    filled = {name: left.get(name, replace(figures, inside="")) for name in of}
+    return {
+        name: replace(filled[name], inside=filled[name].inside + "\n".join(entries)) for name, entries in of.items()
+    }
+
+
+def _derivation_lists(left: Mapping[str, Section], report: Report) -> dict[str, Section]:
+    """The sections that have derivations, each with links to its own; those of no section stand by themselves."""
+    of: dict[str, list[str]] = {}
+    for stem, name, _ in report.derivations:
+        owner = _owner(stem, report)
+        link = f'<li><a href="#derivation-{stem}">{prose(name)}</a></li>'
+        of.setdefault(owner if owner in left else "derivations", []).append(link)
+    alone = Section("derivations", "Other derivations", "")
+    lists = {name: f'<h3>Derivations</h3><ul class="derivations">{"".join(links)}</ul>' for name, links in of.items()}
+    filled = {name: left.get(name, alone) for name in of}
+    return {name: replace(filled[name], inside=filled[name].inside + html) for name, html in lists.items()}
+
+
+def _owner(stem: str, report: Report) -> str:
+    """The section in which what a derivation states, tests or tabulates is shown."""
+    about = report.paper.about
+    for identifier, (stating, _) in report.paper.scripts.stating.items():
+        if stating == stem:
+            return f"section-{report.paper.equation(identifier).section}"
+    if about.claims_in and stem.startswith(about.claims_in):
+        return "claims"
+    beginnings = [(name, part.name) for part in about.part for name in part.tables + part.remarks if name]
+    return max(
+        (each for each in beginnings if stem.startswith(each[0])), key=lambda each: len(each[0]), default=("", "")
+    )[1]
+
+
+def _page(page: Page, made: list[Page], places: Mapping[str, str], report: Report) -> str:
+    """A page with its links and images addressed from where it lies."""
+    folder = dirname(page.file) or "."
+
+    def address(match: re.Match[str]) -> str:
+        name, target = match.groups()
+        file, mark, place = target.partition("#")
+        file = file or places.get(place, page.file)
+        if ":" in file or file == page.file:
+            return match[0]
+        return f'{name}="{relpath(file, folder)}{mark}{place}"'
+
+    contents = [("#content" if other is page else other.file, other.name) for other in made if other.listed]
+    style = f'<link rel="stylesheet" href="{FOLDER}/page.css">'
+    words, up = relpath(f"{FOLDER}/words.js", folder), relpath(".", folder)
+    script = f'<script src="{FOLDER}/page.js" data-words="{words}" data-up="{up}/"></script>'
+    text = _document(report, page.body, contents, style, script, "" if page is made[0] else page.name)
+    return _ADDRESS.sub(address, text)
+
+
+def _document(
+    report: Report,
+    body: str,
+    contents: Iterable[tuple[str, str]],
+    style: str,
+    script: str,
+    name: str = "",
+    up: str = "",
+) -> str:
+    """A whole HTML document; under a name it is one of several, and its title leads to the front page."""
+    listed = "".join(
+        f'<li><a href="{address}"{_CURRENT if address == "#content" else ""}>{prose(heading)}</a></li>'
+        for address, heading in contents
+    )
+    title = f'<a href="index.html">{escape(report.title)}</a>' if name else escape(report.title)
+    opening = "" if name else f"<p>{escape(SUBTITLE)}.</p>{introduction(report)}"
+    return "\n".join(
+        [
+            "<!DOCTYPE html>",
+            '<html lang="en"><head><meta charset="utf-8">',
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            '<meta name="color-scheme" content="light dark">',
+            f"<title>{escape(readable(name) + ': ' + report.title if name else report.title)}</title>",
+            f"{style}</head>",
+            '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
+            f"<header{' class=short' if name else ''}><h1>{title}</h1>{opening}{_SEARCH}</header>",
+            '<nav aria-label="Contents"><details id="contents"><summary>Contents</summary>'
+            f"<ul>{listed}</ul></details></nav>",
+            f'<main id="content">{body}</main>',
+            '<footer><a class="to-top" href="#top">Back to top</a></footer>',
+            f"{script}</body></html>\n",
+        ]
+    )
+
+
+def _words(file: str, shown: Iterable[Section]) -> list[tuple[str, str, str, str]]:
+    """What can be found: (where it is, its number or name, its heading, all its words) of each entry and each section's rest."""
+    rows = []
+    for section in shown:
+        rest = section.html
+        for whole, _, anchor, inside in _ENTRY.findall(rest):
+            rest = rest.replace(whole, "", 1)
+            title = re.search(r"<(h3|summary)>(.*?)</\1>", inside, re.DOTALL)
+            rows.append((f"{file}#{anchor}", anchor, _text(title[2] if title else anchor), _text(inside)))
+        rows.append((f"{file}#{section.anchor}", section.anchor, section.heading, _text(rest)))
+    return rows
+
+
+def _text(html: str) -> str:
+    """The words of HTML, without what only a machine reads."""
+    return " ".join(unescape(_TAG.sub(" ", _UNREAD.sub(" ", html))).split())
+
+
+def _data(rows: list[tuple[str, str, str, str]]) -> str:
+    """The words to be found, as a script that any page can load, also from a disk."""
+    return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
+
+
+def _style() -> str:
+    return f"{font_face()}\n{(_HERE / 'page.css').read_text(encoding='utf-8')}"
+
+
+def _script() -> str:
+    return (_HERE / "page.js").read_text(encoding="utf-8")
