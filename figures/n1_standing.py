@@ -54,7 +54,7 @@ def data() -> dict[str, np.ndarray]:
     runs = [structure("corner of three", 8**0.5 * x).simulate(t, rates=[(1e-3, 0)] * 3, tol=1e-8) for x in (0.97, 1.03)]
     return {
         "spins": spins,
-        "growth": np.array([[motion.scaled(x).growth / fall for x in spins] for motion in unit_spins]),
+        "growth": np.array([[motion.at_spins(x).growth / fall for x in spins] for motion in unit_spins]),
         "measured": np.array(
             [[measured_growth(s) / fall if small_motion(s).growth else np.nan for s in row] for row in found.values()]
         ),

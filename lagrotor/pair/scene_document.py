@@ -1,14 +1,15 @@
 """A scene as TOML: the fields of `Scene`, read and written; what is not one of them is refused."""
 
-from collections.abc import Mapping
-from dataclasses import asdict, fields
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, asdict, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from lagrotor.errors import InputError, near
 from lagrotor.files import read_toml, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
+Kind = TypeVar("Kind")
 _PARTS: dict[str, type] = {"rotor": Rotor, "link": Link, "shock": Shock}
 
 
@@ -17,44 +18,57 @@ def read_scene(path: str | Path) -> Scene:
 
     `link = "none"` is a pair without a bar. Raises InputError with the reason where there is none.
     """
-    given = read_toml(path)
+    return read_document(path, scene_of)
+
+
+def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> Kind:
+    """What `make` gives of the table that a TOML file holds. Raises InputError, with the file's name, where it does."""
+    table = read_toml(path)
     try:
-        return scene_of(given)
+        return make(table)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
 
 def scene_of(given: Mapping[str, Any]) -> Scene:
     """The scene of a table with the fields' names. Raises InputError for names that are none, or values that make no sense."""
-    names = [field.name for field in fields(Scene)]
-    if unknown := [name for name in given if name not in names]:
-        known = ", ".join(names)
-        raise InputError(f"{unknown[0]!r} is no field of a scene: they are {known}{near(unknown[0], names)}")
+    check_fields(given, Scene, "a scene")
     if "spins" not in given:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
-    made = dict(given) | {name: _part(name, kind, given[name]) for name, kind in _PARTS.items() if name in given}
-    return Scene(**made)
+    parts = {
+        name: None if (name, given[name]) == ("link", "none") else part_of(name, kind, given[name])
+        for name, kind in _PARTS.items()
+        if name in given
+    }
+    return Scene(**dict(given) | parts)
 
 
-def _part(name: str, kind: type, table: Any) -> Any:
-    if name == "link" and table == "none":
-        return None
+def check_fields(given: Mapping[str, Any], kind: type, what: str) -> None:
+    """Raises InputError for a name in a table that is no field of `kind`."""
+    names = [field.name for field in fields(kind)]
+    if unknown := [name for name in given if name not in names]:
+        known = ", ".join(names)
+        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {known}{near(unknown[0], names)}")
+
+
+def part_of(name: str, kind: type, table: Any) -> Any:
+    """A part of a kind from its table. Raises InputError where it is none."""
     known = [field.name for field in fields(kind)]
     if not isinstance(table, dict) or any(key not in known for key in table):
         raise InputError(f"{name} = {table!r} must be a table of {', '.join(known)}")
-    try:
-        return kind(**table)
-    except TypeError as error:
-        raise InputError(f"{name}: {str(error).rpartition('missing ')[2]}") from None
+    needed = [field.name for field in fields(kind) if field.default is MISSING and field.default_factory is MISSING]
+    if lacking := [key for key in needed if key not in table]:
+        raise InputError(f"{name} = {table!r} lacks {', '.join(lacking)}")
+    return kind(**table)
 
 
 def scene_toml(scene: Scene) -> str:
     """The scene as TOML that `read_scene` reads back to the same."""
-    lines = [f"{name} = {_value(getattr(scene, name))}" for name in ("spins", "axes", "rates")]
+    lines = [f"{name} = {toml_value(getattr(scene, name))}" for name in ("spins", "axes", "rates")]
     lines += [] if scene.link else ['link = "none"']
     for name in _PARTS:
         if part := getattr(scene, name):
-            lines += ["", f"[{name}]", *(f"{key} = {_value(value)}" for key, value in asdict(part).items())]
+            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in asdict(part).items())]
     return "\n".join([*lines, ""])
 
 
@@ -65,5 +79,6 @@ def write_scene(scene: Scene, path: str | Path) -> Path:
     return write_text(Path(path), scene_toml(scene))
 
 
-def _value(value: Any) -> str:
-    return f"[{', '.join(map(_value, value))}]" if isinstance(value, tuple) else repr(value)
+def toml_value(value: Any) -> str:
+    """A number, a text or a tuple of them as TOML."""
+    return f"[{', '.join(map(toml_value, value))}]" if isinstance(value, tuple) else repr(value)

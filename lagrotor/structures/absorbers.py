@@ -37,7 +37,7 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
 
     That is its height at the two fixed points. Raises DomainError unless 0 < γ < √2.
     """
-    g2 = _checked("gamma", gamma, 2**0.5) ** 2
+    g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(3 * g2 / 8), np.sqrt(2 / g2))
 
 
@@ -46,7 +46,7 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
 
     The mean square is sqrt(4/γ² − 1). Raises DomainError unless 0 < γ < √2.
     """
-    g2 = _checked("gamma", gamma, 2**0.5) ** 2
+    g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
 
 
@@ -55,7 +55,7 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
 
     The largest |X K/F| is sqrt(1 + 2/μ), μ the ratio of masses. Raises DomainError unless μ > 0.
     """
-    m = _checked("mu", mu, np.inf)
+    m = _in_domain("mu", mu, np.inf)
     return Absorber(1 / (1 + m) ** 2, np.sqrt(3 * m / (8 * (1 + m))), np.sqrt(1 + 2 / m))
 
 
@@ -64,26 +64,26 @@ def mass_white_noise(mu: ArrayLike) -> Absorber:
 
     The mean square is sqrt((4 + 3μ)/(μ (1 + μ))). Raises DomainError unless μ > 0.
     """
-    m = _checked("mu", mu, np.inf)
+    m = _in_domain("mu", mu, np.inf)
     damping = np.sqrt(m * (1 + 3 * m / 4) / (4 * (1 + m) * (1 + m / 2)))
     return Absorber((1 + m / 2) / (1 + m) ** 2, damping, np.sqrt((4 + 3 * m) / (m * (1 + m))))
 
 
 def spins_win_worst_case(mu: ArrayLike) -> Array:
     """γ from which on the spins do better than a tuned mass in the worst case: sqrt(2μ/(2 + μ))."""
-    m = _checked("mu", mu, np.inf)
+    m = _in_domain("mu", mu, np.inf)
     return np.asarray(np.sqrt(2 * m / (2 + m)))
 
 
 def spins_win_white_noise(mu: ArrayLike) -> Array:
     """γ from which on the spins do better than a tuned mass under white noise: 2 sqrt(μ (1 + μ))/(2 + μ)."""
-    m = _checked("mu", mu, np.inf)
+    m = _in_domain("mu", mu, np.inf)
     return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))
 
 
-def _checked(name: str, given: ArrayLike, below: float) -> Array:
+def _in_domain(name: str, given: ArrayLike, below: float) -> Array:
     """What is given as an array, refused outside its domain."""
-    found = np.asarray(given, dtype=float)
-    if not ((found > 0) & (found < below)).all():
+    x = np.asarray(given, dtype=float)
+    if not ((x > 0) & (x < below)).all():
         raise DomainError(f"{name} = {given!r} must lie between 0 and {below:g}")
-    return found
+    return x

@@ -156,8 +156,8 @@ def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) ->
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):
         raise InputError(f"Structure: {where} has {len(items)} numbers for {n} rotors: give one for all, or {n}")
-    found = [check(item, f"Structure: {where}[{i}]", unit) for i, item in enumerate(items)]
-    return tuple(found * n if len(found) == 1 else found)
+    amounts = [check(item, f"Structure: {where}[{i}]", unit) for i, item in enumerate(items)]
+    return tuple(amounts * n if len(amounts) == 1 else amounts)
 
 
 def _each(value: Any, n: int, where: str, kind: type) -> tuple[Any, ...]:

@@ -26,12 +26,12 @@ Complex = NDArray[np.complex128]
 def finite(where: str, given: ArrayLike, kind: type = float) -> NDArray[Any]:
     """What is given as an array of numbers. Raises InputError where it is none, or not finite."""
     try:
-        found: NDArray[Any] = np.asarray(given, dtype=kind)
+        numbers: NDArray[Any] = np.asarray(given, dtype=kind)
     except (TypeError, ValueError):
         raise InputError(f"{where} = {given!r} must be numbers") from None
-    if not np.isfinite(found).all():
+    if not np.isfinite(numbers).all():
         raise InputError(f"{where} must be finite numbers")
-    return found
+    return numbers
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,9 +4,10 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from lagrotor.errors import InputError, near
-from lagrotor.files import read_toml, write_text
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
 from lagrotor.pair.scene import Link, Rotor
+from lagrotor.pair.scene_document import check_fields, part_of, read_document, toml_value
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.structure import Structure
 
@@ -15,59 +16,36 @@ _PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
 
 def read_structure(path: str | Path) -> Structure:
     """The structure that a TOML file describes. Raises InputError with the reason where there is none."""
-    given = read_toml(path)
-    try:
-        return structure_of(given)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    return read_document(path, structure_of)
 
 
 def structure_of(given: dict[str, Any]) -> Structure:
     """The structure of a table with the fields' names. Raises InputError for other names and for values out of range."""
-    names = [field.name for field in fields(Assembly)]
-    if unknown := [name for name in given if name not in names]:
-        known = ", ".join(names)
-        raise InputError(f"{unknown[0]!r} is no field of a structure: they are {known}{near(unknown[0], names)}")
+    check_fields(given, Assembly, "a structure")
     if "joints" not in given:
         raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")
     made = dict(given)
     for name, kind in _PARTS.items():
         if name in given:
             tables = given[name] if isinstance(given[name], list) else [given[name]]
-            made[name] = [_part(name, kind, table) for table in tables]
+            made[name] = [part_of(name, kind, table) for table in tables]
     return Structure(**made)
-
-
-def _part(name: str, kind: type, table: Any) -> Any:
-    known = [field.name for field in fields(kind)]
-    if not isinstance(table, dict) or any(key not in known for key in table):
-        raise InputError(f"{name} = {table!r} must be a table of {', '.join(known)}")
-    try:
-        return kind(**table)
-    except TypeError:
-        raise InputError(f"{name} = {table!r} lacks one of {', '.join(known)}") from None
 
 
 def toml_of(s: Assembly) -> str:
     """The structure as TOML that `read_structure` reads back to the same."""
     lines = [
-        f"{field.name} = {_value(getattr(s, field.name))}" for field in fields(Assembly) if field.name not in _PARTS
+        f"{field.name} = {toml_value(getattr(s, field.name))}" for field in fields(Assembly) if field.name not in _PARTS
     ]
     for name in _PARTS:
         parts = getattr(s, name)
         once = name != "braces" and len(set(parts)) == 1
         for part in parts[:1] if once else parts:
             lines += ["", f"[{name}]" if once else f"[[{name}]]"]
-            lines += [f"{key} = {_value(value)}" for key, value in asdict(part).items()]
+            lines += [f"{key} = {toml_value(value)}" for key, value in asdict(part).items()]
     return "\n".join([*lines, ""])
 
 
 def write_structure(s: Assembly, path: str | Path) -> Path:
     """Write the structure as TOML, whole or not at all. Raises InputError where that cannot be."""
     return write_text(Path(path), toml_of(s))
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(map(_value, value))}]"
-    return repr(value)

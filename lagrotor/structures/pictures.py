@@ -66,9 +66,9 @@ def structure_picture(s: Assembly) -> Figure:
             reason = "None about upright:\nthere a bar is not as long\nas its tips are apart"
             roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
             return figure
-        found, standing = small_motion(s).roots, stands(s)
+        roots_there, standing = small_motion(s).roots, stands(s)
         for grows, ink in ((False, MODEL_COLOUR), (True, PAPER_COLOUR)):
-            part = found[(found.real > 0) == grows]
+            part = roots_there[(roots_there.real > 0) == grows]
             roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
         roots.margins(0.15)
         roots.axvline(0, color=INK, linewidth=0.8)

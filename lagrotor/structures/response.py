@@ -52,13 +52,13 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
         return _amplitudes("force", force, (N, 2))
     if isinstance(at, bool) or not isinstance(at, int) or not 0 <= at < N:
         raise InputError(f"response: at = {at!r} is no rotor: they are numbered 0 to {N - 1}")
-    found = np.zeros((N, 2), dtype=complex)
-    found[at] = _amplitudes("force", force, (2,))
-    return found
+    amplitudes = np.zeros((N, 2), dtype=complex)
+    amplitudes[at] = _amplitudes("force", force, (2,))
+    return amplitudes
 
 
 def _amplitudes(name: str, given: ArrayLike, shape: tuple[int, ...]) -> Complex:
-    found = finite(f"response: {name}", given, complex)
-    if found.shape != shape:
-        raise InputError(f"response: {name} must be amplitudes of shape {shape}, not {found.shape}")
-    return found
+    amplitudes = finite(f"response: {name}", given, complex)
+    if amplitudes.shape != shape:
+        raise InputError(f"response: {name} must be amplitudes of shape {shape}, not {amplitudes.shape}")
+    return amplitudes

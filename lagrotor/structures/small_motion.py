@@ -67,7 +67,7 @@ class SmallMotion:
         """How many freedoms the bars leave."""
         return int(self.mass.shape[-1])
 
-    def scaled(self, factor: float) -> "SmallMotion":
+    def at_spins(self, factor: float) -> "SmallMotion":
         """The same with all spins multiplied."""
         return replace(self, gyroscopic=factor * self.gyroscopic)
 
@@ -107,20 +107,20 @@ class SmallMotion:
         n = self.freedoms
         L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
         over_L = np.linalg.inv(L)
-        found = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
-        found[..., n:, :n] = over_L @ R
-        found[..., n:, n:] = over_L @ (self.gyroscopic / self.rate) @ _dagger(over_L)
-        return -1j * found, over_L
+        lower = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
+        lower[..., n:, :n] = over_L @ R
+        lower[..., n:, n:] = over_L @ (self.gyroscopic / self.rate) @ _dagger(over_L)
+        return -1j * lower, over_L
 
     @property
     def _first_order(self) -> Matrix:
         """The matrix of (q, q')' in units of the rate, (2n, 2n)."""
         n, unit = self.freedoms, self.rate
         below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
-        found = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
-        found[..., :n, n:] = np.eye(n)
-        found[..., n:, :] = np.linalg.solve(self.mass, below)
-        return found
+        W = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
+        W[..., :n, n:] = np.eye(n)
+        W[..., n:, :] = np.linalg.solve(self.mass, below)
+        return W
 
     def _in_seconds(self, s: Matrix) -> Complex:
         least = _ZERO * np.maximum(np.abs(s), 1.0)
@@ -180,21 +180,25 @@ def _dagger(x: Matrix) -> Matrix:
 
 
 def matrices(c: Coefficients) -> Array:
-    """Mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), the bars' constraints left aside."""
+    """Mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), the bars' constraints left aside.
+
+    Of numbers or of symbols, as the coefficients are.
+    """
     A = np.diag(c.A)
     np.add.at(A, (c.i, c.j), c.coupling)
     np.add.at(A, (c.j, c.i), c.coupling)
-    C, K = (np.kron(np.diag(d), np.eye(2)) for d in (c.friction, c.hinge - c.gravity * c.S))
+    one = np.eye(2, dtype=int)
+    C, K = (np.kron(np.diag(d), one) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    return np.array([np.kron(A, np.eye(2)), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
+    return np.array([np.kron(A, one), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
 
 
 def bar_rows(c: Coefficients) -> Array:
     """The bars' rows on u, (B, 2 N): n . (R_i u_i − R_j u_j), n the horizontal part of the unit vector along the bar."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
-    rows = np.zeros((len(c.i), len(c.R), 2))
+    rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)
     each = np.arange(len(c.i))
     rows[each, c.i], rows[each, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
     return rows.reshape(len(c.i), 2 * len(c.R))
@@ -204,7 +208,7 @@ def _brace_rows(c: Coefficients) -> Array:
     """The extension of each brace by u, (braces, 2 N)."""
     tip = c.feet[c.brace_tip] + c.R[c.brace_tip, None] * [0, 0, 1]
     n = ((tip - c.brace_point) / c.brace_length[:, None])[:, :2]
-    rows = np.zeros((len(n), len(c.R), 2))
+    rows = np.zeros((len(n), len(c.R), 2), dtype=c.R.dtype)
     for k, (i, j) in enumerate(zip(c.brace_tip, c.brace_to, strict=True)):
         rows[k, i] += c.R[i] * n[k]
         if j >= 0:

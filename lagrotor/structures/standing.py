@@ -51,9 +51,9 @@ class Standing(Shown):
 
 def stands(s: Assembly) -> Standing:
     """Whether small motions about upright stay bounded. Raises InputError where upright breaks a bar's length."""
-    linear, found, factor = small_motion(s), modes(s), critical_spin(s)
+    linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     growth, falls = linear.growth, linear.growth > 0
-    shape = found.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
+    shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
     return Standing(not falls and not linear.drifts, _why(linear, factor), growth, shape, factor)
 
 
@@ -106,7 +106,7 @@ def spin_threshold(linear: SmallMotion) -> float:
         if falling == len(K) and not linear.damping.any():
             return _by_branches(linear)
         factor = _by_scan(linear)
-    return inf if factor < inf and linear.scaled(2 * factor or 1.0).drifts else factor
+    return inf if factor < inf and linear.at_spins(2 * factor or 1.0).drifts else factor
 
 
 def _unit(linear: SmallMotion) -> Array:
@@ -143,8 +143,8 @@ def _by_branches(linear: SmallMotion) -> float:
     values = least(grid)
     best = int(np.argmax(values))
     around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
-    found = minimize_scalar(lambda at: -least(at), bounds=around, method="bounded", options={"xatol": 1e-10})
-    return float(1 / max(-found.fun, values[best]))
+    highest = minimize_scalar(lambda at: -least(at), bounds=around, method="bounded", options={"xatol": 1e-10})
+    return float(1 / max(-highest.fun, values[best]))
 
 
 def _by_scan(linear: SmallMotion) -> float:
@@ -154,7 +154,7 @@ def _by_scan(linear: SmallMotion) -> float:
         return inf
     natural = 2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / size
     grid = natural * _GRID
-    falls = [linear.scaled(factor).growth > 0 for factor in grid]
+    falls = [linear.at_spins(factor).growth > 0 for factor in grid]
     if falls[-1]:
         return inf
     if not any(falls):
@@ -163,5 +163,5 @@ def _by_scan(linear: SmallMotion) -> float:
     low, high = grid[k], grid[k + 1]
     while high - low > 1e-12 * high:
         middle = (low + high) / 2
-        low, high = (middle, high) if linear.scaled(middle).growth > 0 else (low, middle)
+        low, high = (middle, high) if linear.at_spins(middle).growth > 0 else (low, middle)
     return float(high)

@@ -40,7 +40,7 @@ def test_a_file_is_read_and_written(tmp_path) -> None:
         ("spins = [1, 2]\nspin = 3", "'spin' is no field of a scene"),
         ("spins = [1, 2]\nlink = 3", "must be a table of length, mass, inertia"),
         ("spins = [1, 2]\n[link]\nweight = 2", "must be a table of"),
-        ("spins = [1, 2]\n[shock]\nat = 2", "shock: .*force"),
+        ("spins = [1, 2]\n[shock]\nat = 2", "shock = .* lacks force"),
         ("spins = [1, 'x']", "is not a finite number"),
     ],
 )

@@ -176,9 +176,9 @@ def test_in_a_chain_operations_wait_for_log_n_others() -> None:
     """What waits compiles slowly. Solved from one end to the other, a chain of 1,024 would wait 64 times as long as of 16."""
 
     def longest(n: int) -> int:
-        found = eliminate_in_levels(
-            [Depth()] * n, {(k, k + 1): Depth() for k in range(n - 1)}, [Depth()] * n, n
-        ).solved({})
+        found = eliminate_in_levels([Depth()] * n, {(k, k + 1): Depth() for k in range(n - 1)}, [Depth()] * n, n).solve(
+            {}
+        )
         return max(each.depth for each in found)
 
     assert longest(1024) < 3 * longest(16)
@@ -186,7 +186,7 @@ def test_in_a_chain_operations_wait_for_log_n_others() -> None:
 
 def test_a_constraint_is_not_eliminated_before_what_it_holds() -> None:
     """A point of mass 2 on a line: its constraint has the fewest neighbours, and no pivot of its own."""
-    x = eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 2).solved({})
+    x = eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 2).solve({})
     assert x == pytest.approx([0, 0.5, 0.75])
     with pytest.raises(ZeroDivisionError):
-        eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 3).solved({})
+        eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 3).solve({})

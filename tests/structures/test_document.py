@@ -41,7 +41,7 @@ def test_every_field_is_kept() -> None:
         ("bars = []", "joints is missing"),
         ("joints = [[0, 0]]\nspin = 3", "'spin' is no field"),
         ("joints = [[0, 0]]\n[rotor]\nweight = 3", "must be a table of mass"),
-        ("joints = [[0, 0]]\n[[braces]]\ntip = 0", "lacks one"),
+        ("joints = [[0, 0]]\n[[braces]]\ntip = 0", "lacks to"),
         ("joints = [[0, 0]]\nload = -1", "negative"),
         ("joints = 3", "must be a list"),
         ('joints = [["a", 0]]', "not a finite number"),

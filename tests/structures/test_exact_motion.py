@@ -175,9 +175,9 @@ def test_rounding_that_breaks_a_tolerance_is_named_and_not_run_against(monkeypat
 def test_a_singular_state_leaves_those_beside_it_alone() -> None:
     motion = exact_motion(Structure(joints=[(0, 0), (1, 0), (2, 0)], bars=[(0, 1), (1, 2)], spins=[10, 10, 10]))
     states = np.random.default_rng(5).normal(size=(18, 6))
-    alone = motion.projected(states)
+    alone = motion.project(states)
     states[:, 2] = np.nan
-    beside = motion.projected(states)
+    beside = motion.project(states)
     kept = [0, 1, 3, 4, 5]
     assert np.array_equal(beside[:, kept], alone[:, kept]) and np.isfinite(alone).all()
     assert np.isnan(beside[:, 2]).any()

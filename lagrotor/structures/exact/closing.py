@@ -23,7 +23,7 @@ def check_closure(s: Assembly) -> None:
     r = motion.c.upright
     if not s.natural:
         try:
-            r = closed(motion, r)
+            r = close_bars(motion, r)
         except ConstraintError as error:
             raise InputError(f"Structure: the bars cannot close: {error}; check their lengths") from None
     loose = _dependent_bar(motion, r)
@@ -35,7 +35,7 @@ def check_closure(s: Assembly) -> None:
         )
 
 
-def closed(motion: ExactMotion, r: Array, most: int = 50) -> Array:
+def close_bars(motion: ExactMotion, r: Array, most: int = 50) -> Array:
     """The axes (N, 3) on the constraints that Newton steps in the metric of the masses reach from r.
 
     Raises ConstraintError where they do not.
@@ -46,7 +46,7 @@ def closed(motion: ExactMotion, r: Array, most: int = 50) -> Array:
             far = np.abs(motion.off(y[: r.size].reshape(r.shape))).max()
             if far < 1e-15 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
                 break
-            step = motion.projected(y) - y
+            step = motion.project(y) - y
             size = np.abs(step).max()
             y = y + step * min(1.0, 0.5 / size) if size > 0 else y
             if not np.isfinite(size) or size < 1e-16:

@@ -60,11 +60,11 @@ def integrate_series(
 
     def onto(y: Array) -> Array:
         watch.check()
-        return motion.projected(y)
+        return motion.project(y)
 
     span, size = (float(times[0]), float(times[-1])), dummy_size(local, order)
     states, end, spent = taylor_march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
-    return Stretch(motion.projected(states.T).T, end, spent)
+    return Stretch(motion.project(states.T).T, end, spent)
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:

@@ -130,7 +130,7 @@ class ExactMotion:
         d = self.pulls(r)[1] / c.R[c.j, None]
         return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
 
-    def projected(self, y: Array) -> Array:
+    def project(self, y: Array) -> Array:
         """One Newton step onto the constraints and their rates in the metric of the masses: states (6 N,) or (6 N, n)."""
         c, N = self.c, len(self.c.R)
         states = np.atleast_2d(y.T)

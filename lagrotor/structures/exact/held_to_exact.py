@@ -22,11 +22,11 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
     The amplitude is the projection on that mode's left vector, so that no other mode contributes. Raises InputError where
     nothing grows.
     """
-    linear, found = small_motion(s), modes(s)
-    root = found.growth[0] + 1j * found.rates[0]
+    linear, normal = small_motion(s), modes(s)
+    root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
-    shape = tilt * found.shapes[0]
+    shape = tilt * normal.shapes[0]
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
     roots, left = np.linalg.eig(first_order(linear).T)
     w = left[:, np.argmin(np.abs(roots - root))]
@@ -41,8 +41,8 @@ def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: i
     """
     from scipy.linalg import expm
 
-    linear, found = small_motion(s), modes(s)
-    rates = found.rates[found.rates > 0]
+    linear, normal = small_motion(s), modes(s)
+    rates = normal.rates[normal.rates > 0]
     t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
     draw = np.random.default_rng(seed).standard_normal((linear.freedoms,))
     run = simulate_structure(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)

@@ -16,7 +16,7 @@ Terms = list[Any]
 
 
 @dataclass(frozen=True)
-class Eliminated:
+class Elimination:
     """What is left of a symmetric system after an elimination, and how its unknowns follow from those that were kept.
 
     done: (unknown, 1/pivot, right side, {neighbour: share}) in the order of elimination; rows: i → {j: terms}.
@@ -27,7 +27,7 @@ class Eliminated:
     rows: list[dict[int, Terms]]
     right: list[Terms]
 
-    def solved(self, known: Mapping[int, Any], add: Callable[[Terms], Any] = sum) -> list[Any]:
+    def solve(self, known: Mapping[int, Any], add: Callable[[Terms], Any] = sum) -> list[Any]:
         """All unknowns from those that were kept."""
         x: list[Any] = [known.get(i) for i in range(len(self.rows))]
         for i, inverse, own, shares in reversed(self.done):
@@ -42,7 +42,7 @@ def eliminate_in_levels(
     masses: int,
     add: Callable[[Terms], Any] = sum,
     kept: Iterable[int] = (),
-) -> Eliminated:
+) -> Elimination:
     """Eliminate all unknowns of a symmetric system but those kept. off: {(i, j): entry}, each pair once; masses: how many
     unknowns come first that have a diagonal of their own; those after them are constraints, whose diagonal is zero.
     add: sums some terms.
@@ -66,7 +66,7 @@ def eliminate_in_levels(
             _couple(rows, list(row), shares, row)
             done.append((i, inverse, own, shares))
             left.discard(i)
-    return Eliminated(done, pivots, rows, b)
+    return Elimination(done, pivots, rows, b)
 
 
 def _level(left: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:

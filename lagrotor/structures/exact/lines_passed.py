@@ -35,18 +35,18 @@ class LineWatch:
         if len(self.kept) > _AT_ONCE:
             self._look()
 
-    def watched(self, rhs: RightHandSide) -> RightHandSide:
+    def observe(self, rhs: RightHandSide) -> RightHandSide:
         """The right-hand side, which keeps states of which it is evaluated."""
         evaluations = 0
 
-        def watched(s: float, y: Array) -> list[float]:
+        def rate(s: float, y: Array) -> list[float]:
             nonlocal evaluations
             evaluations += 1
             if evaluations % _EVERY == 0:
                 self.keep(s, y)
             return rhs(s, y)
 
-        return watched if len(self.motion.c.i) else rhs
+        return rate if len(self.motion.c.i) else rhs
 
     def check(self) -> None:
         self._look()

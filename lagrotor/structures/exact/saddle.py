@@ -42,7 +42,7 @@ class Saddle:
         entries = np.concatenate([r.ravel(), pulls[0].ravel(), pulls[1].ravel()])
         b = np.empty_like(right)
         b[self.order] = right
-        x = self._banded(entries, b) if self.band <= _WIDEST else self._sparse(entries, b)
+        x = self._solve_in_band(entries, b) if self.band <= _WIDEST else self._solve_sparse(entries, b)
         return x[self.order]
 
     def solve_each(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
@@ -55,16 +55,16 @@ class Saddle:
         b = np.empty_like(right)
         b[:, self.order] = right
         if self.band > _WIDEST:
-            x = np.array([self._sparse(*each) for each in zip(entries, b, strict=True)]).reshape(right.shape)
+            x = np.array([self._solve_sparse(*each) for each in zip(entries, b, strict=True)]).reshape(right.shape)
         else:
             ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
             ab[:, self.places] = np.concatenate([entries, entries], axis=1)
             x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k).copy()).reshape(right.shape)
             if not np.isfinite(x).all():  # one of them is singular, and they were solved as one
-                x = np.array([self._banded(*each) for each in zip(entries, b, strict=True)])
+                x = np.array([self._solve_in_band(*each) for each in zip(entries, b, strict=True)])
         return np.asarray(x[:, self.order])
 
-    def _banded(self, entries: Array, b: Array) -> Array:
+    def _solve_in_band(self, entries: Array, b: Array) -> Array:
         ab = self.base.copy()
         half = len(entries)
         flat = ab.reshape(-1)
@@ -72,7 +72,7 @@ class Saddle:
         flat[self.places[half:]] = entries
         return in_band(self.band, ab, b)
 
-    def _sparse(self, entries: Array, b: Array) -> Array:
+    def _solve_sparse(self, entries: Array, b: Array) -> Array:
         from scipy.sparse import csc_matrix
         from scipy.sparse.linalg import splu
 

@@ -64,17 +64,17 @@ def programs(length: int, names: tuple[str, ...], pushed: bool) -> Programs:
     left = eliminate_in_levels(
         diagonal, off, right, masses, heyoka_sum, {*kept, 0, 1, 2, masses - 3, masses - 2, masses - 1, masses, bar - 1}
     )
-    found = {(p, p): left.pivots[i] for p, i in enumerate(kept)}
-    found |= {(p, q): left.rows[i].get(j, []) for p, i in enumerate(kept) for q, j in enumerate(kept) if p < q}
-    found = {pair: terms for pair, terms in found.items() if any(x != 0.0 for x in terms)}
+    left_over = {(p, p): left.pivots[i] for p, i in enumerate(kept)}
+    left_over |= {(p, q): left.rows[i].get(j, []) for p, i in enumerate(kept) for q, j in enumerate(kept) if p < q}
+    left_over = {pair: terms for pair, terms in left_over.items() if any(x != 0.0 for x in terms)}
     inputs = [*(x for each in (r, v) for axis in each for x in axis), *G, *(x for axis in push for x in axis)]
-    outputs = [heyoka_sum(terms) for terms in [*found.values(), *(left.right[i] for i in kept)]]
+    outputs = [heyoka_sum(terms) for terms in [*left_over.values(), *(left.right[i] for i in kept)]]
     known = dict(zip(kept, heyoka.make_vars(*(f"x{p}" for p in range(len(kept)))), strict=True))
     return Programs(
         heyoka.cfunc(outputs, inputs, fast_math=True),
-        heyoka.cfunc(left.solved(known, heyoka_sum)[3 : masses - 3], [*inputs, *known.values()], fast_math=True),
+        heyoka.cfunc(left.solve(known, heyoka_sum)[3 : masses - 3], [*inputs, *known.values()], fast_math=True),
         len(own),
-        np.transpose(list(found)),
+        np.transpose(list(left_over)),
     )
 
 
@@ -128,9 +128,9 @@ def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
             state.append(motion.pushes(s / rate, r, v * rate).ravel() / rate**2)
         inputs = [np.concatenate(state)[group.take] for group in groups]
         for group, given in zip(groups, inputs, strict=True):
-            found, (p, q) = group.programs.forward(given, pars=group.pars), group.programs.entries
-            matrix += [found[: len(p)].ravel(), found[np.count_nonzero(p == q) : len(p)].ravel()]
-            right.append(found[len(p) :].ravel())
+            entries, (p, q) = group.programs.forward(given, pars=group.pars), group.programs.entries
+            matrix += [entries[: len(p)].ravel(), entries[np.count_nonzero(p == q) : len(p)].ravel()]
+            right.append(entries[len(p) :].ravel())
         ab: Any = np.bincount(places, np.concatenate(matrix), n * width)
         b: Any = np.bincount(loads, np.concatenate(right), n)
         x = in_band(band, ab.reshape(n, width), b)
@@ -170,12 +170,12 @@ def _groups(motion: ExactMotion, pushed: bool) -> list[Group]:
     for length in sorted({len(seen) - 2 for seen in cut}):
         which = np.array([k for k, seen in enumerate(cut) if len(seen) == length + 2])
         seen = np.ascontiguousarray(np.transpose([cut[k] for k in which]))
-        found, shared = programs(length, names, pushed), np.arange(4 if "coupling" in names else 1)[:, None]
-        unknowns = np.concatenate([begin[which] + np.arange(found.own)[:, None], begin[after[which]] + shared])
+        compiled, shared = programs(length, names, pushed), np.arange(4 if "coupling" in names else 1)[:, None]
+        unknowns = np.concatenate([begin[which] + np.arange(compiled.own)[:, None], begin[after[which]] + shared])
         axes = (3 * seen[:, None] + np.arange(3)[:, None]).reshape(-1, len(which))
         take = [axes, 3 * N + axes, 6 * N + seen[1:-1], *([7 * N + axes[3:-3]] if pushed else [])]
         pars = [numbers[name][seen if name in _SEEN else seen[1:-1]] for name in names]
-        groups.append(Group(found, unknowns, np.concatenate(take), 3 * N + axes[3:-3], np.concatenate(pars)))
+        groups.append(Group(compiled, unknowns, np.concatenate(take), 3 * N + axes[3:-3], np.concatenate(pars)))
     return groups
 
 
@@ -183,8 +183,8 @@ def _numbers(motion: ExactMotion, bar: Index) -> dict[str, Array]:
     """name → (N,), where the structure's rate is 1; bar: the one to the left of each rotor, −1 where there is none."""
     c, rate = motion.c, motion.c.rate
     scaled: Any = c.gravity * c.S / rate**2, c.friction / rate, c.hinge / rate**2
-    found = dict(zip(("R", "x", "y", "A", "S", "friction", "hinge"), (c.R, *c.feet.T[:2], c.A, *scaled), strict=True))
-    return found | {"coupling": np.append(c.coupling, 0.0)[bar], "loose": 1.0 * (bar < 0)}
+    numbers = dict(zip(("R", "x", "y", "A", "S", "friction", "hinge"), (c.R, *c.feet.T[:2], c.A, *scaled), strict=True))
+    return numbers | {"coupling": np.append(c.coupling, 0.0)[bar], "loose": 1.0 * (bar < 0)}
 
 
 def _lines(N: int, i: list[int], j: list[int]) -> Iterator[tuple[list[int], list[int]]]:

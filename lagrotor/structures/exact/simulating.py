@@ -14,7 +14,7 @@ from lagrotor.numerics.segment import RightHandSide, StopError, Stretch
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact import compiled_motion
-from lagrotor.structures.exact.closing import closed
+from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
 from lagrotor.structures.exact.lines_passed import LineWatch
 from lagrotor.structures.exact.scalar_rhs import right_hand_side
@@ -84,7 +84,7 @@ def simulate_structure(
         distance,
         turn=2 * pi,
         patience=_PATIENCE,
-        project=motion.projected,
+        project=motion.project,
         defect=defect,
         difference=lambda one, other: float(np.abs(rates_of(one) - rates_of(other)).max(initial=0.0)),
         singular=singular,
@@ -125,7 +125,7 @@ class _Integrator:
             return compiled_motion.integrate_series(self.s, self.motion, start, times, local, companion)
         watch, begin = LineWatch(self.motion), float(times[0])
         problem: Any = Problem(
-            watch.watched(self.rhs), start, budget, at=-begin, project=self.motion.projected, typical_rate=1.0
+            watch.observe(self.rhs), start, budget, at=-begin, project=self.motion.project, typical_rate=1.0
         )
         try:
             part = integrate(problem, times - begin, local)
@@ -154,13 +154,13 @@ def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None)
         r = np.column_stack([x, np.sqrt(height)])
     else:
         r = x / np.linalg.norm(x, axis=1, keepdims=True)
-    r = closed(motion, r)
+    r = close_bars(motion, r)
     v = _vectors("rates", rates, N)
     if v.shape[1] == 2:
         safe = np.where(np.abs(r[:, 2]) > 1e-6, r[:, 2], np.inf)
         v = np.column_stack([v, -(r[:, :2] * v).sum(1) / safe])
     y = np.concatenate([r.ravel(), v.ravel() / motion.c.rate])
-    start = np.concatenate([r.ravel(), motion.projected(y)[3 * N :]])
+    start = np.concatenate([r.ravel(), motion.project(y)[3 * N :]])
     if not np.isfinite(start).all():
         raise SingularError(
             "simulate: the constraints are dependent at this tilt (bar and axes in line): start elsewhere"
@@ -171,12 +171,12 @@ def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None)
 def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
     if given is None:
         return np.zeros((N, 2))
-    found = finite(f"simulate: {name}", given)
-    if found.shape not in ((N, 2), (N, 3)):
-        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {found.shape}")
-    if found.size == 3 * N and name == "tilt" and not (np.linalg.norm(found, axis=1) > 0).all():
+    vectors = finite(f"simulate: {name}", given)
+    if vectors.shape not in ((N, 2), (N, 3)):
+        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
+    if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():
         raise InputError("simulate: tilt holds a vector of length zero")
-    return found
+    return vectors
 
 
 @dataclass

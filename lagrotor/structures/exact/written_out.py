@@ -25,7 +25,7 @@ def structure_accelerations(
     by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
     What a structure has not (hinges, friction, heavy bars) costs nothing.
     """
-    x = eliminate_in_levels(*system(c, r, v, G, by, more), add).solved({}, add)
+    x = eliminate_in_levels(*system(c, r, v, G, by, more), add).solve({}, add)
     return [x[3 * i : 3 * i + 3] for i in range(len(c.R))]
 
 
@@ -54,7 +54,7 @@ def system(
 
 def _forces(c: Coefficients, r: Sequence[_Vector], v: Sequence[_Vector], G: Sequence[Any], by: Any) -> list[_Vector]:
     """What acts on the axes besides the constraints, N m."""
-    found = []
+    forces = []
     for i, ((x, y, z), (p, q, w)) in enumerate(zip(r, v, strict=True)):
         F = [G[i] * (y * w - z * q), G[i] * (z * p - x * w), G[i] * (x * q - y * p)]
         if c.friction[i]:
@@ -63,10 +63,10 @@ def _forces(c: Coefficients, r: Sequence[_Vector], v: Sequence[_Vector], G: Sequ
             F[2] = F[2] - c.gravity * c.S[i]
         if c.hinge[i]:
             F[2] = F[2] + c.hinge[i] * _angle_by_sine(z, by)
-        found.append(F)
+        forces.append(F)
     for k in range(len(c.stiffness)):
-        _brace(c, k, found, r, v, by)
-    return found
+        _brace(c, k, forces, r, v, by)
+    return forces
 
 
 def _brace(c: Coefficients, k: int, F: list[_Vector], r: Sequence[_Vector], v: Sequence[_Vector], by: Any) -> None:

@@ -35,11 +35,11 @@ class Bloch:
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
         """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d)."""
-        return _waved(q, self.apart, self.parts), _waved(q, self.away, self.rows)
+        return _wave_sum(q, self.apart, self.parts), _wave_sum(q, self.away, self.rows)
 
     def slopes(self, q: Array, k: int) -> tuple[Matrix, Matrix]:
         """Their derivatives by q_k."""
-        return _waved(q, self.apart, self.parts, k), _waved(q, self.away, self.rows, k)
+        return _wave_sum(q, self.apart, self.parts, k), _wave_sum(q, self.away, self.rows, k)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
         """Of the wave numbers q (n_q, d) those at which the bars leave equally many freedoms, by their places in q, and the
@@ -52,7 +52,7 @@ class Bloch:
             yield places, on_freedoms(parts[places], vectors[places, :, rank:], self.rate)
 
 
-def _waved(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:
+def _wave_sum(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:
     """The sum of exp(i q . n) X_n, or its derivative by q_k."""
     phases = np.exp(1j * q @ steps.T)
     return np.asarray(np.tensordot(phases if k is None else 1j * steps[:, k] * phases, parts, 1))

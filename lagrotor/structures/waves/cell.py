@@ -55,19 +55,19 @@ class Cell:
             )
         if len(self.steps) == 2 and abs(_cross(*self.steps)) < 1e-12:
             raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
-        put(self, "bars", tuple(self._joined("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
+        put(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
         put(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
         for name in ("spins", "rotor", "load", "friction", "hinge"):
             put(self, name, _each(getattr(self, name), len(self.joints), name))
         put(self, "link", _each(self.link, len(self.bars), "link"))
 
-    def _joined(self, what: str, k: int, given: Any, shift: Any) -> tuple[int, int, Shift]:
+    def _ends(self, what: str, k: int, given: Any, shift: Any) -> tuple[int, int, Shift]:
         i, j = given[:2]
         where = f"Pattern: {what}[{k}] = {given!r}"
         if not all(isinstance(end, int) and 0 <= end < len(self.joints) for end in (i, j)):
             raise InputError(f"{where}: joints are numbered 0 to {len(self.joints) - 1}")
-        found = shift[0] if shift else (0,) * len(self.steps)
-        cells = tuple(found) if isinstance(found, Sequence) else (found,)
+        steps = shift[0] if shift else (0,) * len(self.steps)
+        cells = tuple(steps) if isinstance(steps, Sequence) else (steps,)
         if len(cells) != len(self.steps) or not all(isinstance(n, int) for n in cells):
             raise InputError(f"{where}: its shift must be {len(self.steps)} whole number(s) of steps")
         if i == j and not any(cells):
@@ -78,7 +78,7 @@ class Cell:
         if len(given) not in (4, 5):
             raise InputError(f"Pattern: braces[{k}] = {given!r} must be (i, j, shift, stiffness, damping)")
         return (
-            *self._joined("braces", k, given, given[2:3]),
+            *self._ends("braces", k, given, given[2:3]),
             float(given[3]),
             float(given[4]) if len(given) > 4 else 0.0,
         )
@@ -110,19 +110,19 @@ class Cell:
         cells = list(product(*(range(n) for n in counts)))
         number = {(i, cell): len(self.joints) * k + i for k, cell in enumerate(cells) for i in range(len(self.joints))}
 
-        def kept(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:
+        def within(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:
             for cell in cells:
                 for k, (i, j, shift, *_) in enumerate(joined):
                     other = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
                     if (j, other) in number:
                         yield k, number[i, cell], number[j, other]
 
-        bars = list(kept(self.bars))
+        bars = list(within(self.bars))
         return Structure(
             joints=tuple(self.place(site) for site in number),
             bars=tuple((a, b) for _, a, b in bars),
             link=tuple(self.link[k] for k, *_ in bars) or Link(),
-            braces=tuple(Brace(a, b, *self.braces[k][3:]) for k, a, b in kept(self.braces)),
+            braces=tuple(Brace(a, b, *self.braces[k][3:]) for k, a, b in within(self.braces)),
             gravity=self.gravity,
             **{name: getattr(self, name) * len(cells) for name in ("spins", "rotor", "load", "friction", "hinge")},
         )
@@ -135,17 +135,17 @@ class Cell:
             )
         N = len(self.joints)
 
-        def kept(joined: Sequence[Any]) -> list[tuple[int, tuple[Any, ...]]]:
+        def within(joined: Sequence[Any]) -> list[tuple[int, tuple[Any, ...]]]:
             rows = [(n, k, one) for n in range(width) for k, one in enumerate(joined) if 0 <= n + one[2][1] < width]
             return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *rest)) for n, k, (i, j, s, *rest) in rows]
 
-        bars = kept(self.bars)
+        bars = within(self.bars)
         return type(self)(
             joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)),
             steps=self.steps[:1],
             bars=tuple(bar for _, bar in bars),
             link=tuple(self.link[k] for k, _ in bars) or Link(),
-            braces=tuple(brace for _, brace in kept(self.braces)),
+            braces=tuple(brace for _, brace in within(self.braces)),
             gravity=self.gravity,
             **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
         )

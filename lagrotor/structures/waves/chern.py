@@ -97,13 +97,13 @@ def _local_minima(apart: Array) -> NDArray[np.intp]:
 def _distances(b: Bloch, q: Array, band: NDArray[np.intp], d: Dispersion) -> Array:
     """From each of the bands to the next at wave numbers q (m, p, 2), (m, p); the highest rate where the
     bars leave another number of freedoms."""
-    found, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
+    apart, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
     n = d.rates.shape[1]
     for places, motion in b.motions(q.reshape(-1, 2)):
         if motion.freedoms == n:
             rates = np.sort(-motion.roots.imag, axis=-1)[:, n:]
-            found[places] = np.take_along_axis(np.diff(rates), bands[places, None], -1)[:, 0]
-    return found.reshape(q.shape[:2])
+            apart[places] = np.take_along_axis(np.diff(rates), bands[places, None], -1)[:, 0]
+    return apart.reshape(q.shape[:2])
 
 
 def _lowest(parabola: Array) -> Array:

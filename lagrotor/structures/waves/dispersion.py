@@ -51,12 +51,12 @@ class Dispersion(Shown):
         if not self.rates.size:
             return ()
         low, high = np.nanmin(self.rates, axis=0), np.nanmax(self.rates, axis=0)
-        found, top = [], 0.0
+        gaps, top = [], 0.0
         for k in np.argsort(low):
             if low[k] > top + _SAME * high.max():
-                found.append((float(top), float(low[k])))
+                gaps.append((float(top), float(low[k])))
             top = max(top, high[k])
-        return tuple(found)
+        return tuple(gaps)
 
     @property
     def velocity(self) -> Array:
@@ -65,11 +65,11 @@ class Dispersion(Shown):
         Where bands cross it is a mean of theirs. Of waves without friction that stand.
         """
         b, steps = bloch(self.pattern), np.array(self.pattern.steps)
-        found = np.full((*self.rates.shape, 2), np.nan)
-        for q, f, rates, shapes, row in zip(self.q, self.freedoms, self.rates, self.shapes, found, strict=True):
+        velocities = np.full((*self.rates.shape, 2), np.nan)
+        for q, f, rates, shapes, row in zip(self.q, self.freedoms, self.rates, self.shapes, velocities, strict=True):
             u = shapes[:f].reshape(f, 2 * len(self.pattern.joints))
             row[:f] = np.stack([_slopes(b, q, k, rates[:f], u) for k in range(len(q))], axis=1) @ steps
-        return found
+        return velocities
 
     @property
     def falls(self) -> bool:
@@ -106,8 +106,8 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
                 freedoms[there] = f
                 rates[there, :f], growth[there, :f], shapes[there, :f] = _faster(s[known].conj(), u[known].conj())
     n = int(freedoms.max())
-    found = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
-    return Dispersion(p, points, rates[:, :n], growth[:, :n], found, freedoms, still[min(still)])
+    kept = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
+    return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, freedoms, still[min(still)])
 
 
 def _still(motion: SmallMotion) -> int:
