@@ -19,6 +19,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import check_names, decide_zero, derivative
+from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.constraints import dependent_rows
@@ -32,6 +33,8 @@ from lagrotor.mechanics.lagrangian import (
     t,
     total_derivative,
 )
+
+_FAST = 1000  # by which random velocities are multiplied where friction must have grown
 
 
 @dataclass(frozen=True)
@@ -69,7 +72,7 @@ class Equations:
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
-        check_names("System", self.c.q, self.c.v, t, self.constraints, self.rolling, self.dissipation, self.forces)
+        check_names("System", *self._letters)
         self._check_symbols()
         if not self.bodies:
             _ = self.L  # checked now; an energy of bodies is written out when it is needed
@@ -82,10 +85,14 @@ class Equations:
                 if name == "constraints":
                     way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
                     _free_of(f"constraints[{i}]", e, velocities, way)
+                    if all(decide_zero(slope).answer == "zero" for slope in gradient(e, self.c.q)):
+                        raise InputError(f"System: constraints[{i}]: {e} = 0 binds no coordinate: leave it out")
                 elif name == "rolling":
                     if not e.free_symbols & velocities:
                         raise InputError(f"System: rolling[{i}] = {e} has no velocity: give it to constraints")
                     slope = gradient(e, self.c.v)
+                    if all(decide_zero(entry).answer == "zero" for entry in slope):
+                        raise InputError(f"System: rolling[{i}]: {e} = 0 binds no velocity: leave it out")
                     if any(decide_zero(entry).answer != "zero" for entry in jacobian(slope, self.c.v)):
                         raise InputError(
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
@@ -97,12 +104,26 @@ class Equations:
                 f"System: dissipation = {self.dissipation} has no velocity: it is Rayleigh's function D(q, v) with the "
                 "force −∂D/∂v, k v**2/2 for linear friction"
             )
+        check_friction("System", self.dissipation, self.c)
+
+    @property
+    def _letters(self) -> tuple[Any, ...]:
+        """What shares the letters of the system."""
+        acting = (self.constraints, self.rolling, self.dissipation, self.forces)
+        return (
+            self.c.q,
+            self.c.v,
+            self.c.a,
+            t,
+            acting,
+            getattr(self.lagrangian, "free_symbols", ()) if self.bodies else (),
+        )
 
     @cached_property
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
         L = expression("System: L", self.lagrangian)
-        check_names("System", self.c.q, self.c.v, t, L, self.constraints, self.rolling, self.dissipation, self.forces)
+        check_names("System", *self._letters, L)
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
 
@@ -198,6 +219,32 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
         )
     k, n = G.shape
     return n - int(np.linalg.matrix_rank(np.array(G.tolist(), dtype=float))) if k else n
+
+
+def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
+    """Raise InputError where D(q, v, t) falls below D(q, 0, t) at great velocities: −∂D/∂v would feed the motion.
+
+    Tried at random states, for random values of its letters; refused where none of these makes it a dissipation.
+    """
+    moving = dissipation.free_symbols & {*c.q, *c.v, t}
+    falls = [
+        _falling(dissipation.xreplace({s: abs(x) if s.is_negative is None else x for s, x in letters.items()}), c)
+        for letters in points(dissipation.free_symbols - moving)
+    ]
+    if None not in falls:
+        raise InputError(
+            f"{where}: dissipation = {dissipation} falls as the velocities grow, as at {falls[0]}: its force −∂D/∂v would "
+            "feed the motion; k v**2/2 with a positive k is linear friction, and what drives is among the forces"
+        )
+
+
+def _falling(dissipation: sp.Expr, c: Coordinates) -> str | None:
+    """A state, in words, at which D is below its value at rest; None where there is none of some random ones."""
+    for point in points(dissipation.free_symbols):
+        still, fast = ({s: x * scale if s in c.v else x for s, x in point.items()} for scale in (0, _FAST))
+        if (dissipation.xreplace(fast) - dissipation.xreplace(still)).evalf(15).is_negative:
+            return ", ".join(f"{s} = {float(x):.3g}" for s, x in fast.items())
+    return None
 
 
 def _free_of(name: str, e: sp.Expr, unwanted: set[sp.Symbol], way: str) -> None:

@@ -61,6 +61,8 @@ def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:
 
 
 def by_symbol(values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
-    """Values by symbol, where names may stand for symbols."""
+    """Values by symbol, where names may stand for symbols. Raises InputError for what is no mapping."""
+    if not isinstance(values, Mapping):
+        raise InputError(f"values = {values!r} must be {{symbol: number, …}}, a dictionary")
     names = {str(s): s for s in symbols}
     return {names.get(str(key), key): value for key, value in values.items()}

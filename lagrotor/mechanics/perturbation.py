@@ -19,10 +19,16 @@ _ROUNDING = 1e-6  # of a floating-point order's largest coefficient: what need n
 
 @dataclass(frozen=True)
 class PeriodicSeries:
-    """A periodic orbit: unknowns as Fourier series in (eps, Phi), and the frequency, sum_n omega_n eps^n."""
+    """A periodic orbit: unknowns as Fourier series in (eps, Phi), and the frequency, sum_n omega_n eps^n, all known through
+    eps^known_through."""
 
     unknowns: tuple[FourierSeries, ...]
     frequency: FourierSeries
+
+    @property
+    def known_through(self) -> int:
+        """The order through which every term is known."""
+        return min(series.order for series in (*self.unknowns, self.frequency))
 
     def at_rest(self, field: Domain) -> "PeriodicSeries":
         """Its terms of order 0, exact also where the series is one of floating-point numbers."""
@@ -42,7 +48,8 @@ def lindstedt_poincare(
     amplitude: int = 0,
     numeric: Residual | None = None,
 ) -> PeriodicSeries:
-    """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + …
+    """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + …, all through
+    eps^order.
 
     residual(unknowns, frequency): the equations of motion as Fourier series, zero on the orbit; derivatives by the
     phase, time derivatives carried by the frequency. rest: unknowns at equilibrium; mode: {harmonic: coefficient} of
@@ -66,10 +73,11 @@ def lindstedt_poincare(
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
     drift, solvers = _frequency_column(residual, begins, one), dict[int, Solver]()
-    for n in range(2, order + 1):
+    # Harmonics of eps^n are even or odd as n is: for an even order the frequency's last term is that of one order more.
+    for n in range(2, order + 2 - order % 2):
         # The highest harmonics first: the mode's own takes what the amplitude's definition leaves.
         now, at_zero = [equation.at(n) for equation in equations], value(field.zero)
-        for h in range(n, -1, -2):
+        for h in range(n, -1, -2) if n <= order else (1,):
             if h not in solvers:
                 extra, fixed = (drift, amplitude) if h == 1 else (None, None)
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)

@@ -54,8 +54,9 @@ class System(Equations):
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
-        from lagrotor.mechanics.running import flow
+        from lagrotor.mechanics.running import admission, flow
 
+        admission.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
 
     def simulate(

@@ -63,6 +63,15 @@ def test_duffing_has_its_known_series() -> None:
     assert x == {1: sp.QQ(-1, 32), 3: sp.QQ(1, 32)}
 
 
+@pytest.mark.parametrize("order", range(1, 8))
+def test_the_frequency_is_known_through_the_order_that_is_named(order: int) -> None:
+    """At every order the terms are those of the longest series, and not one less."""
+    found, longest = duffing(order), duffing(9)
+    assert found.known_through == order
+    assert found.frequency.terms == longest.frequency.through(order).terms
+    assert found.unknowns[0].terms == longest.unknowns[0].through(order).terms
+
+
 def test_another_spring_has_another_series() -> None:
     assert duffing(3, -1).frequency.terms[2, 0] == sp.QQ(-3, 8)
 

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import check_names, decide_equal
+from lagrotor.algebra import check_names, decide_equal, decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
@@ -165,4 +165,6 @@ def _rotation(given: Any) -> sp.Matrix:
         raise InputError(f"turned: {given!r} is neither letters of x, y, z nor a rotation matrix (3, 3)") from None
     if R.shape != (3, 3) or decide_equal(R * R.T, sp.eye(3)).answer == "nonzero":
         raise InputError("turned: a rotation of one's own must be a matrix (3, 3) with R Rᵀ = 1; this one is not")
+    if decide_zero(R.det(method="berkowitz") - 1).answer == "nonzero":
+        raise InputError("turned: this matrix has R Rᵀ = 1 and det R = −1: it reflects; change the sign of one axis")
     return R

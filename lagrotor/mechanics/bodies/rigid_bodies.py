@@ -6,18 +6,22 @@ A sum of such energies and of plain expressions is a Lagrangian that any sympy f
 keeps the bodies, whose tree gives faster code and the picture.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, vector_of
+from lagrotor.mechanics.lagrangian import t
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
 _ARCS = 16  # chords of a drawn rim
+_ROUNDING = 1e-9  # of an inertia
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,15 +92,37 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
         raise InputError(
             f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
         )
-    if used := (I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v}:
+    m = expression("body: mass", mass)
+    if used := (m.free_symbols | I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v, t}:
         raise InputError(
-            f"body: {', '.join(map(str, used))} in a rigid body: its inertia and centre are fixed; move its frame"
+            f"body: {', '.join(sorted(map(str, used)))} in a rigid body: its mass, inertia and centre are fixed; move its "
+            "frame, and give what mass that is lost or gained does to the forces"
         )
-    if (m := expression("body: mass", mass)).is_negative:
-        raise InputError(f"body: mass = {m} must not be negative")
+    body = Body(frame, m, I, place)
+    check_body("body", body)
+    return body
+
+
+def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = None) -> None:
+    """Raise InputError where no body has that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
+
+    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone is that of motion in a plane. What has
+    no number is passed over.
+    """
+    mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
+    if mass.is_negative:
+        raise InputError(f"{where}: mass = {mass} must not be negative")
     if any(I[i, i].is_negative for i in range(3)):
-        raise InputError(f"body: inertia = {inertia!r} must not be negative about an axis")
-    return Body(frame, m, I, place)
+        raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
+    if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
+        return
+    spread = np.linalg.eigvalsh(np.array((sp.eye(3) * I.trace() / 2 - I).tolist(), float))
+    if spread.min() < -_ROUNDING * abs(spread).max():
+        shown = [[float(e) for e in row] for row in I.tolist()]
+        raise InputError(
+            f"{where}: no body has the inertia {shown}: of its principal inertias none is larger than the two others "
+            "together; correct it"
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError, near
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints, tree_energy
@@ -22,13 +23,16 @@ from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import singular_mass, t
+from lagrotor.mechanics.lagrangian import jacobian, singular_mass, t
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
 from lagrotor.numerics.printers import compile_program, make_rhs
 
 Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
+_STATES = 3  # random ones, at which the rank of a matrix is read off
+_NEWTON = 20  # steps that bring them onto the constraints
+_ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
@@ -117,6 +121,12 @@ def rows_program(system: Equations) -> Generated:
 
 
 @lru_cache(maxsize=64)
+def mass_program(system: Equations) -> Generated:
+    """(q, v, t) → M, one row after another."""
+    return function_program(system, *system.mass)
+
+
+@lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
     """(q, v, t) → M, g, G and G v + b, one row after another."""
     return function_program(system, *system.mass, *system.constraints, *system.rows, *system.residual)
@@ -160,19 +170,73 @@ def depends_on_time(system: Equations) -> bool:
 def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """Stages, accelerations and multipliers made of them: of a tree of bodies by its recursion, else from the mass matrix."""
     G = system.rows
+    if (by_tree := tree_motion(system)) is not None:
+        return under_constraints(*by_tree, G, system.gamma)
+    added, weight, M = inertia(system)
+    push = system.push - system.bias - G.T * weight * system.gamma
+    stages, solved = solve_symmetric(M, push.row_join(G.T), "_m")
+    return under_constraints([*added, *stages], solved, G, system.gamma)
+
+
+def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
+    """Stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ column by column, of a tree of bodies by its recursion; None where it is none, or
+    where constraints must bind what no mass moves with."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
-    if tree is not None:
-        keep = Stages()
-        push = system.push + rest_forces(tree, system.c)
-        columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
-        solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.c, columns, keep)).T
-        return under_constraints(keep.made, solved, G, system.gamma)
-    push = system.push - system.bias
+    if tree is None:
+        return None
+    keep, G = Stages(), system.rows
+    push = system.push + rest_forces(tree, system.c)
+    columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
     try:
-        stages, solved = solve_symmetric(system.mass, push.row_join(G.T), "_m")
+        return keep.made, sp.Matrix(tree_accelerations(joints(tree, keep), system.c, columns, keep)).T
     except SingularError:
-        raise SingularError(singular_mass("simulate", system.mass, system.c)) from None
-    return under_constraints(stages, solved, G, system.gamma)
+        if not G.rows:
+            raise
+        return None
+
+
+@lru_cache(maxsize=64)
+def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
+    """Stages of W, then W and M + Gᵀ W G made of them; W = 0 where M is regular.
+
+    Where a massless direction is bound by the constraints, as the length of a quaternion is, the equations with these rows
+    added, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ, have the same solutions, accelerations and multipliers, and a positive
+    definite matrix. W is the mean mass over the squared length of each row. Decided at random states.
+
+    Raises SingularError where the constraints do not bind it.
+    """
+    M, G = system.mass, system.rows
+    if _regular(system, M):
+        return [], sp.zeros(G.rows, G.rows), M
+    if (mean := M.trace() / M.rows) != 0:
+        made = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
+        bound = M + G.T * sp.diag(*made) * G
+        if _regular(system, bound.xreplace(made)):
+            return [*made.items()], sp.diag(*made), bound
+    raise SingularError(singular_mass("simulate", M, system.c))
+
+
+def _regular(system: Equations, matrix: sp.Matrix) -> bool:
+    """Whether a symmetric matrix has full rank at one of some random states on the constraints; where it has no value, it is
+    taken to."""
+    program = function_program(system, *matrix, *system.constraints, *jacobian(system.constraints, system.c.q))
+    letters = (*system.c.q, *system.c.v, t, *program.parameters)
+    n, h = len(system.c.q), len(system.constraints)
+    ranks = []
+    for point in points(letters, _STATES):
+        at = np.array([float(point[s]) for s in letters])
+        for _ in range(_NEWTON if h else 1):
+            with np.errstate(all="ignore"):
+                found = np.array(program.function(*at), float)
+            M, g, slope = np.split(found, [n * n, n * n + h])
+            if np.isfinite(found).all():
+                at[:n] -= np.linalg.pinv(slope.reshape(h, n)) @ g
+        M = M.reshape(n, n)
+        size = np.sqrt(np.abs(np.diag(M)))
+        if np.isfinite(M).all():
+            M = M / np.outer(size, size) if size.all() else M
+            ranks.append(np.linalg.svd(M, compute_uv=False)[-1] > _ROUNDING * np.abs(M).max())
+    return any(ranks) or not ranks
 
 
 def under_constraints(
@@ -201,7 +265,9 @@ def projection_program(system: Equations) -> Generated:
     Rolling constraints bind velocities alone.
     """
     G, n = system.rows, len(system.c.q)
-    stages, W = solve_symmetric(system.mass, G.T, "_m")
+    added, _, M = inertia(system)
+    stages, W = solve_symmetric(M, G.T, "_m")
+    stages = [*added, *stages]
     place = sp.Matrix([*system.constraints, *[0] * len(system.rolling)])
     h = len(system.constraints)
     moves = sp.zeros(n, 2)

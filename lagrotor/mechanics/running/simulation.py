@@ -13,6 +13,7 @@ from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_pictures, sections
+from lagrotor.mechanics.running.admission import check_inertia, check_values
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.lyapunov import lyapunov
@@ -110,16 +111,15 @@ def simulate_system(
     h, n = with_events(system, values, check_events(system, events)), len(system.c.q)
     q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
+    check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
-        wanted = (
-            [event.gap, event.restitution] if isinstance(event, Impact) else [event.section, *(event.velocities or ())]
-        )
-        program = function_program(h.system, *wanted)
+        program = function_program(h.system, *event.expressions)
         at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
         if isinstance(event, Impact):
             _check_impact(event, float(at_start[0]), float(at_start[1]), times[0])
     if system.multipliers:
         q, v = _on_constraints(system, values, q, v, times[0])
+    check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
         scales = motion_scales(system, values, start, times)

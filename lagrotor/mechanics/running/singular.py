@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.programs import energy_program, rows_program
+from lagrotor.mechanics.running.programs import Generated, energy_program, mass_program, rows_program
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
@@ -43,8 +43,10 @@ def singular_position(system: Equations, values: Mapping[Any, Any], start: Array
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """M at a state, (N, N), from the energy, which is quadratic in the velocities."""
+    """M at a state, (N, N); of a tree of bodies from the energy, which is quadratic in the velocities."""
     n, program = len(system.c.q), energy_program(system)
+    if not system.bodies:
+        return _at(mass_program(system), system, values, state).reshape(n, n)
     units = np.eye(n)
     pairs = (units[:, None] + units[None]).reshape(-1, n)
     v = np.vstack([np.zeros(n), units, -units, pairs, -pairs])
@@ -53,6 +55,16 @@ def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array
     alone = (E[1 : n + 1] + E[n + 1 : 2 * n + 1]) / 2 - E[0]
     both = ((E[2 * n + 1 : 2 * n + 1 + n * n] + E[2 * n + 1 + n * n :]) / 2 - E[0]).reshape(n, n)
     return np.asarray(both - alone[:, None] - alone[None])
+
+
+def rows_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
+    """G at a state, (k, N)."""
+    found = _at(rows_program(system), system, values, state) if system.multipliers else np.zeros(0)
+    return found.reshape(system.rows.shape)
+
+
+def _at(program: Generated, system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
+    return program.along(values)(state[None], np.array([_time(state, len(system.c.q))]))
 
 
 def _time(state: Array, n: int) -> float:
@@ -68,8 +80,7 @@ def _least(matrix: Array) -> tuple[float, Array]:
 
 def _dependence(system: Equations, values: Mapping[Any, Any], state: Array) -> float:
     """The least singular value of the rows of G, each of length one."""
-    time = np.array([_time(state, len(system.c.q))])
-    G = rows_program(system).along(values)(state[None], time).reshape(system.rows.shape)
+    G = rows_at(system, values, state)
     lengths = np.linalg.norm(G, axis=1, keepdims=True)
     if not np.isfinite(G).all() or not lengths.all():
         return 0.0

@@ -29,11 +29,20 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
         return M.reshape(n, n), g, G.reshape(-1, n), off
 
     if h:
-        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2][:h], q, parts(q, v)[0])
+        metric_there = metric(parts(q, v)[0], parts(q, v)[2][:h])
+        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2][:h], q, metric_there)
         q = np.asarray(placed, float)
     mass, _, slope, wanted = parts(q, np.zeros(n))  # wanted: b, so that G v + b = 0
+    mass = metric(mass, slope)
     particular = -np.linalg.pinv(slope) @ wanted
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
+
+
+def metric(mass: Array, slope: Array) -> Array:
+    """M, or where it is singular M + Gᵀ W G, W as in `programs.inertia`: a metric in which distances are measured."""
+    if not len(slope) or np.linalg.matrix_rank(mass, hermitian=True) == len(mass):
+        return mass
+    return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
 def state_vector(name: str, given: ArrayLike, n: int) -> Array:
@@ -58,10 +67,11 @@ def increasing(where: str, given: ArrayLike) -> Array:
 
 
 def _real(given: ArrayLike) -> Array | None:
-    """Real numbers as they are given; None for texts, dates, complex numbers and what else is none."""
+    """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
     try:
         plain = np.asarray(given)
-        if plain.dtype.kind not in "iufbO" or (plain.dtype.kind == "O" and any(isinstance(e, str) for e in plain.flat)):
+        listed = given if isinstance(given, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
+        if plain.dtype.kind not in "iufO" or any(isinstance(e, str | bool) for e in listed):
             return None
         return np.asarray(plain, dtype=float)
     except (TypeError, ValueError):

@@ -16,7 +16,7 @@ from lagrotor.algebra import decide_zero, derivative
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, vector_of
-from lagrotor.mechanics.lagrangian import gradient, t
+from lagrotor.mechanics.lagrangian import force_column, gradient, t
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,11 @@ class Event:
             given = vector_of("Event: velocities", self.velocities, len(self.velocities))
             object.__setattr__(self, "velocities", given)
 
+    @property
+    def expressions(self) -> tuple[sp.Expr, ...]:
+        """Those of the event, which have a value along a motion."""
+        return self.section, *(self.velocities or ())
+
 
 @dataclass(frozen=True)
 class Impact:
@@ -69,6 +74,11 @@ class Impact:
             raise InputError(f"Impact: latched = {self.latched!r} must be True or False")
         if self.latched and e != 0:
             raise InputError(f"Impact: restitution = {e} of what is latched: give 0, or latched=False")
+
+    @property
+    def expressions(self) -> tuple[sp.Expr, ...]:
+        """Those of the impact, which have a value along a motion."""
+        return self.gap, self.restitution
 
 
 @dataclass(frozen=True)
@@ -132,9 +142,10 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         return system, ()
     if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:
         raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
-    forces = tuple(e.xreplace(put) for e in system.forces)
+    friction = gradient(system.dissipation.xreplace(put), system.c.v)
+    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(put))
     L = system.lagrangian.xreplace(put) if isinstance(system.lagrangian, sp.Expr) else system.lagrangian
-    smooth = replace(system, lagrangian=L, forces=forces, dissipation=system.dissipation.xreplace(put))
+    smooth = replace(system, lagrangian=L, forces=forces, dissipation=sp.S.Zero)
     return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
 
 

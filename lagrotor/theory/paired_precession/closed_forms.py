@@ -11,7 +11,7 @@ from lagrotor.pair.notation import Phi, k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.orbit_harmonics import harmonic_momentum
 from lagrotor.theory.paired_precession.remainder import with_error
-from lagrotor.theory.paired_precession.series import PairedSeries, check_order, paired_series
+from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
 _ORBIT_DOMAIN = (sp.Gt(r0, -1), sp.Lt(r0, 1))
 _Values = dict[sp.Symbol, Array]
@@ -23,7 +23,7 @@ def paired_frequency(order: int = 3) -> ClosedForm:
 
     Arguments r_0, sigma, k. Raises InputError unless order is a whole number, 1 or more.
     """
-    series = paired_series(check_order(order) + 1)  # order n of the orbit fixes the frequency's order n − 1
+    series = paired_series(order)
     form = ClosedForm(
         "paired_frequency",
         ("Omega/Omega_0",),

@@ -47,7 +47,7 @@ class Remainder(NamedTuple):
 @dataclass(frozen=True, eq=False)
 class PairedSeries:
     """The orbit through r0**order for sigma = `shape`, k = `ratio`: axis of rotor 1 (x, Y, z), Y = y / sqrt(sigma), and
-    frequency / Omega_0, through r0**(order − 1). `solution`: with the multipliers of unit length and bar."""
+    frequency / Omega_0. `solution`: with the multipliers of unit length and bar."""
 
     solution: PeriodicSeries
     order: int
@@ -118,9 +118,8 @@ class PairedSeries:
         With t_n the size of the terms in r0**n, two orders together fall by a factor q, the largest seen in the last
         orders and some more; the rest is at most q/(1 − q) times the last two, and a safety factor. Tested on random bars.
         """
-        # The frequency is known through the order before the last; its odd orders vanish.
-        known = self.frequency_coefficients[: self.order + self.order % 2]
-        return Remainder(rest_of(self._sizes * abs(r0) ** np.arange(self.order + 1)), self.remainder_like(known, r0))
+        rest = rest_of(self._sizes * abs(r0) ** np.arange(self.order + 1))
+        return Remainder(rest, self.remainder_like(self.frequency_coefficients, r0))
 
     def remainder_like(self, coefficients: Array, r0: float) -> float:
         """Estimated bound of what is left out of another power series of the orbit, given its first coefficients.

@@ -72,7 +72,7 @@ def test_what_makes_sense_is_run() -> None:
         assert np.array_equal(run(values=values).q, plain)
     assert run(q0=(sp.Rational(1, 10),), t=range(3)).t[-1] == 2
     assert run(t=[0, 1e-300]).q[-1] == pytest.approx(0.1)
-    assert run(values={m: 1, length: 1, e: 1}, events=Impact(x, e)).ending.kind == "end"
+    assert run(values={"m": 1, "length": 1, "e": 1}, events=Impact(x, e)).ending.kind == "end"
 
 
 @pytest.mark.parametrize("system", [forced(sp.sqrt(x - 1)), forced(1 / (x - x.xreplace({x: sp.Rational(1, 10)})))])

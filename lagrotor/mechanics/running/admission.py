@@ -1,0 +1,92 @@
+"""What numbers must be so that a system of them moves: letters that it has, of their declared sign; masses that bodies have;
+friction that takes energy; a mass matrix that, with the constraints, gives one acceleration."""
+
+from collections.abc import Iterable
+from typing import Any
+from warnings import warn
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.errors import InputError, LagrotorWarning, SingularError, near
+from lagrotor.mechanics.bodies.rigid_bodies import check_body
+from lagrotor.mechanics.equations import Equations, check_friction
+from lagrotor.mechanics.expressions import by_symbol
+from lagrotor.mechanics.lagrangian import t
+from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.programs import tree_motion
+from lagrotor.mechanics.running.singular import mass_at, rows_at
+
+_RANK = 1e-11  # of the largest eigenvalue, what is left of a direction that nothing moves, by rounding
+
+
+def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
+    """Raise InputError for a name that is no letter of the system, or of `others`; for a value whose sign is not the
+    letter's; for a body or a friction that there is none of. A symbol of another system, of a table that several share, is
+    passed over."""
+    moving = {*system.c.q, *system.c.v, *system.c.a, t}
+    acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces, *others)
+    letters = {str(s): s for e in acting for s in getattr(e, "free_symbols", ()) if s not in moving}
+    for name, value in values.items():
+        letter = letters.get(str(name))
+        if letter is None and not isinstance(name, str):
+            continue
+        if letter is None:
+            known = (
+                f"; its letters are {', '.join(sorted(letters))}"
+                if letters
+                else "; it has no letter but its coordinates"
+            )
+            raise InputError(
+                f"{where}: values name {name}, which the system does not have{near(name, letters) or known}: leave it out"
+            )
+        _check_sign(where, letter, value)
+    put = {s: sp.sympify(float(value)) for s, value in by_symbol(values, letters.values()).items()}
+    for body in system.bodies:
+        check_body(where, body, put)
+    check_friction(where, system.dissipation.xreplace(put), system.c)
+
+
+def _check_sign(where: str, letter: sp.Symbol, value: Any) -> None:
+    number = float(value)
+    wrong = (letter.is_extended_nonnegative and number < 0) or (letter.is_extended_nonpositive and number > 0)
+    if wrong or (letter.is_integer and number != round(number)):
+        kind = "a whole number" if letter.is_integer and not wrong else "positive" if number < 0 else "negative"
+        raise InputError(
+            f"{where}: {letter} = {number:g} was declared {kind}: what is derived of it holds for these alone"
+        )
+
+
+def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
+    """Raise SingularError where M, with the constraints, does not give one acceleration at a state; warn where the kinetic
+    energy of a velocity that the constraints allow is negative."""
+    M = mass_at(system, values, state)
+    G = rows_at(system, values, state)
+    size = np.sqrt(np.abs(np.diag(M)))
+    size = np.where(size > 1e-150, size, size.max() or 1.0)
+    M, G = M / np.outer(size, size), G / size
+    lengths = np.linalg.norm(G, axis=1, keepdims=True)
+    if not (np.isfinite(M).all() and np.isfinite(G).all() and lengths.all()):
+        return  # said of the right-hand side, or of the constraints
+    _, weights, turned = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
+    free = turned[int((weights > _RANK).sum()) :]
+    kinetic = np.linalg.eigvalsh(free @ M @ free.T) if len(free) else np.ones(1)
+    if np.abs(kinetic).min() <= _RANK * max(np.abs(kinetic).max(), np.abs(M).max()):
+        _, vectors = np.linalg.eigh(free @ M @ free.T)
+        idle = np.abs(free.T @ vectors[:, int(np.abs(kinetic).argmin())])
+        names = ", ".join(str(v) for v, part in zip(system.c.v, idle, strict=True) if part > 0.2 * idle.max())
+        raise SingularError(
+            f"{where}: the mass matrix is singular at the start (det M = 0): no mass moves with {names}, and no constraint "
+            "gives it; use fewer coordinates, give what it moves a mass, or start beside a pole"
+        )
+    if np.linalg.svd(M, compute_uv=False)[-1] <= _RANK * np.abs(M).max() and tree_motion(system) is not None:
+        raise SingularError(
+            f"{where}: the mass matrix is singular at the start (det M = 0), where the constraints alone bind a coordinate: "
+            "write the energies out, System(c, system.L, constraints)"
+        )
+    if kinetic.min() < 0:
+        warn(
+            f"{where}: the kinetic energy of some velocities is negative at the start: check the signs of masses",
+            LagrotorWarning,
+            stacklevel=3,
+        )
