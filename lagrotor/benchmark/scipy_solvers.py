@@ -1,5 +1,6 @@
 """scipy's solvers by name, for runs in which the solver is studied, and as engines on the minimal right-hand side."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,11 @@ from lagrotor.models import minimal
 from lagrotor.models.model import problem_of
 from lagrotor.numerics.adams import adams
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.segment import Engine, RightHandSide, Segment, StopError, Stretch
+from lagrotor.numerics.segment import RightHandSide, Segment, StopError, Stretch
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
+Solver = Callable[[Segment, float], Stretch]  # a segment and a local error
 # Name → scipy's integrator with a compiled loop, and its settings.
 SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {
     "DOP853": ("dop853", {}),
@@ -57,7 +59,7 @@ def run_by(
     return np.array(states), nfev
 
 
-def ode_engine(solver: str) -> Engine:
+def ode_engine(solver: str) -> Solver:
     """One of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
     def run(segment: Segment, error: float) -> Stretch:
@@ -68,7 +70,7 @@ def ode_engine(solver: str) -> Engine:
     return run
 
 
-def ivp_engine(method: str) -> Engine:
+def ivp_engine(method: str) -> Solver:
     """A method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
 
     def run(segment: Segment, error: float) -> Stretch:
@@ -96,7 +98,7 @@ def ivp_engine(method: str) -> Engine:
     return run
 
 
-def on_minimal(engine: Engine, sees_shock: bool = True) -> Prepare:
+def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
     """The minimal right-hand side, pulse included, by an engine that is called once over the whole run.
 
     sees_shock: no step is longer than the width of the pulse. Without it this is a plain call, which may step over it.

@@ -76,9 +76,16 @@ class Model:
     angles: tuple[int, ...] = ()
     progress: Callable[[float], None] | None = None
 
-    def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
-        """The scene's program, and the values of its parameters but for the torque."""
+    def parameters(self, scene: Scene, driven: bool) -> tuple[tuple[Any, ...], tuple[float, ...]]:
+        """The scene's kind and the values of its parameters, with the torque and the width of the pulse if `driven`."""
         kind, values = self.kind(scene, driven)
+        if driven and scene.shock:
+            values = (*values, *(scene.rotor.length * f for f in scene.shock.force), scene.shock.width)
+        return kind, values
+
+    def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
+        """The scene's program, and the values of its parameters as `parameters` has them."""
+        kind, values = self.parameters(scene, driven)
         return self.derive(*kind), values
 
     def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> RightHandSide:
@@ -87,10 +94,7 @@ class Model:
         A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; bounded: a state
         where the program is badly conditioned, too.
         """
-        kind, values = self.kind(scene, driven)
-        shock = scene.shock if driven else None
-        if shock:
-            values = (*values, *(scene.rotor.length * f for f in shock.force), shock.width)
+        kind, values = self.parameters(scene, driven)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
         if self.outside and scene.link:
             rate = _guarded(rate, self.outside, self.size)
@@ -166,24 +170,15 @@ def integrate_model(
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.
     """
-    begin = model.start(scene) if start is None else start
+    problem = problem_of(model, scene, bounded, start, budget, companion and engine == "core")
     if engine == "core":
-        return integrate(problem_of(model, scene, bounded, begin, budget, companion), times, local)
-    from lagrotor.numerics.taylor import Pulse, companion_order, integrate_taylor, taylor_order
+        return integrate(problem, times, local)
+    from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_solver
 
-    shock, project = scene.shock, model.projection(scene) if model.projection else None
-    x, y, z = (scene.rotor.length * f for f in (shock.force if shock else (0.0, 0.0, 0.0)))
-    run = integrate_taylor(
-        lambda driven: model.program(scene, driven),
-        begin,
-        Pulse((x, y, z), shock.at, shock.width) if shock else None,
-        times,
-        local,
-        project,
-        BETWEEN_PROJECTIONS / typical_rate(scene) if project else inf,
-        companion_order(local) if companion else taylor_order(local),
-        model.angles,
-    )
+    order = companion_order(local) if companion else taylor_order(local)
+    between = BETWEEN_PROJECTIONS / typical_rate(scene) if problem.project else inf
+    solver = taylor_solver(lambda driven: model.program(scene, driven), order, between, model.angles)
+    run = integrate(problem, times, local, solver)
     if bounded:
         from lagrotor.numerics.printers import compile_program
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from lagrotor.numerics.segment import Array, Segment, StopError, Stretch
+from lagrotor.numerics.segment import Array, Segment, StopError, Stretch, states_on_constraints
 
 _BLOCK = 100
 _SWEEPS = 25
@@ -100,7 +100,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
         worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
-        near = _passes_singular(segment, states[block.start - q : n + 1], h)
+        near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
             kept = block.start if block.start > q else 1
@@ -132,10 +132,6 @@ def _first_nodes(
         if sweep and not moved > 2e-15 * size:
             break
     return evaluations, bool(moved < 1e-13 * size)
-
-
-def _passes_singular(segment: Segment, states: Array, h: float) -> bool:
-    return segment.time_to_singular is not None and any(segment.clear(y) < h for y in states)
 
 
 def adams(segment: Segment, error: float) -> Stretch:
@@ -174,14 +170,9 @@ def adams(segment: Segment, error: float) -> Stretch:
         spent = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
         if t < right and (spent or in_vain == _IN_VAIN or t + h == t):
             reason = f"{evaluations} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
-            reached = _on_constraints(segment, states[:done], y, evaluations)
+            reached = Stretch(states_on_constraints(segment.project, states[:done]), y, evaluations)
             raise StopError(t, reason, reached, cause="budget" if spent else "stopped")
     if not (np.isfinite(end).all() and np.isfinite(states).all()):
         raise StopError(t, "a value is not finite", evaluations=evaluations)
-    return _on_constraints(segment, states, end, evaluations)
-
-
-def _on_constraints(segment: Segment, states: Array, end: Array, evaluations: int) -> Stretch:
-    if segment.project and len(states):
-        states, end = segment.project(states.T).T, segment.project(end)
-    return Stretch(states, end, evaluations)
+    end = segment.project(end) if segment.project else end
+    return Stretch(states_on_constraints(segment.project, states), end, evaluations)

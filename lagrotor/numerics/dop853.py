@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.numerics.segment import Segment, StopError, Stretch
+from lagrotor.numerics.segment import Segment, StopError, Stretch, states_on_constraints
 
 _TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
 _PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
@@ -57,12 +57,8 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
 
 def dop853(segment: Segment, error: float) -> Stretch:
     """The segment at a local error `error`, relative and absolute. Raises StopError with what was reached."""
-    t_eval, project = segment.t_eval, segment.project
+    t_eval = segment.t_eval
     states, done, solver = np.empty((len(t_eval), len(segment.start))), 0, None
-
-    def on_constraints() -> Any:
-        return project(states[:done].T).T if project and done else states[:done]
-
     try:
         for solver in dop853_steps(segment, error):
             reached = int(np.searchsorted(t_eval, solver.t, side="right"))
@@ -71,8 +67,7 @@ def dop853(segment: Segment, error: float) -> Stretch:
                 done = reached
     except StopError as stop:
         end = stop.reached.end if stop.reached else segment.start
-        raise StopError(
-            stop.at, stop.reason, Stretch(on_constraints(), end, stop.evaluations), cause=stop.cause
-        ) from None
+        part = Stretch(states_on_constraints(segment.project, states[:done]), end, stop.evaluations)
+        raise StopError(stop.at, stop.reason, part, cause=stop.cause) from None
     assert solver is not None  # a segment has a length
-    return Stretch(on_constraints(), solver.y, solver.nfev)
+    return Stretch(states_on_constraints(segment.project, states[:done]), solver.y, solver.nfev)

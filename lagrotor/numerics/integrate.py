@@ -11,7 +11,16 @@ from lagrotor.numerics.adams import adams
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import segments
-from lagrotor.numerics.segment import Array, OutsideError, Projection, RightHandSide, Segment, StopError, Stretch
+from lagrotor.numerics.segment import (
+    Array,
+    OutsideError,
+    Projection,
+    RightHandSide,
+    Segment,
+    SegmentSolver,
+    StopError,
+    Stretch,
+)
 from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
@@ -55,11 +64,12 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
-def integrate(problem: Problem, times: Array, tol: float) -> Stretch:
+def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
     """Integrate from t = 0 through `times` (increasing, not negative) with a local error `tol`; states (n, d) there.
 
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
     at the pulse's edges, s = ± 6.5 width; within them no step is longer than `longest` widths, so no tolerance can miss it.
+    solver: of a segment, where it is not the fastest of the core.
 
     Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
     """
@@ -81,7 +91,7 @@ def integrate(problem: Problem, times: Array, tol: float) -> Stretch:
                 problem.time_to_singular,
             )
             try:
-                part = _by_fastest(segment, pulsed, tol)
+                part = (solver or _by_fastest)(segment, pulsed, tol)
             except StopError as stop:
                 spent += stop.evaluations
                 reached = stop.reached or Stretch(np.empty((0, len(y))), y, 0)

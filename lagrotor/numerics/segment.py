@@ -57,7 +57,7 @@ class Stretch:
     jumps: tuple[float, ...] = ()
 
 
-Engine = Callable[[Segment, float], Stretch]
+SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, whether within a pulse, a local error
 Cause = Literal["budget", "singular", "event", "stopped"]
 WAYS_OUT = {
     "budget": "take a larger tol or a shorter run",
@@ -65,6 +65,11 @@ WAYS_OUT = {
     "event": "",
     "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol",
 }
+
+
+def states_on_constraints(project: Projection | None, states: Array) -> Array:
+    """States (n, d), brought back onto their constraints."""
+    return project(states.T).T if project and len(states) else states
 
 
 class StopError(IntegrationError):

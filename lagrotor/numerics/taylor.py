@@ -10,7 +10,6 @@ order: three orders serve every tolerance, each in the steps that pay.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache, reduce
 from math import exp
 from operator import mul
@@ -23,16 +22,15 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.pulse import segments
-from lagrotor.numerics.segment import Projection, StopError, Stretch
+from lagrotor.numerics.segment import Projection, Segment, SegmentSolver, StopError, Stretch, states_on_constraints
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
 MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
-# (with the pulse or not) → the program and the values of its parameters, without the force.
-_Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
+# (within the pulse or not) → the program and the values of its parameters.
+Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
 
 def heyoka_module() -> Any:
@@ -101,64 +99,39 @@ def _compiled_function(program: Program) -> Any:
     return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
 
 
-@dataclass(frozen=True)
-class Pulse:
-    """The torque force exp(−((t − at)/width)²) that goes with the last three parameters of the driven program."""
+def taylor_solver(
+    generated: Generated, order: int, longest_between: float = np.inf, angles: tuple[int, ...] = ()
+) -> SegmentSolver:
+    """What integrates a segment for `lagrotor.numerics.integrate.integrate` by heyoka; steps times order for evaluations.
 
-    force: tuple[float, float, float]
-    at: float
-    width: float
-
-
-def integrate_taylor(
-    generated: _Generated,
-    start: Array,
-    pulse: Pulse | None,
-    times: Array,
-    tol: float,
-    project: Projection | None = None,
-    longest_between: float = np.inf,
-    order: int | None = None,
-    angles: tuple[int, ...] = (),
-) -> Stretch:
-    """Integrate from t = 0 through `times`; states (n, d) there, and steps times order for evaluations.
-
-    Cut at the pulse's edges as `integrate` is, and projected there, at the end, and after no more than `longest_between`.
-    order: another than the cheapest for `tol`. angles: which states may grow without end besides the cyclic ones; their
-    error is held by that of their rates, which are states too.
-    Raises InputError without heyoka, StopError where it stops.
+    generated: within the pulse or not → the program and the values of its parameters, whose last three are, within it, the
+    peak of a force exp(−(s/width)²), with `width` after them. The states are projected after no more than `longest_between`.
+    angles: which states may grow without end besides the cyclic ones; their error is held by that of their rates, which are
+    states too. Raises InputError without heyoka.
     """
-    order = order or taylor_order(tol)
-    at, width = (pulse.at, pulse.width) if pulse else (0.0, 0.0)
-    t_eval = times - at if pulse else times
-    found: list[Array] = []
-    d, y, spent = len(start), start, 0
-    for left, right, driven in segments(-at, float(t_eval[-1]), width):
-        program, values = generated(driven)
-        solver, scale = _solver(program, d, driven, order, 1, get_ident(), angles), _carried(program, d, angles)
-        if pulse and driven:
-            values = (*values, *pulse.force, width)
+    heyoka_module()
+
+    def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+        (program, values), d, project = generated(pulsed), len(segment.start), segment.project
+        solver, scale = _solver(program, d, pulsed, order, 1, get_ident(), angles), _carried(program, d, angles)
         solver.pars[:] = values[: len(solver.pars)]  # the last ones may be in no expression
-        inside = t_eval[(t_eval > left if found else t_eval >= left) & (t_eval <= right)]
-        onto = None if project is None else lambda y, scale=scale: project(y / scale) * scale
-        longest = width if driven else np.inf
+        onto = None if project is None else lambda y: project(y / scale) * scale
+        span, size = (segment.left, segment.right), dummy_size(tol, order)
+
+        def unscaled(run: Stretch) -> Stretch:
+            return Stretch(states_on_constraints(project, run.states / scale), run.end / scale, run.evaluations)
+
         try:
-            states, y, more = taylor_march(
-                solver, y * scale, inside, (left, right), dummy_size(tol, order), onto, longest_between, longest
+            return unscaled(
+                taylor_march(
+                    solver, segment.start * scale, segment.t_eval, span, size, onto, longest_between, segment.longest
+                )
             )
-        except StopError as stopped:
-            so_far = stopped.reached or Stretch(np.empty((0, d)), y * scale, 0)
-            found.append(so_far.states / scale)
-            reached = Stretch(_onto(project, found), so_far.end / scale, spent + stopped.evaluations)
-            raise StopError(at + stopped.at, stopped.reason, reached, cause=stopped.cause) from None
-        found.append(states / scale)
-        y, spent = y / scale, spent + more
-    return Stretch(_onto(project, found), y, spent)
+        except StopError as stop:
+            stop.reached = stop.reached and unscaled(stop.reached)
+            raise
 
-
-def _onto(project: Projection | None, parts: list[Array]) -> Array:
-    states = np.concatenate(parts)
-    return states if project is None or not len(states) else project(states.T).T
+    return solve
 
 
 def companion_order(tol: float) -> int:
@@ -166,7 +139,7 @@ def companion_order(tol: float) -> int:
     return taylor_order(tol) - 1
 
 
-def march_taylor(
+def march_lanes(
     program: Program, start: Array, parameters: Array, times: Array, tol: float, companion: bool = False
 ) -> tuple[Array, Counts]:
     """States (n, m, d) at times (m,) of n starts (d, n) with parameters (p, n), LANES at a time, and evaluations (n,).
@@ -263,70 +236,43 @@ def taylor_march(
     y: Array,
     times: Array,
     span: tuple[float, float],
-    size: float | Array,
+    size: float,
     project: Projection | None = None,
     longest_between: float = np.inf,
     longest: float = np.inf,
     after_step: Callable[[Any], bool] | None = None,
-) -> tuple[Array, Array, int]:
-    """States (n, d) at the times within the span, begun with y (d,); the state at its end; evaluations, steps times order.
+) -> Stretch:
+    """States (n, d) at the times within the span, begun with y (d,); steps times order for evaluations.
 
-    With a solver of L lanes, which step side by side, each its own way, y is (d, L), size (L,) and the states (n, d, L).
     size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
     longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
     """
-    (left, right), parts, steps = span, [np.empty((0, *np.shape(y)))], 0
+    (left, right), parts, steps = span, [np.empty((0, len(y)))], 0
+    options: dict[str, Any] = {"max_delta_t": longest, "max_steps": MOST_STEPS}
+    options |= {} if after_step is None else {"callback": after_step}
     while left < right or len(parts) == 1:
-        solver.state[:-1], solver.state[-1] = y, size
         until = min(right, left + longest_between)
         inside = times[(times > left if len(parts) > 1 else times >= left) & (times <= until)]
-        states, y, more, at = _propagated(solver, left, inside, until, longest, after_step)
-        parts.append(states)
+        grid = np.unique([left, *inside, until])
+        solver.time, solver.state[:-1], solver.state[-1] = left, y, size
+        outcome, _, _, more, _, states = solver.propagate_grid(grid, **options)
         steps += more
-        if at is not None:
+        finite = np.isfinite(states).all(axis=1)
+        whole = len(finite) if finite.all() else int(np.argmin(finite))
+        places = np.searchsorted(grid, inside)
+        parts.append(states[places[places < whole], :-1])
+        y = states[whole - 1, :-1].copy() if whole else y
+        if whole < len(grid) or "time_limit" not in str(outcome):
             reached = Stretch(np.concatenate(parts), y, steps * solver.order)
-            raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
+            reason = "the Taylor series has no step; engine='core' may go on"
+            raise StopError(float(grid[max(whole, 1) - 1]), reason, reached)
         try:
             y, left = (y if project is None else project(y)), until
         except StopError as stop:
             before = np.concatenate(parts)[: np.searchsorted(times, stop.at)]
-            end = before[-1] if len(before) else y
-            raise StopError(
-                stop.at, stop.reason, Stretch(before, end, steps * solver.order), cause=stop.cause
-            ) from None
-    return np.concatenate(parts), y, steps * solver.order
-
-
-def _propagated(
-    solver: Any, begin: float, t_eval: Array, until: float, longest: float, after_step: Callable[[Any], bool] | None
-) -> tuple[Array, Array, int, float | None]:
-    """States (n, d) at the times from `begin` to `until`, the state there, and steps; where it stops, those up to that time,
-    and the time."""
-    before = 0 if len(t_eval) and t_eval[0] == begin else 1
-    after = 0 if len(t_eval) and t_eval[-1] == until else int(until > begin)
-    grid = np.concatenate([[begin] * before, t_eval, [until] * after])
-    more: dict[str, Any] = {"max_delta_t": longest, "max_steps": MOST_STEPS}
-    more |= {} if after_step is None else {"callback": after_step}
-    if solver.state.ndim > 1:
-        solver.set_time(begin)
-        _, states = solver.propagate_grid(np.repeat(grid[:, None], solver.state.shape[1], axis=1), **more)
-        outcomes, steps = [each[0] for each in solver.propagate_res], sum(each[3] for each in solver.propagate_res)
-    else:
-        solver.time = begin
-        outcome, _, _, steps, _, states = solver.propagate_grid(grid, **more)
-        outcomes = [outcome]
-    shown = np.isfinite(states).all(axis=tuple(range(1, states.ndim)))
-    if any("time_limit" not in str(outcome) for outcome in outcomes) or not shown.all():
-        kept = states[: len(shown) if shown.all() else int(np.argmin(shown)), :-1]
-        at = float(grid[len(kept) - 1]) if len(kept) else begin
-        return (
-            kept[before : before + len(t_eval)].copy(),
-            kept[-1].copy() if len(kept) else solver.state[:-1],
-            steps,
-            at,
-        )
-    states = states[:, :-1]
-    return states[before : before + len(t_eval)].copy(), states[-1].copy(), steps, None
+            reached = Stretch(before, before[-1] if len(before) else y, steps * solver.order)
+            raise StopError(stop.at, stop.reason, reached, cause=stop.cause) from None
+    return Stretch(np.concatenate(parts), y, steps * solver.order)
 
 
 def _compiled_for(order: int) -> float:

@@ -12,8 +12,10 @@ from lagrotor.models import minimal, spheres
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import integrate_model
 from lagrotor.models.programs.minimal_program import program
-from lagrotor.numerics import taylor
-from lagrotor.numerics.taylor import taylor_order
+from lagrotor.numerics import Problem, taylor
+from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics.segment import Stretch
+from lagrotor.numerics.taylor import taylor_order, taylor_solver
 from lagrotor.pair import SHOCK_PAIRED
 
 TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
@@ -93,15 +95,18 @@ def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
     scene = Scene((10, -7), **MOVING)
     start, (form, values) = minimal.MODEL.start(scene), minimal.MODEL.program(scene, False)
     far = start + np.array([0, 0, 2e4 * np.pi, 0, 0, 0])
-    near_run, far_run = (taylor.integrate_taylor(lambda _: (form, values), y, None, TIMES, 1e-11) for y in (start, far))
+    rate = minimal.MODEL.rate(scene, False)
+
+    def run(y: np.ndarray, angles: tuple[int, ...] = ()) -> Stretch:
+        solver = taylor_solver(lambda _: (form, values), taylor_order(1e-11), angles=angles)
+        return integrate(Problem(rate, y, np.inf), TIMES, 1e-11, solver)
+
+    near_run, far_run = run(start), run(far)
     assert far_run.evaluations == near_run.evaluations
     assert far_run.states[:, :2] == pytest.approx(near_run.states[:, :2], abs=1e-13)
     assert taylor._cyclic(form, 6) == [2]
     twisted = start + np.array([0, 2e4 * np.pi, 0, 0, 0, 0])
-    spent, in_full = (
-        taylor.integrate_taylor(lambda _: (form, values), twisted, None, TIMES, 1e-11, angles=angles).evaluations
-        for angles in (minimal.MODEL.angles, ())
-    )
+    spent, in_full = (run(twisted, angles).evaluations for angles in (minimal.MODEL.angles, ()))
     assert spent == near_run.evaluations > 1.3 * in_full
     driven, _ = minimal.MODEL.program(Scene((10, -7), shock=SHOCK_PAIRED), True)
     assert taylor._cyclic(driven, 6) == []

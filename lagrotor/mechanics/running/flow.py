@@ -12,9 +12,9 @@ from lagrotor.mechanics.running.programs import depends_on_time, motion_program,
 from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
-from lagrotor.numerics.segment import Projection, Segment, StopError, Stretch
+from lagrotor.numerics.segment import Projection, StopError, Stretch
 from lagrotor.numerics.solver_constants import CROSSOVER
-from lagrotor.numerics.taylor import companion_order, integrate_taylor, taylor_order, taylor_rhs
+from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
 
 Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
@@ -104,9 +104,9 @@ def smooth_motion(
         longest = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
         clock = tuple(range(2 * n, d))
-        return integrate_taylor(
-            lambda _: (program.program, parameters), start, None, times, local, project, longest, order, clock
-        )
+        problem = Problem(program.rhs(*parameters), start, np.inf, project=project)
+        solver = taylor_solver(lambda _: (program.program, parameters), order, longest, clock)
+        return integrate(problem, times, local, solver)
 
     def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
@@ -116,12 +116,10 @@ def smooth_motion(
         problem = Problem(bare, start / scale, budget, project=scaled_projection(project, scale), typical_rate=rate)
         try:
             if companion and stiff and local >= CROSSOVER.value:
-                segment = Segment(
-                    bare, problem.start, 0.0, float(times[-1]), times[1:], budget=budget / 2, project=problem.project
-                )
+                half = replace(problem, budget=budget / 2)
                 try:
-                    stretch = dop853(segment, local / 20)
-                    return to_units(replace(stretch, states=np.vstack([problem.start, stretch.states])), scale)
+                    stretch = integrate(half, times, local, lambda segment, _, tol: dop853(segment, tol / 20))
+                    return to_units(stretch, scale)
                 except StopError as stop:
                     if stop.cause != "budget":
                         raise

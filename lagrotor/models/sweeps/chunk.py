@@ -20,7 +20,7 @@ from lagrotor.numerics.estimate_constants import APART, FIRST, LOST
 from lagrotor.numerics.estimated_run import UNKNOWN, estimated_errors, start_beside
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.pulse import COMPANION_STEP
-from lagrotor.numerics.taylor import march_taylor
+from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
@@ -117,7 +117,7 @@ def _by_minimal(
         begun = start_beside(start[:, who].T).T if companion else start[:, who]
         if engine == "fast":
             parameters = np.array([column[who] for column in columns])
-            states, spent = march_taylor(program(*kind), begun, parameters, times, local, companion)
+            states, spent = march_lanes(program(*kind), begun, parameters, times, local, companion)
         else:
             # A step ends at each time, and in a pulse all may be as long as they can be: a companion's end at others and
             # are shorter, so that no two take the same few steps.

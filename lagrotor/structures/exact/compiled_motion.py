@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.segment import RightHandSide, Stretch
+from lagrotor.numerics.segment import RightHandSide, Stretch, states_on_constraints
 from lagrotor.numerics.taylor import (
     companion_order,
     compiled_solver,
@@ -63,8 +63,8 @@ def integrate_series(
         return motion.project(y)
 
     span, size = (float(times[0]), float(times[-1])), dummy_size(local, order)
-    states, end, spent = taylor_march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
-    return Stretch(motion.project(states.T).T, end, spent)
+    run = taylor_march(solver, start, times, span, size, onto, _BETWEEN, after_step=keep)
+    return Stretch(states_on_constraints(motion.project, run.states), run.end, run.evaluations)
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
