@@ -114,6 +114,26 @@ class ExactMotion:
         stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
+    def axes_and_rates(self, states: Array) -> Array:
+        """r and r'/rate, (2, n, N, 3), of states (n, 6 N)."""
+        return states.reshape(-1, 2, len(self.c.R), 3).swapaxes(0, 1)
+
+    def distance(self, one: Array, other: Array) -> Array:
+        """The largest difference of an axis between states (n, 6 N), (n,)."""
+        apart = self.axes_and_rates(one)[0] - self.axes_and_rates(other)[0]
+        return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=1))
+
+    def difference_of_rates(self, one: Array, other: Array) -> float:
+        """The largest difference of a component of r'/rate between states (n, 6 N)."""
+        return float(np.abs(self.axes_and_rates(one)[1] - self.axes_and_rates(other)[1]).max(initial=0.0))
+
+    def defect(self, states: Array, conserved: bool) -> float:
+        """How far states (n, 6 N) are off the constraints, or what error explains how far their energy is, where conserved."""
+        r, v = self.axes_and_rates(states) * np.array([1.0, self.c.rate])[:, None, None, None]
+        off = float((np.abs(self.off(r)) / np.append(np.ones(len(self.c.R)), self.c.ell)).max())
+        scale = self.energy_scale(r, v) if conserved else 0.0
+        return max(off, float(np.ptp(self.energy(r, v))) / scale) if scale > 0 else off
+
     def energy_scale(self, r: Array, v: Array) -> float:
         """How much the energy (J) of some of the states r, v (n, N, 3) changes by an error of 1 of axes and v/rate, at most."""
         c = self.c

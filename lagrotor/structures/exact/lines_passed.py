@@ -13,8 +13,17 @@ from lagrotor.numerics.segment import RightHandSide, StopError
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import ExactMotion
 
+_IN_LINE = 1e-3  # sine of the angle between a bar and both its axes at which a solver that stops has come to it
 _AT_ONCE = 64  # states that are looked at together
 _EVERY = 3  # evaluation of a right-hand side is looked at
+
+
+def bar_in_line(motion: ExactMotion, y: Array) -> str:
+    """The words of a state at which a solver stopped as a bar had come into line with both its axes; none where none has."""
+    c = motion.c
+    across = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / (c.R[c.j] * c.ell)
+    bars = np.flatnonzero((across < _IN_LINE).all(axis=0))
+    return f"bar {bars[0]} comes into line with both its axes" if len(bars) else ""
 
 
 @dataclass

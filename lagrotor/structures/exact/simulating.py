@@ -1,5 +1,6 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
 from typing import Any
@@ -10,18 +11,20 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, SingularError
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
-from lagrotor.numerics.segment import RightHandSide, StopError, Stretch
+from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, finite
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
-from lagrotor.structures.exact.lines_passed import LineWatch
+from lagrotor.structures.exact.lines_passed import LineWatch, bar_in_line
 from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from lagrotor.structures.exact.structure_run import StructureRun
 
 _PATIENCE = Patience(50_000, 2_000 * 2 * pi)
-_IN_LINE = 1e-3  # sine of the angle between a bar and both its axes at which a solver that stops has come to it
+Integrate = Callable[
+    [Array, Array, float, bool, float], Stretch
+]  # start, times, local error, companion, budget → states
 
 
 def simulate_structure(
@@ -48,60 +51,35 @@ def simulate_structure(
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
     where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
     """
-    times, wanted = _times(t), check_tolerance(tol)
+    times, tol = _times(t), check_tolerance(tol)
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
-    drives = _checked(drive, "drive", shape, times), _checked(ground, "ground", shape[1:], times)
+    drives = _try_drive(drive, "drive", shape, times), _try_drive(ground, "ground", shape[1:], times)
     motion = exact_motion(s, *(each and each.since(begin) for each in drives))
-    c, N = motion.c, len(motion.c.R)
-    integrator = _Integrator(s, motion, engine)
-
-    def axes_of(states: Array) -> Array:
-        return states[:, : 3 * N].reshape(-1, N, 3)
-
-    def rates_of(states: Array) -> Array:
-        return states[:, 3 * N :].reshape(-1, N, 3)
-
-    def distance(one: Array, other: Array) -> Array:
-        return np.asarray(np.linalg.norm(axes_of(one) - axes_of(other), axis=-1).max(axis=1))
-
-    def defect(_: Array, states: Array) -> float:
-        r, v = axes_of(states), rates_of(states) * c.rate
-        off = float((np.abs(motion.off(r)) / np.append(np.ones(N), c.ell)).max())
-        if any(drives) or c.decay.any() or c.friction.any() or c.damping.any():
-            return off
-        energy, scale = motion.energy(r, v), motion.energy_scale(r, v)
-        return max(off, float(np.ptp(energy)) / scale if scale > 0 else 0.0)
-
-    def singular(y: Array) -> str:
-        across = np.linalg.norm(motion.across(y[: 3 * N].reshape(N, 3)), axis=-1) / (c.R[c.j] * c.ell)
-        in_line = np.flatnonzero((across < _IN_LINE).all(axis=0))
-        return f"bar {in_line[0]} comes into line with both its axes" if len(in_line) else ""
-
+    c = motion.c
+    conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
     evolution = Evolution(
         _start(motion, tilt, rates),
-        integrator.integrate,
-        distance,
+        _integration(s, motion, engine),
+        motion.distance,
         turn=2 * pi,
         patience=_PATIENCE,
         project=motion.project,
-        defect=defect,
-        difference=lambda one, other: float(np.abs(rates_of(one) - rates_of(other)).max(initial=0.0)),
-        singular=singular,
+        defect=lambda _, states: motion.defect(states, conserved),
+        difference=motion.difference_of_rates,
+        singular=lambda y: bar_in_line(motion, y),
     )
     try:
-        run = estimate_run(evolution, c.rate * (times - begin), wanted).by_clock(begin, 1 / c.rate)
+        run = estimate_run(evolution, c.rate * (times - begin), tol).by_clock(begin, 1 / c.rate)
     except StopError as stop:  # at a time without unit
-        for each in drives:
-            if each and each.refused:
-                raise InputError(each.refused) from None
+        for each in filter(None, drives):
+            each.refuse()
         at = begin + stop.at / c.rate
         raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
-    for each in drives:
-        if each and each.refused and run.ending.early:
-            raise InputError(each.refused)
-    run.warn_unless_kept("the structure's run", wanted)
-    axes, velocities = run.states.reshape(-1, 2, N, 3).transpose(1, 2, 0, 3).copy()
+    for each in filter(None, drives) if run.ending.early else ():
+        each.refuse()
+    run.warn_unless_kept("the structure's run", tol)
+    axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
     return StructureRun(
         structure=s, t=times[: len(run.t)], axes=axes, rates=c.rate * velocities,
         momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)), errors=run.errors,
@@ -109,24 +87,17 @@ def simulate_structure(
     )  # fmt: skip
 
 
-class _Integrator:
+def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
     """The integration of a stretch by what runs the structure fastest, in the time c.rate t since the start."""
-
-    def __init__(self, s: Assembly, motion: ExactMotion, engine: Engine) -> None:
-        self.s, self.motion = s, motion
-        self.by_series = engine == "fast" and compiled_motion.runs_by_series(motion)
-        self.rhs: RightHandSide | None = None
-        if not self.by_series:
-            compiled = compiled_motion.compiled_right_hand_side
-            self.rhs = compiled(s, motion) if engine == "fast" else right_hand_side(motion)
-
-    def integrate(self, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        if self.rhs is None:
-            return compiled_motion.integrate_series(self.s, self.motion, start, times, local, companion)
-        watch, begin = LineWatch(self.motion), float(times[0])
-        problem: Any = Problem(
-            watch.observe(self.rhs), start, budget, at=-begin, project=self.motion.project, typical_rate=1.0
+    if engine == "fast" and compiled_motion.runs_by_series(motion):
+        return lambda start, times, local, companion, _: compiled_motion.integrate_series(
+            s, motion, start, times, local, companion
         )
+    rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
+
+    def by_steps(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        watch, begin = LineWatch(motion), float(times[0])
+        problem: Any = Problem(watch.observe(rhs), start, budget, at=-begin, project=motion.project, typical_rate=1.0)
         try:
             part = integrate(problem, times - begin, local)
         except StopError as stop:
@@ -137,10 +108,11 @@ class _Integrator:
             watch.check()
         except StopError as stop:
             before = part.states[times < stop.at]
-            raise StopError(
-                stop.at, stop.reason, Stretch(before, before[-1], part.evaluations), cause="singular"
-            ) from None
+            stop.reached = Stretch(before, before[-1], part.evaluations)
+            raise
         return part
+
+    return by_steps
 
 
 def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
@@ -180,13 +152,13 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
 
 
 @dataclass
-class _Checked:
+class _TriedDrive:
     """A drive that gives NaN, and says why, where what was given for it fails or gives no finite array of its shape."""
 
     given: Drive
     name: str
     shape: tuple[int, ...]
-    refused: str = ""
+    why: str = ""
 
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
@@ -194,30 +166,34 @@ class _Checked:
             value = finite(where, self.given(t))
             if value.shape == self.shape:
                 return value
-            self.refused = f"{where} must give an array of shape {self.shape}, not {value.shape}"
+            self.why = f"{where} must give an array of shape {self.shape}, not {value.shape}"
         except InputError as error:
-            self.refused = str(error)
+            self.why = str(error)
         except Exception as error:
-            self.refused = f"{where} fails with {error!r}"
+            self.why = f"{where} fails with {error!r}"
         return np.full(self.shape, np.nan)
 
     def since(self, begin: float) -> Drive:
         """The drive as a function of the time since `begin`."""
         return lambda t: self(begin + t)
 
+    def refuse(self) -> None:
+        """Raises InputError where it has failed."""
+        if self.why:
+            raise InputError(self.why) from None
 
-def _checked(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> _Checked | None:
+
+def _try_drive(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> _TriedDrive | None:
     """The drive, tried at the times of the run."""
     if drive is None:
         return None
     if not callable(drive):
         raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
-    checked = _Checked(drive, name, shape)
+    tried = _TriedDrive(drive, name, shape)
     for t in times.tolist():
-        checked(t)
-        if checked.refused:
-            raise InputError(checked.refused)
-    return checked
+        tried(t)
+        tried.refuse()
+    return tried
 
 
 def _times(t: ArrayLike) -> Array:
