@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
     from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
     from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
-    from lagrotor.structures.exact.scalar_rhs import right_hand_side as right_hand_side
     from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
+    from lagrotor.structures.exact.written_out import right_hand_side as right_hand_side
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example
     from lagrotor.structures.pattern_search import sign_patterns as sign_patterns

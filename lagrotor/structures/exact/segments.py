@@ -115,7 +115,11 @@ def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
     pushed = motion.force is not None or motion.ground is not None or len(c.stiffness) > 0
     groups = _groups(motion, pushed)
     loads = np.concatenate([group.unknowns.ravel() for group in groups])
-    rows, columns = np.concatenate([_pairs(group) for group in groups], axis=1)
+    # Rows and columns of the entries that the programs find, then those off the diagonal the other way.
+    both_ways = [(e, e[::-1, e[0] != e[1]]) for e in (group.programs.entries for group in groups)]
+    rows, columns = np.concatenate(
+        [g.unknowns[e].reshape(2, -1) for g, ways in zip(groups, both_ways, strict=True) for e in ways], axis=1
+    )
     n, band = int(loads.max()) + 1, int(np.abs(rows - columns).max())
     width = 3 * band + 1
     places = columns * width + 2 * band + rows - columns
@@ -142,13 +146,6 @@ def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
         return rates
 
     return rhs
-
-
-def _pairs(group: Group) -> Index:
-    """Rows and columns of the entries that a group's program finds, (2, …), then those off the diagonal the other way."""
-    rows, columns = entries = group.programs.entries
-    other_way = entries[::-1, rows != columns]
-    return np.concatenate([group.unknowns[each].reshape(2, -1) for each in (entries, other_way)], axis=1)
 
 
 def _groups(motion: ExactMotion, pushed: bool) -> list[Group]:

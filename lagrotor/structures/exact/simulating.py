@@ -18,8 +18,8 @@ from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, exact_motion
 from lagrotor.structures.exact.lines_passed import LineWatch, bar_in_line
-from lagrotor.structures.exact.scalar_rhs import right_hand_side
 from lagrotor.structures.exact.structure_run import StructureRun
+from lagrotor.structures.exact.written_out import right_hand_side
 
 _PATIENCE = Patience(50_000, 2_000 * 2 * pi)
 Integrate = Callable[

@@ -53,7 +53,7 @@ class Cell:
             raise InputError(
                 f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; leave one out"
             )
-        if len(self.steps) == 2 and abs(_cross(*self.steps)) < 1e-12:
+        if len(self.steps) == 2 and abs((complex(*self.steps[0]).conjugate() * complex(*self.steps[1])).imag) < 1e-12:
             raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
         put(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
         put(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
@@ -149,10 +149,6 @@ class Cell:
             gravity=self.gravity,
             **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
         )
-
-
-def _cross(a: tuple[float, float], b: tuple[float, float]) -> float:
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def _each(value: Any, count: int, name: str) -> tuple[Any, ...]:

@@ -99,7 +99,9 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
             here, f = together[places], motion.freedoms
             freedoms[here], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
-                s, u = _waves(motion)
+                s, vectors = motion.waves
+                u = (motion.basis @ vectors).swapaxes(-1, -2)
+                u = u / np.linalg.norm(u, axis=-1, keepdims=True)
                 rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
                 known = opposite[here] >= 0
                 there = opposite[here][known]
@@ -132,13 +134,6 @@ def _up_to_sign(points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         else:
             opposite[of] = here
     return np.setdiff1d(np.arange(len(points)), opposite), opposite
-
-
-def _waves(motion: SmallMotion) -> tuple[Complex, Complex]:
-    """All roots (n_q, 2 f) and shapes (n_q, 2 f, 2 N)."""
-    s, vectors = motion.waves
-    shapes = (motion.basis @ vectors).swapaxes(-1, -2)
-    return s, shapes / np.linalg.norm(shapes, axis=-1, keepdims=True)
 
 
 def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
