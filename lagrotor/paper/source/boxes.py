@@ -5,14 +5,15 @@ Nothing is interpreted here; every token is in one box.
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lagrotor.paper.source.tokens import Token, tokenize
 
 _GREEK_NAMES = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
     "varepsilon vartheta varphi varrho varsigma varkappa varpi digamma "
-    "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega ell hbar aleph imath jmath wp"
+    "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega ell hbar aleph imath jmath wp "
+    "varGamma varDelta varTheta varLambda varXi varPi varSigma varUpsilon varPhi varPsi varOmega"
 )
 GREEK = {rf"\{name}" for name in _GREEK_NAMES.split()}
 _UNICODE_NAMES = (
@@ -50,12 +51,14 @@ RELATIONS = {
     "=": "=", "<": "<", ">": ">", "approx": "~", "simeq": "~", "sim": "~",
     "cong": "~", "approxeq": "~", "equiv": ":=", "neq": "!=",
     "ne": "!=", "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=", "geq": ">=", "geqslant": ">=", "ll": "<<", "gg": ">>",
-    "propto": "~", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<",
-    "gtrsim": ">", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "->", "notin": "in", "subset": "in",
-    "subseteq": "in", "longmapsto": "->", "leftrightarrow": "->", "perp": "in", "parallel": "in", "not": "!=", "mid": "in",
-    "asymp": "~", "prec": "<", "succ": ">", "ni": "in", "rightleftharpoons": "->", "thickapprox": "~", "thicksim": "~",
-    "lll": "<<", "ggg": ">>", "supset": "in", "nearrow": "->", "searrow": "->", "hookrightarrow": "->", "gets": "->",
-    "colon": "in",
+    "propto": "propto", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<~",
+    "gtrsim": ">~", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "<-", "notin": "not in", "subset": "subset",
+    "subseteq": "subset", "longmapsto": "->", "leftrightarrow": "<->", "perp": "perp", "parallel": "parallel", "not": "!=",
+    "mid": "mid",
+    "asymp": "~", "prec": "prec", "succ": "succ", "ni": "ni", "rightleftharpoons": "<->", "thickapprox": "~", "thicksim": "~",
+    "lll": "<<", "ggg": ">>", "supset": "supset", "nearrow": "nearrow", "searrow": "searrow", "hookrightarrow": "->",
+    "gets": "<-",
+    "colon": ":",
 }  # fmt: skip
 ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
           "impliedby", "Leftarrow", "leadsto", "land", "lor", "wedge@"}  # fmt: skip
@@ -74,8 +77,9 @@ _OPERATORS = {
     "ast": "*",
     "bullet": "cdot", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
     "×": "times",
-    "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
+    "odot": "odot", "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
 }  # fmt: skip
+_INFIX = {r"\over": "fraction", r"\choose": "binomial"}
 _SIZES = re.compile(r"[bB]igg?[lrm]?|middle")
 _OPEN = {"(": ")", "[": "]", r"\{": r"\}", r"\langle": r"\rangle", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil",
          r"\lvert": r"\rvert", r"\lVert": r"\rVert", r"\lbrace": r"\rbrace", r"\lbrack": r"\rbrack", "⟨": "⟩"}  # fmt: skip
@@ -143,6 +147,7 @@ def _items(latex: str) -> list[Token]:
 class _Reader:
     def __init__(self, latex: str) -> None:
         self.latex, self.items, self.place, self.depth = latex, _items(latex), 0, 0
+        self.angles = 0  # angle brackets that are open, in which a bar parts a bra from a ket
 
     def stop(self, what: str, help_: str) -> None:
         item = self.items[min(self.place, len(self.items) - 1)] if self.items else Token("text", "", 0)
@@ -224,6 +229,11 @@ class _Reader:
                 self.take()
                 style = STYLES[item.text[1:]] or "upright"
                 continue
+            if item.text in _INFIX:
+                self.take()
+                under = self.sequence(ends, style)
+                self.depth -= 1
+                return [Box(_INFIX[item.text], "", item.at, self.end, [found, under])]
             if item.kind == "script":
                 self.script(found)
             elif item.text in ("'", "’", "′"):
@@ -296,7 +306,12 @@ class _Reader:
             raise FormulaError(
                 item.at, f"{item.text} has nothing before it", "write the letter that the script belongs to"
             )
-        content = self.argument()
+        content = [
+            replace(box, kind="letter", name=self.latex[box.at + 1 : box.end])
+            if box.kind == "relation" and self.latex[box.at : box.end] in (r"\perp", r"\parallel")
+            else box
+            for box in self.argument()
+        ]
         if item.text == "^":
             if content and all(b.kind == "letter" and b.name == "prime" for b in content):
                 self.primed(target, item, len(content))
@@ -330,6 +345,8 @@ class _Reader:
             return [self.letter(name, item, style)]
         if text in _OPEN:
             return [self.bracket(text, item)]
+        if text == "|" and not self.angles and self.first_ahead(("|", r"\langle", r"\rangle", "=")) == r"\rangle":
+            return [self.ket(item)]
         if text == ":" and (after := self.peek()) is not None and after.text == "=":
             self.take()
             return [Box("relation", ":=", item.at, self.end)]
@@ -364,6 +381,12 @@ class _Reader:
         name = item.text[1:]
         if item.text in GREEK or name in _MARKS:
             return [self.letter(name, item, style)]
+        if (
+            name == "vert"
+            and not self.angles
+            and self.first_ahead((r"\vert", r"\langle", r"\rangle", "=")) == r"\rangle"
+        ):
+            return [self.ket(item)]
         if name in _COMMANDS:
             return [Box(*_COMMANDS[name], item.at, self.end)]
         if name in _NOTHING:
@@ -395,13 +418,15 @@ class _Reader:
         return []
 
     def relation(self, name: str, item: Token) -> Box:
-        if name == "not":
-            self.take()
-        return Box("relation", RELATIONS[name], item.at, self.end)
+        denied = RELATIONS.get(self.take().text.lstrip("\\"), "") if name == "not" else ""
+        sign = f"not {denied}" if denied not in ("", "=") else RELATIONS[name]
+        return Box("relation", sign, item.at, self.end)
 
     def accent(self, name: str, item: Token, style: str) -> Box:
         content = self.argument(style)
         mark = ACCENTS[name]
+        if len(content) == 1 and content[0].kind == "nabla" and mark == "vec":
+            return content[0]
         if len(content) == 1 and content[0].kind == "letter" and content[0].sup is None and not content[0].primes:
             box = content[0]
             box.marks += (mark,)
@@ -480,9 +505,28 @@ class _Reader:
         closing = self.take().text
         return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
 
+    def first_ahead(self, wanted: tuple[str, ...]) -> str:
+        """The first of these that comes, in the same braces."""
+        depth = 0
+        for item in self.items[self.place :]:
+            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            if depth < 0 or (depth == 0 and item.text in wanted):
+                return item.text
+        return ""
+
+    def ket(self, item: Token) -> Box:
+        content = self.sequence((r"\rangle",))
+        self.take()
+        return Box("bracket", "|", item.at, self.end, [content], closing=r"\rangle")
+
     def bracket(self, opening: str, item: Token) -> Box:
         closing = _OPEN[opening]
+        is_bra = opening == r"\langle" and self.first_ahead(("|", r"\langle", r"\rangle")) == "|"
+        if is_bra and self.first_ahead((r"\langle", r"\rangle")) != r"\rangle":
+            closing = "|"
+        self.angles += closing == r"\rangle"
         content = self.sequence((closing,))
+        self.angles -= closing == r"\rangle"
         after = self.peek()
         if after is not None and after.text.startswith("\\") and _SIZES.fullmatch(after.text[1:]):
             self.take()
@@ -597,7 +641,8 @@ def _letter_of(text: str) -> str | None:
 
 _SIMPLE = {
     "partial": "partial", "nabla": "nabla", "infty": "infinity", "vert": "bar", "Vert": "bar", "%": "percent", "forall": "arrow",
-    "exists": "arrow", "square": "square", "Box": "square", "triangle": "letter", "degree": "degree", "emptyset": "letter",
+    "exists": "arrow", "square": "square", "Box": "square", "uparrow": "letter",
+    "downarrow": "letter", "triangle": "letter", "degree": "degree", "emptyset": "letter",
 }  # fmt: skip
 
 

@@ -1,51 +1,88 @@
 """What is enclosed: brackets, bars, roots, accents over more than a letter, matrices, cases."""
 
+import re
+from collections.abc import Callable
+from itertools import pairwise
+
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_derivative import read_advection
 from lagrotor.paper.source.read_scripts import power_of
 from lagrotor.paper.source.read_statements import read_statement
-from lagrotor.paper.source.rows import strip
-from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
+from lagrotor.paper.source.rows import strip, without_thin
+from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import arguments
-
-_CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne"}
 
 
 def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
-    if box.sub is not None and not (box.closing in ("|", r"\vert", r"\rvert") and box.name == "."):
-        raise FormulaError(box.sub[0].at if box.sub else box.at, "a bracket has an index", "write what it means")
-    pair = box.name, box.closing
-    content = box.parts[0]
-    if pair in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lbrace", r"\rbrace"), (r"\lbrack", r"\rbrack")):
-        return power_of(reader, _inside(reader, box, content), box), place + 1
-    if pair in (("|", "|"), (r"\vert", r"\vert"), (r"\lvert", r"\rvert")):
-        if len(content) == 2 and all(b.kind == "letter" and b.name.isupper() and not b.style for b in content):
-            raise FormulaError(box.at, "whether the bars are a distance of points is open", "give it a letter")
-        inner = reader.expression(content)
-        if isinstance(inner, Letter) and is_matrix(inner):
-            reader.guesses.append(f"|{inner.name}| is a length, no determinant")
-        elif is_matrix(inner):
-            raise FormulaError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
-        return power_of(reader, Call("norm" if is_vector(inner) else "Abs", (inner,)), box), place + 1
-    if pair in ((r"\|", r"\|"), (r"\lVert", r"\rVert"), (r"\Vert", r"\Vert")):
-        inner = reader.expression(content)
-        return power_of(reader, Call("norm" if is_vector(inner) else "length", (inner,)), box), place + 1
-    if pair in ((r"\langle", r"\rangle"), ("<", ">"), ("⟨", "⟩")):
-        if any(b.kind in ("bar", "comma") for b in content):
-            raise FormulaError(box.at, "angle brackets with two parts are not read", "write the product in words")
-        return power_of(reader, Call("mean", (reader.expression(content),)), box), place + 1
-    if pair in ((r"\lfloor", r"\rfloor"), (r"\lceil", r"\rceil")):
-        return power_of(reader, Call(box.name[2:].removeprefix("l"), (reader.expression(content),)), box), place + 1
-    if pair == (".", "|") or pair == (".", r"\vert") or pair == (".", r"\rvert"):
+    pair = _PLAIN.get(box.name, box.name), _PLAIN.get(box.closing, box.closing)
+    content = without_thin(box.parts[0])
+    if pair == ("(", ")") and len(content) > 2 and content[-1].kind == "nabla" and content[-2].name == "cdot":
+        return read_advection(reader, row, place)
+    if pair == ("(", ")") and box.sub and box.sup is None and len(content) == 1 and content[0].kind == "fraction":
+        held = [reader.expression(part) for part in arguments(box.sub)]  # (∂S/∂E)_{N,V}
+        return Call("at_constant", (reader.expression(content), *held)), place + 1
+    if pair == (".", "|") or (pair == ("[", "]") and box.sub and box.sup):
         return _evaluated(reader, box, content), place + 1
-    if pair == (".", "."):
-        return power_of(reader, reader.expression(content), box), place + 1
-    raise FormulaError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
+    if box.sub is not None:
+        raise FormulaError(box.sub[0].at if box.sub else box.at, "a bracket has an index", "write what it means")
+    if pair not in _ENCLOSED:
+        raise FormulaError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
+    return power_of(reader, _ENCLOSED[pair](reader, box), box), place + 1
 
 
-def _inside(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
+def _bars(reader: FormulaReader, box: Box) -> Node:
+    """A magnitude."""
+    content = box.parts[0]
+    if len(content) == 2 and all(b.kind == "letter" and b.name.isupper() and not b.style for b in content):
+        raise FormulaError(box.at, "whether the bars are a distance of points is open", "give it a letter")
+    inner = reader.expression(content)
+    if isinstance(inner, Letter) and is_matrix(inner):
+        reader.guesses.append(f"|{inner.name}| is a length, no determinant")
+    elif is_matrix(inner):
+        raise FormulaError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
+    return Call("norm" if is_vector(inner) else "Abs", (inner,))
+
+
+def _double_bars(reader: FormulaReader, box: Box) -> Node:
+    inner = reader.expression(box.parts[0])
+    return Call("norm" if is_vector(inner) else "length", (inner,))
+
+
+def _angles(reader: FormulaReader, box: Box) -> Node:
+    """A mean, or a product of a bra and a ket with what stands between them."""
+    content = without_thin(box.parts[0])
+    bars = [k for k, b in enumerate(content) if b.kind == "bar"]
+    if bars and bars[0] and not any(content[k].sub or content[k].sup for k in bars):
+        parts = [content[a + 1 : b] for a, b in pairwise([-1, *bars, len(content)])]
+        return Call("braket", tuple(_label(reader, each) for part in parts for each in arguments(part)))
+    if any(b.kind == "comma" for b in content):
+        raise FormulaError(box.at, "angle brackets with two parts are not read", "write the product in words")
+    return Call("mean", (reader.expression(content),))
+
+
+def _vector_of_state(reader: FormulaReader, box: Box) -> Node:
+    name = "ket" if box.name != r"\langle" else "bra"
+    return Call(name, tuple(_label(reader, part) for part in arguments(box.parts[0])))
+
+
+def _label(reader: FormulaReader, row: list[Box]) -> Node:
+    """What stands in a ket: an expression, or a sign as a letter."""
+    row = strip(row)
+    if len(row) == 1 and row[0].kind in ("operator", "relation"):
+        word = re.sub(r"\W", "", reader.source[row[0].at : row[0].end]) or {"+": "plus"}.get(row[0].name, "minus")
+        return Letter(f"sign_{word}")
+    return reader.expression(row)
+
+
+def _rounded(reader: FormulaReader, box: Box) -> Node:
+    return Call(box.name[2:].removeprefix("l"), (reader.expression(box.parts[0]),))
+
+
+def _inside(reader: FormulaReader, box: Box) -> Node:
     """What is in brackets; a list is a vector of components, a commutator or Poisson bracket a call."""
+    content = box.parts[0]
     parts = [strip(part) for part in arguments(content)]
     if len(content) == 1 and content[0].kind == "matrix":
         return reader.expression(content)
@@ -62,8 +99,12 @@ def _inside(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
         and all(b.kind in ("number", "operator", "infinity") for p in parts for b in p)
         and box.name == "["
     ):
-        raise FormulaError(box.at, "an interval is not read", "keep it aside")
-    name = {"(": "column", "[": "commutator", r"\{": "poisson"}.get(box.name, "column")
+        return Call("interval", tuple(map(reader.expression, parts)))
+    name = {"[": "commutator", r"\{": "poisson"}.get(box.name, "column") if len(parts) == 2 else "column"
+    if name != "column":
+        reader.guesses.append(f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")
+    if box.name == r"\{" and name == "column":
+        name = "set"
     return Call(name, tuple(map(reader.expression, parts)))
 
 
@@ -71,10 +112,30 @@ def _evaluated(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
     """An expression at a place: x = 0."""
     where = box.sub or []
     places = [k for k, b in enumerate(where) if b.kind == "relation" and b.name == "="]
-    if len(places) != 1 or box.sup is not None:
+    node = reader.expression(content)
+    if where and box.sup is not None:
+        start = where[places[0] + 1 :] if places else where
+        return Call("between", (node, reader.expression(start), reader.expression(box.sup)))
+    if len(places) > 1 or not where:
         raise FormulaError(box.at, "where it is evaluated is not an equation", "write |_{x = 0}")
-    left, right = where[: places[0]], where[places[0] + 1 :]
-    return Call("at", (reader.expression(content), reader.expression(left), reader.expression(right)))
+    if not places and len(where) > 1:
+        raise FormulaError(box.at, "where it is evaluated is not clear", "write |_{x = 0}")
+    sides = (where[: places[0]], where[places[0] + 1 :]) if places else (where,)
+    return Call("at", (node, *map(reader.expression, sides)))
+
+
+# Names of the same bracket; what is between brackets that belong together.
+_PLAIN = (
+    {r"\lbrace": r"\{", r"\rbrace": r"\}", r"\lbrack": "[", r"\rbrack": "]"}
+    | dict.fromkeys((r"\vert", r"\lvert", r"\rvert"), "|")
+    | dict.fromkeys((r"\Vert", r"\lVert", r"\rVert"), r"\|")
+)
+_ENCLOSED: dict[tuple[str, str], Callable[[FormulaReader, Box], Node]] = {
+    ("(", ")"): _inside, ("[", "]"): _inside, (r"\{", r"\}"): _inside, (".", "."): _inside, ("|", "|"): _bars,
+    (r"\|", r"\|"): _double_bars, (r"\langle", r"\rangle"): _angles, ("<", ">"): _angles, ("⟨", "⟩"): _angles,
+    ("|", r"\rangle"): _vector_of_state, (r"\langle", "|"): _vector_of_state,
+    (r"\lfloor", r"\rfloor"): _rounded, (r"\lceil", r"\rceil"): _rounded,
+}  # fmt: skip
 
 
 def read_group(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -146,8 +207,8 @@ def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
         condition: Node = Letter("otherwise")
         if where:
             stated = read_statement(reader, strip(where))
-            if len(stated.relations) != 1 or stated.relations[0] not in _CONDITIONS:
+            if len(stated.relations) != 1 or stated.relations[0] not in CONDITIONS:
                 raise FormulaError(where[0].at, "the condition of a case is not read", "write one relation")
-            condition = Call(_CONDITIONS[stated.relations[0]], tuple(side.node for side in stated.sides))
+            condition = Call(CONDITIONS[stated.relations[0]], tuple(side.node for side in stated.sides))
         made.append(Call("case", (reader.expression(value), condition)))
     return Call("cases", tuple(made)), place + 1

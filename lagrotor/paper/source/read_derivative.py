@@ -1,4 +1,4 @@
-r"""Fractions and derivatives: \\frac{dx}{dt}, \\partial_x u, \\nabla f."""
+r"""Fractions and derivatives: \frac{dx}{dt}, \partial_x u, \nabla f."""
 
 import re
 from dataclasses import replace
@@ -15,7 +15,7 @@ from lagrotor.paper.source.rows import (
     without_thin,
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, walk
-from lagrotor.paper.source.usage import simple_argument
+from lagrotor.paper.source.usage import arguments, simple_argument
 
 
 def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -54,7 +54,11 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
     target = row[behind]
     node, raised = letter_of(reader, target)
     if target.sup is not None and not raised:
-        raise FormulaError(target.at, "a differential has a power", "write brackets around it")
+        if box.sup or [b.name for b in target.sup] != ["2"]:
+            raise FormulaError(target.at, "a differential has a power", "write brackets around it")
+        node = letter_of(reader, replace(target, sup=None))[0]
+        reader.guesses.append("ds^2 is the square of ds")
+        return Call("power", (Call("differential", (node,)), number(2))), behind + 1
     args = (node, reader.expression(box.sup)) if box.sup else (node,)
     return Call("differential", args), behind + 1
 
@@ -174,8 +178,10 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     box = row[place]
     if box.sub is not None:
         raise FormulaError(box.at, "∇ has an index", "write the derivative")
-    if place + 1 >= len(row) or row[place + 1].kind == "operator":
-        raise FormulaError(box.at, "∇ with a product is not read", "write the components")
+    after = row[place + 1] if place + 1 < len(row) else box
+    if after.kind == "operator" and after.name in ("cdot", "times") and box.sup is None:
+        node, behind = _operand(reader, row, place + 2, box)
+        return Call("divergence" if after.name == "cdot" else "curl", (node,)), behind
     node, behind = _operand(reader, row, place + 1, box)
     if box.sup is not None:
         if _order(reader, box) != 2:
@@ -186,15 +192,25 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     return Call("gradient", (node,)), behind
 
 
-def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: int) -> int:
-    r"""\frac{dx}{dt}(t): the bracket is the derivative's own argument."""
+def read_advection(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    r"""(\vec v\cdot\nabla) of what follows."""
+    content = without_thin(row[place].parts[0])
+    along = reader.expression(content[:-2])
+    node, behind = _operand(reader, row, place + 1, row[place])
+    return Call("advection", (node, along)), behind
+
+
+def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: int, node: Node) -> tuple[Node, int]:
+    r"""\frac{dx}{dt}(t): the bracket is the derivative's own argument; \frac{\partial S}{\partial q}(q, t): it is taken there."""
     box, bracket = row[place], row[behind]
     mark = derivative_mark(box)
     if not mark or len(without_thin(box.parts[0])) == 1 or bracket.name != "(" or not simple_argument(bracket.parts[0]):
-        return behind
-    variables = _variables(reader, without_thin(box.parts[1]), mark)
-    if len(bracket.parts[0]) == 1 and reader.expression(bracket.parts[0]) == variables[0][0]:
-        return behind + 1
+        return node, behind
+    given = [reader.expression(part) for part in arguments(bracket.parts[0])]
+    if given == [_variables(reader, without_thin(box.parts[1]), mark)[0][0]]:
+        return node, behind + 1
+    if len(given) > 1 and bracket.sup is None:
+        return Call("called", (node, *given)), behind + 1
     raise FormulaError(
         bracket.at, "whether a derivative is taken there or multiplied is open", "write |_{t = 0} or \\cdot"
     )
@@ -213,7 +229,8 @@ def is_open_integral(part: list[Box]) -> bool:
     return opened > 0
 
 
-def in_integral(reader: FormulaReader, part: list[Box]) -> bool:
+def in_integral(part: list[Box]) -> bool:
+    """Whether a sign belongs to what a large sign or d/dx before it acts on."""
     return any(b.kind == "big" for b in part) or bool(
         part and part[0].kind == "fraction" and is_derivative_operator(part[0]) and len(part) == 1
     )

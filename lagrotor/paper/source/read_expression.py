@@ -1,5 +1,8 @@
 r"""Sums and products: which sign joins what; \\cdot and \\times of vectors and of numbers."""
 
+from collections.abc import Callable
+from itertools import pairwise
+
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_bracket import (
@@ -14,35 +17,44 @@ from lagrotor.paper.source.read_bracket import (
 )
 from lagrotor.paper.source.read_derivative import (
     at_its_variable,
-    differential_of,
     in_integral,
     is_open_integral,
     read_fraction,
     read_nabla,
     read_partial,
-    total_derivative_of,
 )
 from lagrotor.paper.source.read_function import read_function
 from lagrotor.paper.source.read_letter import is_called, read_letter
 from lagrotor.paper.source.read_number import read_number, read_unit
+from lagrotor.paper.source.read_scripts import TENSOR
 from lagrotor.paper.source.read_sum import read_sum
-from lagrotor.paper.source.rows import ends_with_bracket, pair_bars, refuse_words, strip
+from lagrotor.paper.source.rows import ends_with_bracket, fold_derivatives, pair_bars, refuse_words, strip
 from lagrotor.paper.source.tree import (
     Call,
     Node,
     has_hat,
     is_matrix,
     is_numeric,
+    is_operator,
     is_printed_zero,
     is_vector,
     product_of,
 )
 
-_FACTORS = {
+
+def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    """Dots for terms or for entries that are left out, where they stand alone."""
+    if len(row) > 1:
+        raise FormulaError(row[place].at, "dots stand for factors", "write them, or as a product")
+    return Call("dots", ()), 1
+
+
+Factor = Callable[[FormulaReader, list[Box], int], tuple[Node, int]]
+_FACTORS: dict[str, Factor] = {
     "number": read_number, "unit": read_unit, "letter": read_letter, "bracket": read_bracket, "group": read_group,
     "root": read_root, "binomial": read_binomial, "infinity": read_infinity, "accent": read_accent, "matrix": read_matrix,
     "cases": read_cases, "fraction": read_fraction, "partial": read_partial, "nabla": read_nabla, "function": read_function,
-    "big": read_sum,
+    "big": read_sum, "dots": _read_dots,
 }  # fmt: skip
 
 
@@ -79,13 +91,11 @@ class Grammar(FormulaReader):
         if not strip(part):
             raise FormulaError(row[-1].at, "nothing follows the sign", "write what is added")
         terms.append((sign, part))
-        if any(p and p[0].kind == "dots" for _, p in terms):
-            raise FormulaError(row[0].at, "dots stand for terms", "write them, or as a sum")
         return _added(self, terms)
 
     def term(self, row: list[Box]) -> Node:
         """The product that a row of boxes is."""
-        row = list(row)
+        row = fold_derivatives(row, "d" not in self.notation.bare | self.notation.letters)
         if row and row[-1].kind == "operator" and row[-1].name != "!":
             raise FormulaError(row[-1].at, f"nothing follows {row[-1].name}", "write the second factor")
         groups: list[tuple[str, list[Box]]] = [("", [])]
@@ -93,7 +103,8 @@ class Grammar(FormulaReader):
             if (
                 box.kind == "operator"
                 and box.name in ("cdot", "times", "/", "*")
-                and not in_integral(self, groups[-1][1])
+                and not in_integral(groups[-1][1])
+                and not (box.name in ("cdot", "times") and (last := strip(groups[-1][1])) and last[-1].kind == "nabla")
             ):
                 if not strip(groups[-1][1]):
                     raise FormulaError(box.at, f"nothing is before {box.name}", "write the first factor")
@@ -122,11 +133,15 @@ class Grammar(FormulaReader):
             _numbers_apart(row, place)
             node, behind = self.factor(row, place)
             if row[place].kind == "fraction" and behind < len(row) and row[behind].kind == "bracket":
-                behind = at_its_variable(self, row, place, behind)
+                node, behind = at_its_variable(self, row, place, behind, node)
             factors.append(node)
             place = behind
+        if any(map(is_operator, factors)) and len(factors) > 1:
+            return Call("matmul", tuple(factors))  # in this order
         if sum(map(is_vector, factors)) > 1:
-            return _matrices(self, factors, row)
+            return _matrices(factors, row)
+        if _is_contracted(row):
+            return Call("contraction", tuple(factors))
         return product_of(factors)
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -142,8 +157,9 @@ class Grammar(FormulaReader):
         ):
             raise FormulaError(box.at, f"{self.source[box.at : box.end]} has an index", "give it a letter of its own")
         node, behind = reader(self, row, place)
-        while behind < len(row) and row[behind].kind == "operator" and row[behind].name == "!":
-            node, behind = Call("factorial", (node,)), behind + 1
+        while behind < len(row) and row[behind].name == "!":
+            twice = behind + 1 < len(row) and row[behind + 1].name == "!"
+            node, behind = Call("double_factorial" if twice else "factorial", (node,)), behind + 1 + twice
         return node, behind
 
 
@@ -161,7 +177,7 @@ def _added(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> Node:
     if len(made) == 1:
         return made[0]
     _check_sums(reader, terms)
-    kinds = {is_vector(each) for each in made if not is_printed_zero(each)}
+    kinds = {is_vector(each) for each in made if not is_printed_zero(each) and each != Call("dots", ())}
     if len(kinds) > 1 and not any(isinstance(n, Call) and n.name == "order" for n in made):
         raise FormulaError(terms[1][1][0].at, "a vector and a number are added", "mark the vectors alike")
     return Call("sum", tuple(made))
@@ -187,15 +203,12 @@ def _joined(
         right = reader.product(part)
         factors = _count(reader, part)
         assert made is not None
-        if factors > 1:
+        if factors > 1 and not _is_one_divisor(reader, part):
             raise FormulaError(part[0].at, "what the slash divides by is open", "write \\frac or brackets")
         if len([b for b in before if b.kind == "function"]) and not ends_with_bracket(before):
             raise FormulaError(part[0].at, "whether the slash is within the function is open", "write brackets")
         if is_vector(right):
             raise FormulaError(part[0].at, "a vector is divided by", "write its length")
-        differentials = [differential_of(each) for each in (made, right)]
-        if all(differentials):
-            return total_derivative_of(reader, differentials[0], differentials[1], 1, part[0])  # type: ignore[arg-type]
         return Call("quotient", (made, right))
     sign = None
     if part and part[0].kind == "operator" and part[0].name in ("+", "-"):
@@ -208,9 +221,22 @@ def _joined(
     return _vector_product(made, operator, right, part[0].at, before)
 
 
+def _is_one_divisor(reader: FormulaReader, part: list[Box]) -> bool:
+    """Whether several factors divide by custom: 2\u03c0 and kT anywhere, and in an exponent all that follows the slash."""
+    names = [box.name for box in part]
+    plain = all(box.kind in ("number", "letter") for box in part)
+    custom = (len(part) == 2 and plain and part[0].kind == "number" and names[1] == "pi") or names == ["k", "T"]
+    if custom or (reader.exponents and plain):
+        reader.guesses.append("all that follows the slash divides")
+        return True
+    return False
+
+
 def _vector_product(made: Node, operator: str, right: Node, at: int, before: list[Box]) -> Node:
     """Two factors joined by a dot, a cross or a star, of vectors or of numbers."""
     left_vector, right_vector = is_vector(made), is_vector(right)
+    if any(b.kind == "nabla" and b.sup is None and c.kind == "operator" for b, c in pairwise(before)):
+        raise FormulaError(at, "how far ∇ reaches is open", "write brackets around what it acts on")
     if left_vector and right_vector:
         if operator not in ("cdot", "times"):
             raise FormulaError(at, "two vectors are multiplied by *", "write \\cdot or \\times")
@@ -242,7 +268,14 @@ def _count(reader: FormulaReader, part: list[Box]) -> int:
     return count
 
 
-def _matrices(reader: FormulaReader, factors: list[Node], row: list[Box]) -> Node:
+def _is_contracted(row: list[Box]) -> bool:
+    """Whether a Greek index stands up and down in a product, and is summed over."""
+    held = [box for box in row if box.kind in ("letter", "partial", "nabla")]
+    up, down = ({each.name for box in held for each in (box.sup if high else box.sub) or ()} for high in (True, False))
+    return bool(up & down & set(TENSOR))
+
+
+def _matrices(factors: list[Node], row: list[Box]) -> Node:
     """Matrices times vectors, side by side; two vectors side by side are not read."""
     scalars = [each for each in factors if not is_vector(each)]
     others = [each for each in factors if is_vector(each)]

@@ -61,6 +61,8 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
             )
         parts = [reader.expression(p) for p in arguments(first.parts[0])]
         return tuple(parts), behind + 1
+    if first.kind == "bracket" and first.name in ("|", r"\|", r"\lvert", r"\vert") and first.sup is None:
+        return (reader.factor(row, behind)[0],), behind + 1
     end = _reach(reader, row, behind, row[place])
     for box in row[behind:end]:
         if box.sup is not None and mark_of(reader, box) is None:
@@ -132,6 +134,9 @@ def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
             return moving
         raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
     letters = [b for b in kept if b.kind == "letter"]
+    if "pi" in {b.name for b in letters[:2]} and all(b.kind in ("letter", "number") for b in kept):
+        reader.guesses.append(f"the argument of {function.name} is the product that follows it")
+        return len(run)
     if len(letters) == len(kept) or (kept[0].kind in ("number", "fraction") and len(letters) == len(kept) - 1):
         first = letters[0].name if letters else ""
         ends = letters and letters[-1].name in ("t", "tau", "x", "y", "z", "s", "theta", "phi", "varphi")

@@ -18,7 +18,8 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         end, before = _differential_at(reader, rest, box)
         if before:  # \int dx f(x): the differential comes first
             variable = read_differential(reader, without_thin(rest), 0)
-            assert variable is not None
+            if variable is None:
+                raise FormulaError(box.at, "the differential of the integral is not clear", "write d and its letter")
             inner_row = without_thin(rest)[variable[1] :]
             inner: Node = reader.expression(inner_row) if inner_row else number(1)
             differential, behind = variable[0], len(row)

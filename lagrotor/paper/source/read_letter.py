@@ -8,7 +8,7 @@ from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, number
-from lagrotor.paper.source.usage import arguments, index_of, name_of, simple_argument
+from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument
 
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
@@ -24,8 +24,8 @@ def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
         return _difference(reader, row, place)
     if box.name == "e" and not box.style and not box.primes and _euler(reader, box):
         return _exponential(reader, box), place + 1
-    if box.name in ("i", "j", "imath") and not box.style:
-        return power_of(reader, _imaginary(reader, box), box), place + 1
+    if box.name in ("i", "j", "imath") and not box.style and _is_imaginary(reader, row, place):
+        return power_of(reader, Letter("imaginary_unit"), box), place + 1
     if box.name == "pi" and not box.primes and not _may_call(row, place):
         return power_of(reader, Letter("pi"), box), place + 1
     return None
@@ -112,7 +112,7 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     """A function of its arguments; x(t) is the letter x."""
     given = [reader.expression(part) for part in arguments(bracket.parts[0]) if strip(part)]
     if box.name == "O" or (box.name == "o" and not box.sub):
-        return Call("order", tuple(given))
+        return Call("order" if box.name == "O" else "smaller_than", tuple(given))
     if not given:
         raise FormulaError(bracket.at, "a function has no argument", "write it")
     named, raised = letter_of(reader, box)
@@ -162,16 +162,17 @@ def _exponential(reader: FormulaReader, box: Box) -> Node:
     return Call("exp", (power,))
 
 
-def _imaginary(reader: FormulaReader, box: Box) -> Node:
-    """i where it is no index."""
+def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
+    """Whether i is no index."""
+    box, beside = row[place], place + 1 < len(row) and row[place + 1].name == "hbar"
     known = reader.notation
     if box.name in reader.bound or box.name in known.letters or (box.name == "j" and box.name not in known.numbers):
-        return Letter(name_of(box))
+        return False
     if box.name in known.numbers or (box.upright and box.name == "i"):
-        return Letter("imaginary_unit")
-    if known.imaginary and box.name == "i" and (reader.exponents or "i" not in known.lowered):
+        return True
+    if known.imaginary and box.name == "i" and (beside or reader.exponents or "i" not in known.lowered):
         reader.guesses.append("i is the imaginary unit")
-        return Letter("imaginary_unit")
+        return True
     raise FormulaError(
         box.at,
         f"whether {box.name} is the imaginary unit is open",
@@ -185,13 +186,7 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     behind = place + 1
     if behind >= len(row) or box.primes or box.name in reader.notation.letters:
         return None
-    if row[behind].kind != "letter":
-        if row[behind].kind in ("bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root"):
-            raise FormulaError(
-                box.at,
-                f"whether \\{box.name} is a factor or a difference is open",
-                f'write in paper.toml [notation] letters = "{box.name}"',
-            )
+    if row[behind].kind not in ACTED_ON:
         return None
     if box.name in reader.notation.bare:
         raise FormulaError(
@@ -199,6 +194,10 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             f"whether \\{box.name} is a factor or a difference is open",
             f'write in paper.toml [notation] letters = "{box.name}"',
         )
+    if row[behind].kind != "letter":
+        reader.guesses.append(f"{box.name} acts on what follows it and is no factor")
+        operand, behind = reader.factor(row, behind)
+        return Call(box.name, (operand,)), behind
     node, raised = letter_of(reader, row[behind])
     assert isinstance(node, Letter)
     reader.guesses.append(f"{box.name} {row[behind].name} is one quantity, a difference")

@@ -6,8 +6,9 @@ from lagrotor.paper.source.rows import without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
 
-_TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
-_GREEK = frozenset(name.removeprefix("\\") for name in GREEK)
+TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
+_INDICES = ("i", "j", "k", "l", "a", "b", "c", "d")
+_GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
 
 
 def index_parts(reader: FormulaReader, box: Box) -> list[str]:
@@ -33,12 +34,16 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
             return [inner.name]
     if len(row) == 1 and row[0].kind == "text":
         return [row[0].name] if row[0].name.isalnum() else None
-    if len(row) >= 1 and row[0].kind == "letter" and row[0].upright and len(row[0].name) > 1:
+    if len(row) == 1 and row[0].kind == "letter" and row[0].upright and len(row[0].name) > 1:
         return [row[0].name]
-    greek = all(b.kind == "letter" and b.name in _TENSOR and b.sup is None for b in row)
-    if greek and len(row) > 1:
+    if len(row) > 1 and all(_is_plain(b) and b.name in TENSOR for b in row):
         return [b.name for b in row]
     return None
+
+
+def _is_plain(box: Box) -> bool:
+    """Whether a box is a letter without a mark or a script."""
+    return box.kind == "letter" and not box.marks and not box.primes and box.sub is None and box.sup is None
 
 
 def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
@@ -46,39 +51,26 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
     raised = mark_of(reader, box)
     if raised is None and box.sup is not None:
         _check_power(reader, box)
-    if raised is not None and raised[0] in _TENSOR and len(raised) > 0:
-        reader.guesses.append("an index that is repeated, up and down, is summed over")
-    name = name_of(box, index_parts(reader, box), raised or ())
-    vector = (
-        is_printed_as_vector(box) and not box.sub_is_component
-        if hasattr(box, "sub_is_component")
-        else is_printed_as_vector(box)
-    )
-    hat = "hat" in box.marks and box.style == "bold"
-    return Letter(name, vector or hat), raised is not None
+    index = index_parts(reader, box)
+    if len(spelled := reader.notation.spelled.get("_".join((box.name, *index)), ())) > 1:
+        prints = " and ".join(f"{box.name}_{{{each}}}" for each in sorted(spelled))
+        raise FormulaError(box.at, f"whether {prints} are one letter is open", "give one of them another index")
+    name = name_of(box, index, raised or ())
+    return Letter(name, is_printed_as_vector(box)), raised is not None
 
 
 def _check_power(reader: FormulaReader, box: Box) -> None:
-    row = without_thin(box.sup or [])
-    tensor = reader.notation.lowered & set(_TENSOR) and not reader.notation.letters
-    if tensor and len(row) == 1 and row[0].kind == "letter" and row[0].name in _TENSOR:
-        raise FormulaError(
-            row[0].at,
-            f"whether {row[0].name} is an upper index or a power is open",
-            f'write brackets around the power, or in paper.toml [notation] letters = "{row[0].name}"',
-        )
-    if len(row) == 1 and row[0].kind == "letter":
-        name = row[0].name
-        if (name in _GREEK or name in ("i", "j", "k", "a", "b")) and name in reader.notation.lowered:
-            raise (
-                FormulaError(
-                    row[0].at,
-                    f"whether {name} is an upper index or a power is open",
-                    f'write brackets around the power, or in paper.toml [notation] letters = "{name}"',
-                )
-                if name not in reader.notation.letters
-                else FormulaError(0, "", "")
+    row, known = without_thin(box.sup or []), reader.notation
+    alike = [b.name for b in row if _is_plain(b) and (b.name in _GREEK or b.name in _INDICES)]
+    if alike and len(alike) == len(row) and not set(alike) & known.letters:
+        tensor = {name for name in alike if name in TENSOR and name not in known.bare}
+        if tensor or set(alike) & known.lowered or (len(alike) > 1 and set(alike) <= set("ijkl")):
+            raise FormulaError(
+                row[0].at,
+                f"whether {' '.join(alike)} is an upper index or a power is open",
+                f'write brackets around the power, or in paper.toml [notation] letters = "{alike[0]}"',
             )
+        reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
     if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
         raise FormulaError(
             row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"

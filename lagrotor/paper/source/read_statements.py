@@ -1,14 +1,20 @@
 """The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
 
 import re
+from collections import Counter
 from dataclasses import dataclass, replace
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import differential_degree
-from lagrotor.paper.source.rows import is_unit_like, strip, without_thin
+from lagrotor.paper.source.read_scripts import letter_of
+from lagrotor.paper.source.rows import all_boxes, is_unit_like, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_scalar, is_vector, walk
 
+_CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
+# Indices that custom sums over where a term has them twice and another term has not.
+_SUMMED = frozenset("ijkl")
+_SETS = ("in", "->", "subset", "supset", "not in", "<->", "<-")  # relations of what need not be alike
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather)\b")
 
 
@@ -37,19 +43,19 @@ class PrintedStatement:
 def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]:
     """The statements of a formula, its rows joined where one continues the other."""
     found: list[PrintedStatement] = []
-    for piece in _pieces(reader, strip(row)):
+    for piece in _pieces(strip(row)):
         found += _statements(reader, piece)
     return found
 
 
-def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
-    """Rows of a display, each continued ones with what they continue."""
+def _pieces(row: list[Box]) -> list[list[Box]]:
+    """Rows of a display, each continued ones with what they continue; what stands beside them is a piece of its own."""
     if len(row) == 1 and row[0].kind == "group":
-        return _pieces(reader, strip(row[0].parts[0]))
-    system = _system(reader, row)
-    if system is None:
+        return _pieces(strip(row[0].parts[0]))
+    lines = _system(row[0]) if row else None
+    beside = strip(row[1:])
+    if lines is None or (beside and row[1].kind not in ("wide", "comma", "thin", "text", "bracket")):
         return [row]
-    lines, always = system
     pieces: list[list[Box]] = []
     for line in lines:
         line = without_thin(line)
@@ -57,30 +63,28 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
             line = line[1:]
         if not line:
             continue
-        if pieces and (always or _continues(reader, pieces[-1], line)):
+        if pieces and _continues(pieces[-1], line):
             pieces[-1] = [*pieces[-1], *line]
         else:
             pieces.append(line)
-    return pieces
+    return [*pieces, *([beside] if beside else [])]
 
 
-def _system(reader: FormulaReader, row: list[Box]) -> tuple[list[list[Box]], bool] | None:
-    """The lines of a display that is all rows, and whether each continues the one before."""
-    if len(row) != 1:
-        return None
-    box = row[0]
+def _system(box: Box) -> list[list[Box]] | None:
+    """The lines of rows or of a system of equations; None where a box is neither."""
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
-        return _system(reader, strip(box.parts[0]))
+        inside = strip(box.parts[0])
+        return _system(inside[0]) if len(inside) == 1 else None
     if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
         lines = [[each for cell in line.parts for each in cell] for line in box.parts[0]]
         if box.kind == "rows" or all(any(b.kind == "relation" for b in line) for line in lines):
-            return lines, False
+            return lines
     return None
 
 
-def _continues(reader: FormulaReader, before: list[Box], line: list[Box]) -> bool:
+def _continues(before: list[Box], line: list[Box]) -> bool:
     last, first = before[-1], line[0]
     if last.kind in ("operator", "relation"):
         return True
@@ -99,9 +103,12 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
     """The statements of one piece, parted by wide spaces, words, arrows and commas."""
     parts: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
-        if box.kind == "arrow" or (box.kind == "text" and not _is_side(reader, row, place)):
+        if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
             _check_words(reader, box)
-            parts.append((box.kind, []))
+            condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
+            parts.append(("condition" if condition else box.kind, []))
+        elif _is_condition(row, place):
+            parts += [("condition", box.parts[0]), ("wide", [])]
         elif (
             box.kind == "comma"
             and box.name == "."
@@ -110,15 +117,16 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
         ):
             raise FormulaError(box.at, "a full stop stands within the formula", "write \\cdot for a product")
         elif box.kind == "wide" or box.kind == "comma":
-            if box.kind == "wide" and _goes_on(reader, row, place, parts[-1][1]):
+            if box.kind == "wide" and _goes_on(row, place, parts[-1][1]):
                 continue
-            parts.append((parts[-1][0] if not parts[-1][1] and parts[-1][0] == "text" else box.kind, []))
+            waiting = not parts[-1][1] and parts[-1][0] in ("text", "condition")
+            parts.append((parts[-1][0] if waiting else box.kind, []))
         elif box.kind == "operator" and box.name == ":" and not parts[-1][1]:
             continue
         else:
             parts[-1][1].append(box)
     found: list[PrintedStatement] = []
-    for parted, part in parts:
+    for place, (parted, part) in enumerate(parts):
         part = without_thin(part) if not part or part[0].kind == "thin" else part
         if not strip(part):
             continue
@@ -126,10 +134,26 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
         if parted == "comma" and has_relation and found and found[-1].kind == "expression":
             raise FormulaError(part[0].at, "what stands before the comma has no relation", "write it for each letter")
         if not has_relation and found and parted in ("comma", "wide"):
-            _further(reader, found, strip(part))
+            follows = place + 1 < len(parts) and parts[place + 1][0] == "comma" and bool(strip(parts[place + 1][1]))
+            _further(reader, found, strip(part), listed=follows or found[-1].kind == "range")
+        elif parted == "condition":
+            stated = _statements(reader, part)
+            found += [replace(each, kind="range" if each.kind == "range" else parted) for each in stated]
         else:
             found.append(read_statement(reader, strip(part)))
     return found
+
+
+def _is_condition(row: list[Box], place: int) -> bool:
+    """Whether a bracket holds a relation and stands by itself: (c > 0), (n = 1, 2)."""
+    box, apart = row[place], place and row[place - 1].kind in ("thin", "wide", "cases", "rows")
+    held = (
+        box.kind == "bracket"
+        and box.name in "(["
+        and box.sup is None
+        and any(b.kind == "relation" for b in box.parts[0])
+    )
+    return bool(held and (apart or not place))
 
 
 def _check_words(reader: FormulaReader, box: Box) -> None:
@@ -140,7 +164,7 @@ def _check_words(reader: FormulaReader, box: Box) -> None:
         reader.guesses.append("what or joins are two statements, and both are meant")
 
 
-def _goes_on(reader: FormulaReader, row: list[Box], place: int, part: list[Box]) -> bool:
+def _goes_on(row: list[Box], place: int, part: list[Box]) -> bool:
     """Whether a wide space stands within a formula: beside an operator or a relation."""
     rest = [box for box in row[place + 1 :] if box.kind not in ("thin", "wide")]
     before = strip(part)
@@ -149,7 +173,7 @@ def _goes_on(reader: FormulaReader, row: list[Box], place: int, part: list[Box])
     return bool(rest and before and rest[0].kind in ("relation", "operator") and rest[0].name not in ("-", ":"))
 
 
-def _is_side(reader: FormulaReader, row: list[Box], place: int) -> bool:
+def _is_side(row: list[Box], place: int) -> bool:
     """Whether words are a whole side of a relation, or a unit behind a number."""
     before = next((b for b in reversed(row[:place]) if b.kind != "thin"), None)
     after = row[place + 1] if place + 1 < len(row) else None
@@ -159,22 +183,29 @@ def _is_side(reader: FormulaReader, row: list[Box], place: int) -> bool:
     return edges and not (before is None and after is None)
 
 
-def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Box]) -> None:
-    """What follows a comma without a relation: n = 1, 2, …."""
+def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Box], listed: bool) -> None:
+    """What follows a comma without a relation: n = 1, 2, …; listed: whether more than one comma does."""
     last = found[-1]
-    if part[0].kind == "number" and part[0].at and reader.source[part[0].at - 2 : part[0].at - 1].isdigit():
+    if (
+        not listed
+        and part[0].kind == "number"
+        and part[0].at
+        and reader.source[part[0].at - 2 : part[0].at - 1].isdigit()
+    ):
         raise FormulaError(
             part[0].at - 1,
             "whether the comma is in a number is open",
             "write {,} in the number, or a space behind the comma",
         )
     simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
-    if simple and last.kind in ("equation", "range") and len(last.sides) == 2:
-        end = last.sides[-1].node
-        if last.kind == "range" or isinstance(end, Number | Letter):
-            found[-1] = replace(last, kind="range")
+    if simple and last.kind in ("equation", "range", "condition") and len(last.sides) == 2:
+        first, end = last.sides
+        if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
+            values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
+            end = replace(end, node=Call("values", (*values, _side(reader, part))))
+            found[-1] = replace(last, sides=(first, end), kind="range")
             return
-    if last.kind == "expression" or (last.relations and last.relations[-1] in ("in", "->", "!=")):
+    if last.kind == "expression" or (last.relations and last.relations[-1] in (*_SETS, "!=")):
         found.append(read_statement(reader, part))
         return
     raise FormulaError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
@@ -191,6 +222,7 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             sides[-1].append(box)
     if len(sides) > 1 and not strip(sides[0]):
         raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
+    _refuse_open_sums(sides)
     read: list[Side] = []
     for place, side in enumerate(sides):
         side = strip(side)
@@ -200,9 +232,12 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             relations.pop()
             continue
         latex = reader.source[side[0].at : side[-1].end].strip()
-        read.append(Side(_side(reader, side), latex, side[0].at))
+        index = (
+            not place and len(sides) == 2 and len(side) == 1 and side[0].name in ("i", "j") and side[0].kind == "letter"
+        )
+        read.append(Side(letter_of(reader, side[0])[0] if index else _side(reader, side), latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}
-    if len(degrees) > 1 and not any(relation in ("->", "in") for relation in relations):
+    if len(degrees) > 1 and not any(relation in _SETS for relation in relations):
         raise FormulaError(
             row[0].at, "a differential stands on one side only", "write the derivative, or both differentials"
         )
@@ -228,6 +263,38 @@ def _side(reader: FormulaReader, row: list[Box]) -> Node:
     return reader.expression(row)
 
 
+def _refuse_open_sums(sides: list[list[Box]]) -> None:
+    """Raise FormulaError where a term has an index twice that another has not: it may be summed over."""
+    terms: list[list[Box]] = []
+    for side in sides:
+        terms.append([])
+        for box in side:
+            if box.kind == "operator" and box.name in ("+", "-", "pm", "mp"):
+                terms.append([])
+            else:
+                terms[-1].append(box)
+    counts = [_indices(term) for term in map(strip, terms) if term and [box.name for box in term] != ["0"]]
+    every = [box for side in sides for box in all_boxes(side)]
+    bound = {below.name for box in every if box.kind == "big" for below in box.sub or ()}
+    if any(box.name == "sum" and not box.sub for box in every):
+        return
+    for index in _SUMMED - bound:
+        twice = any(count[index] > 1 for count in counts)
+        if twice and not all(count[index] for count in counts):
+            why = f"whether the index {index} is summed over is open"
+            raise FormulaError(every[0].at, why, f"write \\sum_{index}, or give the index another letter")
+
+
+def _indices(row: list[Box]) -> Counter[str]:
+    """How often each letter stands in a row as an index."""
+    found: Counter[str] = Counter()
+    for box in all_boxes(row):
+        below = [each.name for each in box.sub or () if each.kind == "letter" and not each.upright]
+        if box.kind in ("letter", "partial"):
+            found.update(below)
+    return found
+
+
 def _kind(relations: list[str]) -> str:
     kinds = set(relations)
     if not kinds:
@@ -236,7 +303,7 @@ def _kind(relations: list[str]) -> str:
         return "equation"
     if kinds <= {"=", ":=", "~"}:
         return "approximation"
-    if kinds <= {"=", ":=", "<", ">", "<=", ">=", "<<", ">>", "!="}:
+    if kinds <= {"=", ":=", "<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}:
         return "inequality"
     return "other"
 

@@ -5,7 +5,7 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import read_integral
 from lagrotor.paper.source.read_scripts import letter_of
 from lagrotor.paper.source.rows import strip, without_thin
-from lagrotor.paper.source.tree import Call, Letter, Node
+from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node
 
 
 def read_sum(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -54,6 +54,12 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
         ends = [reader.expression(box.sup)] if box.sup is not None else []
         reader.bound.pop()
         return [Letter(name), start, *ends]
+    if len(relations) == 1 and below[relations[0]].name in CONDITIONS and box.sup is None:
+        names = [each for each in below if each.kind == "letter"]
+        reader.bound += (bound := [each.name for each in names if each.name in ("i", "j")])
+        sides = [reader.expression(part) for part in (below[: relations[0]], below[relations[0] + 1 :])]
+        del reader.bound[len(reader.bound) - len(bound) :]
+        return [Call(CONDITIONS[below[relations[0]].name], tuple(sides))]
     raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
 
 

@@ -1,11 +1,12 @@
 """Rows of boxes: their ends, their bars in pairs, and what a box in them is."""
 
 import re
+from collections.abc import Iterator
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 
 _NAMES = (
-    "sin cos tan exp log ln det max min lim cot sinh cosh tanh arctan mat Mat vect Vect car dim ker Ker Hom End Aut rang rg grad "
+    "sin cos tan exp log ln det max min lim cot sinh cosh tanh arctan mat Mat vect Vect car dim ker Ker Hom End Aut rang grad "
     "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot"
 )
 _WORDS = frozenset(_NAMES.split())
@@ -21,12 +22,22 @@ def strip(row: list[Box]) -> list[Box]:
     return row[start:end]
 
 
+def all_boxes(row: list[Box]) -> Iterator[Box]:
+    """The boxes of a row and all that they hold."""
+    for box in row:
+        yield box
+        for part in (*box.parts, box.sub or [], box.sup or []):
+            yield from all_boxes(part)
+
+
 def without_thin(row: list[Box]) -> list[Box]:
+    """Without thin spaces."""
     return [box for box in row if box.kind != "thin"]
 
 
 def pair_bars(row: list[Box]) -> list[Box]:
     """Bars in pairs as brackets. Raises FormulaError where they can be paired in two ways."""
+    row = _with_places(row)
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if not places:
         return row
@@ -37,7 +48,7 @@ def pair_bars(row: list[Box]) -> list[Box]:
     for n in range(0, len(places), 2):
         a, b = places[n], places[n + 1]
         between = row[places[n - 1] + 1 : a] if n else []
-        if n and not any(x.kind in ("operator", "relation") for x in between):
+        if n and strip(between) and not any(x.kind in ("operator", "relation") for x in between):
             raise FormulaError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
         inner = strip(row[a + 1 : b])
         if (
@@ -53,6 +64,53 @@ def pair_bars(row: list[Box]) -> list[Box]:
         made += [*row[last:a], closed]
         last = b + 1
     return [*made, *row[last:]]
+
+
+def _with_places(row: list[Box]) -> list[Box]:
+    """A bar with an equation below it as the bracket that it closes, of what stands just before it."""
+    single = sum(box.kind == "bar" for box in row) == 1
+    made: list[Box] = []
+    for box in row:
+        below = box.kind == "bar" and box.sub and (single or any(each.kind == "relation" for each in box.sub))
+        start = len(made) - 1
+        if start > 0 and made[start].kind == "bracket" and made[start - 1].kind == "letter":
+            start -= 1  # f(x)|_{x = 0}
+        if below and start >= 0 and made[start].kind in ("letter", "fraction", "bracket", "root"):
+            made[start:] = [
+                Box("bracket", ".", made[start].at, box.end, [made[start:]], sub=box.sub, sup=box.sup, closing="|")
+            ]
+        else:
+            made.append(box)
+    return made
+
+
+def fold_derivatives(row: list[Box], plain: bool) -> list[Box]:
+    """d^2x/dt^2 and ∂f/∂x as fractions; plain: whether an italic d is no letter of the paper."""
+    made: list[Box] = []
+    place = 0
+    while place < len(row):
+        box, end = row[place], place + 1
+        while (
+            box.name == "/"
+            and end + 1 < len(row)
+            and _is_mark(row[end], plain)
+            and row[end + 1].kind in ("letter", "group")
+        ):
+            end += 2
+        longest = 3 if made and made[-1].kind == "bracket" else 2  # d f(x)
+        marks = [k for k, each in enumerate(made[-longest:], len(made) - longest) if k >= 0 and _is_mark(each, plain)]
+        if end > place + 1 and marks and made[marks[-1]].kind == row[place + 1].kind:
+            start = marks[-1]
+            made[start:] = [Box("fraction", "", made[start].at, row[end - 1].end, [made[start:], row[place + 1 : end]])]
+            place = end
+        else:
+            made.append(box)
+            place += 1
+    return made
+
+
+def _is_mark(box: Box, plain: bool) -> bool:
+    return is_d(box, "partial") or (is_d(box, "d") and (plain or box.upright))
 
 
 def is_d(box: Box, mark: str) -> bool:

@@ -38,6 +38,8 @@ class Call:
 Node: TypeAlias = Number | Letter | Call
 
 # Operations besides those of arithmetic whose value is a vector or a matrix, or a number made of vectors.
+# Relations as calls, in the condition of a case or of a sum.
+CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 _VECTORS = ("cross", "column", "matrix", "gradient", "curl")
 _CALLED = FUNCTIONS.keys() - {
@@ -106,6 +108,14 @@ def is_vector(node: Node) -> bool:
         "limit",
         "Sum",
         "differential",
+        "laplacian",
+        "plus_minus",
+        "minus_plus",
+        "advection",
+        "at",
+        "called",
+        "delta",
+        "Delta",
     ):
         return is_vector(node.args[0])
     return node.name in (*_VECTORS, "matmul", "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
@@ -155,6 +165,15 @@ def is_scalar(node: Node) -> bool:
     """Whether a node is arithmetic of letters that are no vectors, and not 0."""
     plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
     return plain and not is_printed_zero(node) and not any(isinstance(n, Letter) and n.vector for n in walk(node))
+
+
+def is_operator(node: Node) -> bool:
+    """Whether a node does not commute with what it is multiplied by: a ket, a bra, an operator with a dagger."""
+    if isinstance(node, Call):
+        return node.name in ("ket", "bra") or (
+            node.name in ("power", "product", "matmul") and any(map(is_operator, node.args))
+        )
+    return isinstance(node, Letter) and "__dagger" in node.name
 
 
 def in_catalogue(node: Node) -> bool:

@@ -15,6 +15,8 @@ from lagrotor.paper.source.boxes import Box, FormulaError, boxes
 from lagrotor.paper.source.rows import without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
+# What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
+ACTED_ON = ("letter", "bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root")
 _KEYS = ("functions", "letters", "numbers", "decimal_comma")
 
 
@@ -23,11 +25,13 @@ class Notation:
     """What was seen of a paper's letters.
 
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
-    arguments of sine and cosine; lowered: indices; declared: what the author says.
+    arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
+    the author says.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
     bare: set[str] = field(default_factory=set)
+    spelled: dict[str, set[str]] = field(default_factory=dict)
     angles: set[str] = field(default_factory=set)
     lowered: set[str] = field(default_factory=set)
     functions: frozenset[str] = frozenset()
@@ -60,12 +64,16 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
     r"""theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__mu_nu for T^{\mu\nu}: a name that Python and sympy take."""
-    stem = {"lambda": "lamda"}.get(box.name, box.name)
-    dots = [mark for mark in box.marks if mark.endswith("dot")]
-    stem += box.style + "".join(mark for mark in box.marks if not mark.endswith("dot"))
+    marks = [
+        mark for mark in box.marks if mark != "vec"
+    ]  # the innermost first: the rate of a mean is no mean of a rate
+    rates = 0
+    while marks and marks[-1].endswith("dot"):
+        rates += len(marks.pop()) - len("ot")
+    stem = {"lambda": "lamda"}.get(box.name, box.name) + box.style + "vec" * ("vec" in box.marks) + "".join(marks)
     stem += "prime" * box.primes
     name = stem + "".join(f"__{part}" for part in raised) + "".join(f"_{part}" for part in index)
-    name += f"_{dots[0]}" if dots else ""
+    name += f"_{'d' * rates}ot" if rates else ""
     return f"{name}_" if iskeyword(name) or name in CALLED else name
 
 
@@ -112,16 +120,8 @@ def _index(part: Box) -> list[str] | None:
     if part.kind == "infinity":
         return ["inf"]
     if part.kind == "operator":
-        named = {
-            "+": "plus",
-            "-": "minus",
-            "*": "star",
-            "star": "star",
-            "circ": "circ",
-            "cdot": "dot",
-            "times": "times",
-        }
-        return [named[part.name]] if part.name in named else None
+        named = {"+": "plus", "-": "minus", "*": "star", "cdot": "dot"}.get(part.name, part.name)
+        return [named] if named.isalpha() else None
     if part.kind == "group":
         inside = _plain(part.parts[0])
         return None if inside is None else [inside]
@@ -130,6 +130,19 @@ def _index(part: Box) -> list[str] | None:
     if part.kind == "relation" and part.name == "=":
         return ["eq"]
     return None
+
+
+def _spelling(row: list[Box]) -> str:
+    """An index as it is printed, without spaces and fonts."""
+    text = ""
+    for box in without_thin(row):
+        inner = f"({', '.join(map(_spelling, box.parts))})" if box.parts else ""
+        text += (
+            box.name
+            + inner
+            + "".join(f"{sign}({_spelling(row)})" for sign, row in (("_", box.sub), ("^", box.sup)) if row)
+        )
+    return text
 
 
 def _plain(row: list[Box]) -> str | None:
@@ -155,21 +168,27 @@ def _look(row: list[Box], found: Notation) -> None:
         following = inner[place + 1] if place + 1 < len(inner) else None
         if box.kind == "letter":
             _look_at_letter(box, following, found)
+        if box.kind in ("letter", "partial", "nabla"):
             found.lowered.update(b.name for b in box.sub or () if b.kind == "letter")
+            if box.sub and (index := index_of(box)) is not None:
+                found.spelled.setdefault("_".join((box.name, *index)), set()).add(_spelling(box.sub))
         elif box.sub is not None:
             _look(box.sub, found)
         if box.kind == "function" and following is not None and following.kind == "letter":
             after = inner[place + 2] if place + 2 < len(inner) else None
             if after is None or (after.kind in _BEHIND and after.name != "/"):
                 found.angles.add(following.name)
-        if box.sup is not None:
-            _look(box.sup, found)
+        if box.sup is not None and any(each.kind != "letter" or each.sub for each in box.sup):
+            _look(box.sup, found)  # letters alone may be indices
         for part in box.parts:
             _look(part, found)
 
 
 def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
     name = box.name
+    if name == "i" and following is not None and following.name == "hbar":
+        found.imaginary = True
+        return
     if name == "e" and box.sup is not None and not box.upright:
         if any(b.kind == "letter" or b.parts for b in box.sup):
             found.exponential = True
@@ -190,7 +209,7 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
         return
     if name == "d" and box.sup is not None and following is not None and following.kind == "letter":
         return
-    if name in ("delta", "Delta") and following is not None and following.kind == "letter" and box.sub is None:
+    if name in ("delta", "Delta") and following is not None and following.kind in ACTED_ON and box.sub is None:
         return
     found.bare.add(key)
 
