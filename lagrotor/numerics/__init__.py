@@ -8,14 +8,14 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program as Program
     from lagrotor.numerics.codegen import Stage as Stage
     from lagrotor.numerics.codegen import operations as operations
+    from lagrotor.numerics.curves import best_harmonics as best_harmonics
+    from lagrotor.numerics.curves import harmonics_at as harmonics_at
     from lagrotor.numerics.curves import mean_between as mean_between
     from lagrotor.numerics.curves import measured_order as measured_order
     from lagrotor.numerics.curves import peak as peak
     from lagrotor.numerics.curves import spectrum as spectrum
     from lagrotor.numerics.curves import swing as swing
     from lagrotor.numerics.curves import turn_means as turn_means
-    from lagrotor.numerics.harmonic_fit import best_harmonics as best_harmonics
-    from lagrotor.numerics.harmonic_fit import harmonics_at as harmonics_at
     from lagrotor.numerics.integrate import Problem as Problem
     from lagrotor.numerics.printers import compile_program as compile_program
     from lagrotor.numerics.printers import program_source as program_source

@@ -27,7 +27,7 @@ from lagrotor.models import (
     run_steps,
     step_limit,
 )
-from lagrotor.models.spring_link.recorded_step import step_function
+from lagrotor.models.spring_link.run import step_function
 from lagrotor.numerics import skew_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)

@@ -1,19 +1,20 @@
 """A motion that returns to its start after one period: integrated once over that period, then a Fourier series at any time."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array, integrate_model, problem_of
+from lagrotor.models.model import Array, integrate_model
 from lagrotor.models.natural_units import natural_units
-from lagrotor.numerics.integrate import TIGHTEST, integrate
+from lagrotor.models.orbits.variational import flow
+from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
 _SAMPLES = 256  # of one period: harmonics to 127
-_STEP = 1e-5  # of the central differences: their error is of order 1e-10
+_FLOW = 1e-12  # tolerance of the variational equations
 _LEAST = 1e-16  # of a harmonic that is kept
 
 
@@ -51,7 +52,7 @@ def fourier_orbit(scene: Scene, period: float) -> FourierOrbit:
     return FourierOrbit(
         last / units.rate,
         float(np.abs(off).max() + np.abs(turning).max()) + tail,
-        _monodromy(units.scene, last),
+        flow(units.scene)(MODEL.start(units.scene), last, _FLOW).slope,
         _series(waves[:, :kept], 2 * np.pi * units.rate / last),
     )
 
@@ -62,19 +63,6 @@ def parting(orbit: FourierOrbit, t_end: float) -> float:
     while count >= 1 and most < 1e20:
         most, power, count = max(most, float(np.linalg.norm(power, 2))), power @ power, count / 2
     return 2 * most  # between two powers of two
-
-
-def _monodromy(scene: Scene, turn: float) -> Array:
-    """d state(T)/d state(0), by central differences of integrations over a period."""
-    problem = problem_of(MODEL, scene)
-    ends = [
-        [
-            integrate(replace(problem, start=problem.start + sign * step), np.array([turn]), 1e-12).states[0]
-            for sign in (1, -1)
-        ]
-        for step in _STEP * np.eye(len(problem.start))
-    ]
-    return np.array([ahead - behind for ahead, behind in ends]).T / (2 * _STEP)
 
 
 def _series(waves: NDArray[np.complex128], frequency: float) -> Callable[[Array], tuple[Array, Array]]:

@@ -3,7 +3,7 @@
 All bodies are stepped at once in stacked arrays, the ground being one more body, whose inverse mass and inverse inertia
 are zero. The gaps of the links are one matrix B times the places of centres and body axes, their rates B times the
 velocities of these, and Bᵀ takes the links' forces to the bodies. A step costs some forty array calls on a few rows each:
-what limits it is the overhead of a call, not the number of bodies or links. `recorded_step` is what runs repeat.
+what limits it is the overhead of a call, not the number of bodies or links. `run` repeats it in single numbers.
 """
 
 from collections.abc import Callable

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.harmonic_fit import harmonics_at
+from lagrotor.numerics.curves import harmonics_at
 from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.notation import G_1, G_2, a, b, k
 from lagrotor.pair.quantities import Spins, Vector

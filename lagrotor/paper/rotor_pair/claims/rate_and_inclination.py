@@ -5,8 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.curves import measured_order
-from lagrotor.numerics.harmonic_fit import best_harmonics
+from lagrotor.numerics.curves import best_harmonics, measured_order
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory

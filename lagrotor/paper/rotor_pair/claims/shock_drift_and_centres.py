@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.numerics.harmonic_fit import Harmonics, best_harmonics, harmonics_at
+from lagrotor.numerics.curves import Harmonics, best_harmonics, harmonics_at
 from lagrotor.pair.examples import LIGHT
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
