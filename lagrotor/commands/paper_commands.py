@@ -173,9 +173,15 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.source.check import FOUND, WRONG, check_source_file
+    from lagrotor.paper.source.check import FOUND, WRONG, check_source
+    from lagrotor.paper.source.markup import read_source
 
-    found = [(source, each) for source in given.sources for each in check_source_file(source)]
+    found = []
+    for file in given.sources:
+        source = read_source(file)
+        for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
+            say(f"{file}: {note}", 0)
+        found += [(file, each) for each in check_source(source)]
     if given.json:
         several = len(given.sources) > 1
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]

@@ -20,7 +20,6 @@ from lagrotor.errors import LagrotorError
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula
-from lagrotor.paper.source.markup import read_source
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, letters_of, sympy_expression, text_of, walk
 from lagrotor.paper.source.usage import Notation, notation_of
@@ -61,11 +60,6 @@ class _Read:
 
     equation: Displayed
     statement: PrintedStatement
-
-
-def check_source_file(source: Path) -> list[StepFinding]:
-    """The findings on a source, in its order. Raises InputError for a file that cannot be read."""
-    return check_source(read_source(source))
 
 
 def check_source(source: Source) -> list[StepFinding]:

@@ -24,6 +24,7 @@ _DOCUMENT_COMMANDS = (
 )  # fmt: skip
 _ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment")
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
+_DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
 _SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
 
 
@@ -554,6 +555,9 @@ class Expander:
     def _begin(self, token: Token) -> bool:
         name = self.argument()
         known = self.environments.get(latex_of(name).strip())
+        if known is None and (command := self._command_of(latex_of(name).strip(), "", token.at)):
+            self.push([command])
+            return True
         if known is None:
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
@@ -564,11 +568,26 @@ class Expander:
     def _end(self, token: Token) -> bool:
         name = self.argument()
         known = self.environments.get(latex_of(name).strip())
+        if known is None and (command := self._command_of(latex_of(name).strip(), "end", token.at)):
+            self.push([command])
+            return True
         if known is None:
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
         self._count(rf"\end{{{latex_of(name)}}}")
         self.push(Token(t.kind, t.text, token.at) for t in known[1])
+        return True
+
+    def _command_of(self, name: str, verb: str, at: int) -> Token | None:
+        r"""\begin{x} is \x where the source defines \x and \endx."""
+        defined = rf"\{name}" in self.macros and rf"\end{name}" in self.macros
+        return Token("command", rf"\{verb}{name}", at) if defined else None
+
+    def _display(self, token: Token) -> bool:
+        r"""\align and \endalign, as definitions of environments have them: what \begin{align} and \end{align} are."""
+        name = token.text[1:]
+        verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
+        self.push(tokenize(rf"{verb}{{{name}}}", token.at))
         return True
 
     # ---- files and packages
@@ -745,6 +764,7 @@ _HANDLERS: dict[str, Handler] = {
     **dict.fromkeys(_SHOWN, Expander._shown),
     **dict.fromkeys((r"\long", r"\global", r"\protected", r"\outer", r"\relax", r"\protect"), Expander._ignored),
     **dict.fromkeys((r"\makeatletter", r"\makeatother", r"\ensuremath@", r"\xspace"), Expander._ignored),
+    **{rf"\{end}{name}": Expander._display for name in _DISPLAYS for end in ("", "end")},
     r"\let": Expander._let,
     r"\DeclareMathOperator": Expander._operator,
     r"\DeclarePairedDelimiter": Expander._pair,

@@ -6,7 +6,8 @@ import pytest
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source_file
+from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source
+from lagrotor.paper.source.markup import read_source
 
 
 def findings(folder: Path, body: str) -> list[StepFinding]:
@@ -14,7 +15,7 @@ def findings(folder: Path, body: str) -> list[StepFinding]:
     file.write_text(
         f"\\documentclass{{article}}\\usepackage{{amsmath}}\n\\begin{{document}}\n{body}\n\\end{{document}}\n"
     )
-    return check_source_file(file)
+    return check_source(read_source(file))
 
 
 def verdicts(folder: Path, body: str) -> list[str]:
@@ -129,5 +130,8 @@ def test_the_command_gives_rows_for_an_editor_and_an_exit_status(
     assert sorted(row) == ["equation", "line", "step", "verdict", "why"]
     findings(tmp_path, SQUARE.replace("SIGN", "+"))
     assert main(["check", str(tmp_path / "paper.tex")]) == 0
-    findings(tmp_path, "no formula")
-    assert main(["check", str(tmp_path / "paper.tex")]) == 0
+    capsys.readouterr()
+    for body, said in (("no formula", "it has no displayed equation"), (r"\input{part}", "part is missing")):
+        findings(tmp_path, body)
+        assert main(["check", str(tmp_path / "paper.tex")]) == 0
+        assert f"paper.tex: {said}" in "".join(capsys.readouterr())
