@@ -46,11 +46,11 @@ def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> 
         for signs in product((True, False), repeat=number):
             chosen = (*natural, *(one if same else _opposite(one) for one, same in zip(wanted, signs, strict=False)))
             yield chosen
-            yield tuple(sp.Gt(one.gts, one.lts) for one in chosen)
+            yield tuple(_sided(one.gts - one.lts, True) for one in chosen)
 
 
 def _opposite(relation: sp.Basic) -> sp.Basic:
-    return relation.func(-(relation.gts - relation.lts), 0)
+    return _sided(relation.lts - relation.gts, isinstance(relation, sp.Gt | sp.Lt))
 
 
 def _fewest(
@@ -85,8 +85,15 @@ def simplest(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, 
         if not e.free_symbols or (is_positive(e, where) if strict else is_nonnegative(e, where)):
             continue
         for part in _simplest(e, where):
-            found[sp.Gt(part, 0) if strict else sp.Ge(part, 0)] = None
+            found[_sided(part, strict)] = None
     return tuple(relation for relation in found if relation not in (sp.true, sp.false))
+
+
+def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
+    """e > 0 or e ≥ 0, with the sign outside: x ≤ 0 for −x ≥ 0."""
+    if e.could_extract_minus_sign():
+        return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)
+    return sp.Gt(e, 0) if strict else sp.Ge(e, 0)
 
 
 def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:

@@ -373,9 +373,9 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
     """
     with digits(_DIGITS):
         try:
-            ends = {s: value if isinstance(value, tuple) else (value, value) for s, value in point.items()}
-            found = PointEnclosure({})
-            found.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in ends.items()}
+            boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
+            found = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
+            found.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
             value = found.value(e)
             return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
         except (NotExactError, AttributeError):

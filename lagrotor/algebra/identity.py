@@ -41,6 +41,7 @@ from sympy.polys.rings import PolyElement
 from lagrotor.algebra.branches import branch_of_zero, simplest
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
+from lagrotor.algebra.feasibility import is_infeasible
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.names import check_names
 from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
@@ -160,9 +161,18 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
         if branch and set(branch) <= set(simplest(conditions(plain), where)):
             return Decision("zero", within.divisors, within.how or "", branch=branch)
         return replace(exact, reason=reason, branch=branch)
-    if not (branch or witness.real or expression.has(sp.I) or not all(s.is_real for s in plain.free_symbols)):
+    if not (branch or witness.real or _is_complex(plain, where)):
         return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
     return Decision("nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), branch)
+
+
+def _is_complex(e: sp.Expr, where: Region) -> bool:
+    """Whether its principal values are meant: it holds i, a complex letter, or is real nowhere; odd roots may be real."""
+    if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
+        return True
+    odd = any(n.exp.is_Rational and n.exp.q > 2 for n in e.atoms(sp.Pow))
+    wanted = conditions(e)
+    return not odd and (sp.false in wanted or is_infeasible([], where.with_(*wanted)))
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.

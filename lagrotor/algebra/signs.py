@@ -22,6 +22,15 @@ Bound: TypeAlias = tuple[sp.Expr, bool]
 POSITIVE, NONNEGATIVE, ANY = frozenset({1}), frozenset({0, 1}), frozenset({-1, 0, 1})
 _ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # of the sign of their argument, where real
 _REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.erfc, sp.acot, sp.gamma, sp.loggamma)
+# Increasing functions: their inverse, and between which numbers they are that.
+_INCREASING: dict[Any, tuple[Any, Any, Any]] = {
+    sp.exp: (sp.log, None, None),
+    sp.log: (sp.exp, sp.S.Zero, None),
+    sp.tan: (sp.atan, -sp.pi / 2, sp.pi / 2),
+    sp.sinh: (sp.asinh, None, None),
+    sp.asinh: (sp.sinh, None, None),
+    sp.tanh: (sp.atanh, None, None),
+}
 _FACTORED = 40  # terms of the largest sum whose factors are looked at
 
 
@@ -141,7 +150,7 @@ class _Signs:
                 return frozenset({one}) if frozenset({one}) in parts else union
         if (bound := self._linear(e)) is not None:
             return bound
-        if (bound := self._exponential(e) or self._by_squares(e)) is not None:
+        if (bound := self._monotone(e) or self._by_squares(e)) is not None:
             return bound
         if len(e.args) <= _FACTORED:
             factors = sp.factor(e)
@@ -179,22 +188,27 @@ class _Signs:
         return found if isinstance(e, _ODD) else ANY if isinstance(e, _REAL) else None
 
     def _circular(self, e: sp.Expr, u: sp.Expr) -> Signs:
-        """From where the argument lies: sin > 0 between 0 and π, cos > 0 between −π/2 and π/2."""
-        low, high = (0, sp.pi) if isinstance(e, sp.sin) else (-sp.pi / 2, sp.pi / 2)
-        if isinstance(e, sp.tan):
-            low = 0
-            high = sp.pi / 2
-        sides = [self.of(u - low), self.of(high - u)]
-        if all(side == POSITIVE for side in sides):
-            return POSITIVE
-        return NONNEGATIVE if all(side is not None and side <= NONNEGATIVE for side in sides) else ANY
+        """From where the argument lies: sin u has the sign of (−1)ᵏ where kπ < u < (k + 1)π, cos and tan likewise."""
+        start = -sp.pi / 2 if isinstance(e, sp.cos) else sp.S.Zero
+        step = sp.pi / 2 if isinstance(e, sp.tan) else sp.pi
+        for k in (0, -1, 1, -2, 2):
+            sides = [self.of(u - start - k * step), self.of(start + (k + 1) * step - u)]
+            if all(side is not None and side <= NONNEGATIVE for side in sides):
+                inside = frozenset({-1 if k % 2 else 1})
+                return inside if all(side == POSITIVE for side in sides) else inside | {0}
+        return ANY
 
-    def _exponential(self, e: sp.Expr) -> Signs | None:
-        """c exp(u) − c has the sign of c u."""
-        for one, other in permutations(e.args) if len(e.args) == 2 else ():
-            if one.is_number and isinstance(-other / one, sp.exp):
-                found = self.of((-other / one).args[0])
-                return None if found is None else _times(found, frozenset({-int(sp.sign(one))}))
+    def _monotone(self, e: sp.Expr) -> Signs | None:
+        """a + b f(u) of numbers a, b and an increasing f has the sign of b (u − f⁻¹(−a/b))."""
+        for number, term in permutations(e.args) if len(e.args) == 2 else ():
+            b, call = term.as_independent(*term.free_symbols, as_Add=False)
+            if not number.is_number or not b.is_real or call.func not in _INCREASING:
+                continue
+            u, (inverse, low, high) = call.args[0], _INCREASING[call.func]
+            at = inverse(-number / b)
+            if at.is_extended_real and at.is_finite and all(self.of(s) == POSITIVE for s in _between(u, low, high)):
+                found = self.of(u - at)
+                return None if found is None else _times(found, frozenset({int(sp.sign(b))}))
         return None
 
     def _by_squares(self, e: sp.Expr) -> Signs | None:
@@ -283,6 +297,11 @@ class _Signs:
                 elif (rest := primitive * content - part * over).is_number and rest.is_nonnegative:
                     found &= POSITIVE if strict or rest.is_positive else NONNEGATIVE
         return found
+
+
+def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:
+    """What is positive where u lies between the two."""
+    return [*(() if low is None else (u - low,)), *(() if high is None else (high - u,))]
 
 
 def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:

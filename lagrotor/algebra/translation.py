@@ -149,7 +149,7 @@ class Translation:
         if e is sp.E:
             return self.exponential(sp.S.One)
         if e.is_Add or e.is_Mul:
-            return e.func(*map(self.of, e.args))
+            return e.func(*map(self.of, self._unbarred(e) if e.is_Mul else e.args))
         if isinstance(e, sp.exp):
             return self.exponential(self.of(e.args[0]))
         if e.is_Pow:
@@ -161,6 +161,16 @@ class Translation:
         if e.func in _HYPERBOLIC:
             return _HYPERBOLIC[e.func](self.exponential(self.of(e.args[0])))
         return self._function(e)
+
+    def _unbarred(self, e: sp.Mul) -> tuple[sp.Expr, ...]:
+        """Its factors, |a| |b| as ± a b where the sign of a b is known."""
+        bars = [part for part in e.args if isinstance(part, sp.Abs)]
+        product = sp.Mul(*(part.args[0] for part in bars))
+        found = signs(product, self.where) if len(bars) > 1 else None
+        for side, half in ((1, NONNEGATIVE), (-1, {-1, 0})):
+            if found is not None and found <= half:
+                return (*(part for part in e.args if part not in bars), side * product)
+        return e.args
 
     def _function(self, e: sp.Expr) -> sp.Expr:
         if isinstance(e, sp.asin | sp.acos | sp.atan):
@@ -538,7 +548,7 @@ class Translation:
                 return t
             if isinstance(e, sp.im):
                 return sp.S.Zero
-            size = self.root(t**2, sp.S.Half, u**2)
+            size = t if is_nonnegative(u, self.where) else self.root(t**2, sp.S.Half, u**2)
             return size if isinstance(e, sp.Abs) else t / size
         if not all(is_real(self.back(s), self.where) for s in t.free_symbols):
             return self.letter(e.func, (t,), e)

@@ -16,20 +16,14 @@ from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import decide_zero
+from lagrotor.algebra.feasibility import is_infeasible
+from lagrotor.algebra.inverses import INVERSES, argument, solved_for
+from lagrotor.algebra.signs import Region, region, signs
 from lagrotor.errors import InputError
 from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import readable
 
 _KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
-# Where an inverse function is given, its argument is solved for: its values, and between which numbers they lie.
-_INVERSES: dict[Any, tuple[Any, Any, Any]] = {
-    sp.acos: (sp.cos, sp.S.Zero, sp.pi),
-    sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
-    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2),
-    sp.log: (sp.exp, None, None),
-    sp.asinh: (sp.sinh, None, None),
-    sp.acosh: (sp.cosh, sp.S.Zero, None),
-}
 
 
 @dataclass(frozen=True)
@@ -53,26 +47,23 @@ class Hypotheses:
     def signed(self) -> "Hypotheses":
         """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
         put, left = dict(self.put), self.left
-        for relation in self.region:
+        for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
             step = _as_assumption(relation.xreplace(put), self.small)
             if step is not None:
                 letter, value = step
                 put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
                 left = tuple(replaced(e, {letter: value}) for e in left)
-        region = (relation.xreplace(put) for relation in self.region)
-        return Hypotheses(put, left, tuple(r for r in region if isinstance(r, Relational)), self.small)
+        there = tuple(relation.xreplace(put) for relation in self.region)
+        contradiction = next(
+            (f"{relation_text(r)} is false" for r, s in zip(self.region, there, strict=True) if s == sp.false), ""
+        )
+        relations = tuple(r for r in there if isinstance(r, Relational))
+        return Hypotheses(put, left, relations, self.small, self.contradiction or contradiction)
 
-    def refined(self, side: Any) -> Any:
-        """A side in which |e| is e, or −e, where a condition gives the sign of e."""
-        side = self.on(side)
-        for relation in self.region:
-            e = relation.gts - relation.lts if isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt) else None
-            if e is not None:
-                side = side.replace(
-                    lambda node, e=e: isinstance(node, sp.Abs) and (node.args[0] - e == 0 or node.args[0] + e == 0),
-                    lambda node, e=e: e,
-                )
-        return side
+    @property
+    def inside(self) -> tuple[Relational, ...]:
+        """The inequalities."""
+        return tuple(r for r in self.region if not isinstance(r, sp.Ne))
 
 
 def replaced(e: Any, put: Mapping[sp.Symbol, sp.Expr]) -> Any:
@@ -123,22 +114,16 @@ def _scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
     return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
 
 
-def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, list[Relational]]:
+def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
     """s − acos(g) as g − cos(s) with 0 ≤ s ≤ π; other equations as they are."""
     for sign in (1, -1):
         terms = sp.Add.make_args(sp.expand(sign * e))
-        inverse = [t for t in terms if (-t).func in _INVERSES]
-        rest = sp.Add(*(t for t in terms if t not in inverse))
-        if len(inverse) == 1 and rest.is_Symbol:
-            call = -inverse[0]
-            function, low, high = _INVERSES[call.func]
-            between = [
-                r
-                for r in (low is not None and rest >= low, high is not None and rest <= high)
-                if isinstance(r, Relational)
-            ]
-            return call.args[0] - function(rest), between
-    return e, []
+        calls = [t for t in terms if (-t).func in INVERSES]
+        rest = sp.Add(*(t for t in terms if t not in calls))
+        if len(calls) == 1 and rest.is_Symbol:
+            value, conditions = argument((-calls[0]).func, rest)
+            return (-calls[0]).args[0] - value, conditions
+    return e, ()
 
 
 class _Wishes(NamedTuple):
@@ -177,35 +162,50 @@ def _solved_or_not(
     while True:
         steps = [step for e in waiting for step in _plain_steps(e, small)]
         if not steps:
-            known = _with_signs(u.xreplace(put) for u in units)
+            known = _known(units, conditions, put)
             waiting = list(dict.fromkeys(e for each in waiting if (e := _reduced(each, known)) is not None))
             steps = [step for e in waiting for step in _steps(e, small, known)]
         if not steps:
             break
-        letter, value = min(steps, key=wishes.rank)[1:]
-        conditions += _own_conditions(letter, value)
+        _, letter, value, own = min(steps, key=wishes.rank)
+        conditions += [*own, *_own_conditions(letter, value)]
         put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
         waiting = [e for each in waiting if (e := replaced(each, {letter: value})) != 0]
-    return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put)), small)
+    return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put, waiting, small)), small)
 
 
 def _denominator(e: sp.Expr) -> sp.Expr:
     return sp.Mul(*(term.as_numer_denom()[1] for term in sp.Add.make_args(e)))
 
 
-def _with_signs(expressions: Iterable[sp.Expr]) -> frozenset[sp.Expr]:
-    """Each expression and its opposite, expanded; what is not a number."""
-    return frozenset(sp.expand(sign * e) for e in expressions if not e.is_number for sign in (1, -1))
+class _Known(NamedTuple):
+    """Expressions that do not vanish, with their opposites, and where all conditions hold."""
+
+    units: frozenset[sp.Expr]
+    where: Region
+
+    def nonzero(self, e: sp.Expr) -> bool:
+        """Whether e does not vanish."""
+        if e in self.units or sp.expand(e) in self.units:
+            return True
+        found = signs(e, self.where)
+        return found is not None and 0 not in found
+
+
+def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> _Known:
+    there = [r.xreplace(put) for r in conditions if not isinstance(r, sp.Ne)]
+    opposites = (sp.expand(sign * u.xreplace(put)) for u in units for sign in (1, -1))
+    return _Known(frozenset(u for u in opposites if not u.is_number), region(r for r in there if r is not sp.false))
 
 
 @lru_cache(maxsize=2048)
-def _reduced(e: sp.Expr, units: frozenset[sp.Expr]) -> sp.Expr | None:
+def _reduced(e: sp.Expr, known: _Known) -> sp.Expr | None:
     """An equation without factors that do not vanish; None where it holds by itself."""
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise _ContradictionError("a denominator becomes 0")
     factors: dict[sp.Expr, None] = {}
     for factor, _ in _factor_list(sp.together(e).as_numer_denom()[0]):
-        if not _does_not_vanish(factor, units):
+        if not known.nonzero(factor):
             factors[factor] = None
     kept = sp.expand(sp.Mul(*factors))
     if kept.is_number or decide_zero(kept).answer == "zero":
@@ -213,10 +213,6 @@ def _reduced(e: sp.Expr, units: frozenset[sp.Expr]) -> sp.Expr | None:
             raise _ContradictionError(f"{readable(str(e))} is not 0")
         return None
     return min(kept, sp.expand(-kept), key=sp.default_sort_key)
-
-
-def _does_not_vanish(e: sp.Expr, units: frozenset[sp.Expr]) -> bool:
-    return bool(e in units or e.is_nonzero or e.is_positive or e.is_negative or sp.expand(e) in units)
 
 
 def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
@@ -233,6 +229,7 @@ class _Step(NamedTuple):
     rank: tuple[Any, ...]
     letter: sp.Symbol
     value: sp.Expr
+    conditions: tuple[Relational, ...] = ()
 
 
 @lru_cache(maxsize=2048)
@@ -247,25 +244,45 @@ def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
 
 
 @lru_cache(maxsize=2048)
-def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], units: frozenset[sp.Expr]) -> tuple[_Step, ...]:
-    """Those of letters that an equation is linear in, their coefficient known not to vanish."""
+def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], known: _Known) -> tuple[_Step, ...]:
+    """Those of letters that an equation is linear in, or in one function of which, their coefficient known not to vanish."""
     found = []
     for letter in e.free_symbols - set(small):
-        coefficient = sp.expand(e.diff(letter))
-        if coefficient.has(letter, sp.Derivative, sp.Subs):
+        kernel = _kernel(e, letter)
+        if kernel is None:
             continue
-        if not (coefficient.is_number or all(_does_not_vanish(f, units) for f, _ in _factor_list(coefficient))):
+        unknown = letter if kernel == letter else sp.Dummy()
+        there = e if kernel == letter else e.xreplace({kernel: unknown})
+        coefficient = sp.expand(there.diff(unknown))
+        if coefficient.has(letter, unknown, sp.Derivative, sp.Subs):
             continue
-        rest = sp.expand(e.xreplace({letter: sp.S.Zero}))
-        if not rest.has(sp.nan, sp.zoo, sp.oo) and (rest == 0 or not coefficient.free_symbols & set(small)):
-            found.append(_step(letter, sp.cancel(-rest / coefficient)))
+        if not (coefficient.is_number or all(known.nonzero(f) for f, _ in _factor_list(coefficient))):
+            continue
+        rest = sp.expand(there.xreplace({unknown: sp.S.Zero}))
+        if rest.has(sp.nan, sp.zoo, sp.oo, letter) or (rest != 0 and coefficient.free_symbols & set(small)):
+            continue
+        value = sp.cancel(-rest / coefficient)
+        if kernel == letter:
+            found.append(_step(letter, value))
+        elif (inverted := solved_for(kernel, letter, value, known.where)) is not None:
+            found.append(_step(letter, *inverted))
     return tuple(found)
 
 
-def _step(letter: sp.Symbol, value: sp.Expr) -> _Step:
+def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
+    """The letter where an equation is a polynomial of degree one in it; else the one function or power of it there is."""
+    inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
+    if not inside:
+        return letter
+    [kernel] = inside if len(inside) == 1 else [None]
+    alone = kernel is not None and kernel.free_symbols == {letter} and not e.xreplace({kernel: sp.S.One}).has(letter)
+    return kernel if alone else None
+
+
+def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
     """Numbers first, then values that have the signs that the letter was declared with, then short ones."""
-    lossy = len(_own_conditions(letter, value))
-    return _Step((not value.is_number, lossy, sp.count_ops(value), letter.name, str(value)), letter, value)
+    lossy = len(_own_conditions(letter, value)) + len(conditions)
+    return _Step((not value.is_number, lossy, sp.count_ops(value), letter.name, str(value)), letter, value, conditions)
 
 
 def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
@@ -290,10 +307,12 @@ def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
     return found
 
 
-def _checked(region: list[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> Iterator[Relational]:
-    """The conditions in the letters that are left, each once; raises where they exclude each other."""
+def _checked(
+    relations: list[Relational], put: Mapping[sp.Symbol, sp.Expr], left: list[sp.Expr], small: tuple[sp.Symbol, ...]
+) -> Iterator[Relational]:
+    """The conditions in the letters that are left, each once; raises where they and the equations left exclude each other."""
     found: dict[Relational, None] = {}
-    for relation in region:
+    for relation in relations:
         try:
             there = relation.xreplace(put)
         except TypeError:
@@ -304,37 +323,12 @@ def _checked(region: list[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> Iter
             if isinstance(there, sp.Ne) and decide_zero(there.lhs - there.rhs).answer == "zero":
                 raise _ContradictionError(f"{relation_text(relation)} is false")
             found[there] = None
-    if _is_empty(list(found)):
-        raise _ContradictionError("no values of the letters satisfy " + " and ".join(map(relation_text, found)))
+    inequalities = [r for r in found if not isinstance(r, sp.Ne)]
+    if is_infeasible(left, region(inequalities), small):
+        all_of_it = (*(f"{readable(str(e))} = 0" for e in left), *map(relation_text, inequalities))
+        near = f" near {', '.join(map(str, small))} = 0" if small else ""
+        raise _ContradictionError(f"no values of the letters satisfy {' and '.join(all_of_it)}{near}")
     yield from found
-
-
-def _is_empty(region: list[Relational]) -> bool:
-    """Whether linear conditions, and the letters' own, exclude each other: Fourier–Motzkin elimination."""
-    rows: list[tuple[sp.Expr, bool]] = []  # expressions that are positive (True) or nonnegative (False)
-    for relation in region:
-        if isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
-            rows.append(
-                (sp.expand(relation.gts - relation.lts), isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan))
-            )
-    letters = set().union(*(e.free_symbols for e, _ in rows)) if rows else set()
-    for letter in letters:
-        sign = 1 if letter.is_nonnegative else -1 if letter.is_nonpositive else 0
-        if sign:
-            rows.append((sign * letter, bool(letter.is_nonzero)))
-    for letter in sorted(letters, key=sp.default_sort_key):
-        with_it = [row for row in rows if row[0].has(letter)]
-        slopes = [sp.expand(e.diff(letter)) for e, _ in with_it]
-        rest = [row for row in rows if not row[0].has(letter)]
-        if not all(slope.is_Rational for slope in slopes):
-            rows = rest  # not linear: what it says is left out, so that less is found empty
-            continue
-        above = [(e / slope, strict) for (e, strict), slope in zip(with_it, slopes, strict=True) if slope > 0]
-        below = [(e / -slope, strict) for (e, strict), slope in zip(with_it, slopes, strict=True) if slope < 0]
-        rows = rest + [(sp.expand(a + b), s or z) for a, s in above for b, z in below]
-        if len(rows) > 200:
-            return False
-    return any(e.is_Rational and (e < 0 or (e == 0 and strict)) for e, strict in rows)
 
 
 def _as_assumption(relation: Any, small: tuple[sp.Symbol, ...]) -> tuple[sp.Symbol, sp.Expr] | None:

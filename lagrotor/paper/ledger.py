@@ -127,7 +127,7 @@ def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) 
             reason = f"trivial: under the premises ({'; '.join(p.with_formula for p in used)}) both sides are 0"
             return _verdict(relation, replace(finding, answer="undecided", reasons=(reason,)), (), glossary)
         return _verdict(relation, finding, used, glossary)
-    if whole.may_branch and (branch := _branch(relation, assumed, whole)):
+    if whole.may_branch and (branch := _branch(relation, assumed)):
         used, finding = _needed(relation, (*assumed, *branch), _under(relation, (*assumed, *branch)))
         return _verdict(relation, finding, used, glossary)
     return _verdict(relation, whole, (), glossary)
@@ -213,23 +213,14 @@ def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
     return bool(ratio.is_Rational and ratio != 0) and decide_equal(a, ratio * b).answer == "zero"
 
 
-def _branch(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[Premise, ...]:
-    """A condition on the sign of a letter, or of what stands between bars, under which a line holds."""
+def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:
+    """The conditions on the branch on which a line is proved under the premises."""
     under = hypotheses(assumed)
-    gap = under.on(relation.printed) - under.on(relation.derived)
-    sides = list(gap) if isinstance(gap, sp.MatrixBase) else [gap]
-    bars = {node.args[0] for side in sides for node in side.atoms(sp.Abs)}
-    bars |= {node.base.base for side in sides for node in side.atoms(sp.Pow) if _root_of_square(node)}
-    letters = {s for side in sides for s in side.free_symbols}
-    for e in sorted(bars | letters, key=lambda e: (e.is_Symbol, sp.default_sort_key(e))):
-        for condition in (e >= 0, e <= 0):
-            if condition in (sp.true, sp.false):
-                continue
-            premise = Premise(relation_text(condition), where=(condition,))
-            found = _under(relation, (*assumed, premise))
-            if found.answer in AGREES and not found.trivial and _has_room(condition, assumed):
-                return (premise,)
-    return ()
+    exact = decide_equal(under.on(relation.printed), under.on(relation.derived), under.inside)
+    branch = tuple(Premise(relation_text(condition), where=(condition,)) for condition in exact.branch)
+    found = _under(relation, (*assumed, *branch)) if branch else None
+    held = found is not None and found.answer in AGREES and not found.trivial
+    return branch if held and all(_has_room(condition, assumed) for condition in exact.branch) else ()
 
 
 def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
@@ -240,21 +231,16 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
     )
 
 
-def _root_of_square(node: sp.Pow) -> bool:
-    return bool(node.exp.is_Rational and node.exp.q == 2 and node.base.is_Pow and node.base.exp == 2)
-
-
 def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
     """What is decided of a relation under all of these premises."""
     under = hypotheses(premises, relation.small)
-    if under.contradiction:
-        return _Finding(
-            "undecided", reasons=(f"the premises contradict each other or their letters: {under.contradiction}",)
-        )
+    if under.signed.contradiction:
+        reason = f"the premises contradict each other or their letters: {under.signed.contradiction}"
+        return _Finding("undecided", reasons=(reason,))
     if isinstance(relation.printed, sp.MatrixBase) != isinstance(relation.derived, sp.MatrixBase):
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
-    printed, derived = (under.signed.refined(under.refined(side)) for side in (relation.printed, relation.derived))
+    printed, derived = (under.signed.on(side) for side in (relation.printed, relation.derived))
     if printed.has(*_SINGULAR) or derived.has(*_SINGULAR):
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if relation.within is not None and relation.known is not None:
@@ -265,7 +251,7 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
 
 
 def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
-    exact = decide_equal(printed, derived)
+    exact = decide_equal(printed, derived, under.signed.inside)
     factors = (f for f in exact.domain if not (f.is_positive or f.is_number))
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
@@ -284,7 +270,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if small is not None:
         return _to_order(relation, printed, derived, small, domain, under)
     place, gap = _where_apart(relation, under)
-    seen = witness(gap, under) if gap is not None else None
+    seen = witness(gap, under, principal=exact.answer == "nonzero") if gap is not None else None
     if seen is not None:
         return _Finding("refuted", None, None, domain, (), gap, place, seen, may_branch=exact.partly)
     value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"

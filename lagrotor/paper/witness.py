@@ -26,14 +26,21 @@ class Witness:
     enclosure: Bounds
 
 
-def witness(difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero) -> Witness | None:
-    """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found."""
+def witness(
+    difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
+) -> Witness | None:
+    """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found.
+
+    principal: whether values that are not real count, too; their absolute value is then enclosed.
+    """
     signed = under.signed
     e = signed.on(difference)
-    if _says_more(e, signed):
+    if signed.contradiction or _says_more(e, signed):
         return None
     for values in _points(e, signed):
         between = enclosure(e, values)
+        if between is None and principal:
+            between = enclosure(sp.Abs(e, evaluate=False), values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
             return Witness(_of_letters(difference, under, signed, values), between)
     return None

@@ -129,6 +129,13 @@ def test_of_the_premises_that_are_named_none_can_be_left_out(chosen: list, line:
         [sp.Eq(a**2 + b**2, -1)],
         [sp.Eq(a**2, 1), sp.Eq(a**2, 2)],
         [sp.Eq(m1, m2), sp.Ne(m1, m2)],
+        [sp.Eq(sp.sin(theta), 2)],
+        [sp.Eq(sp.sqrt(w), -1)],
+        [x * y > 0, x * y < 0],
+        [x > 0, y > 0, x * y < 0],
+        [sp.Eq(x**2 + x + 1, 0)],
+        [sp.cos(theta) > 0, theta > sp.pi / 2, theta < sp.pi],
+        [Premise("small z", small=z), sp.Eq(z, 3)],
     ],
 )
 def test_contradictory_premises_are_named_and_decide_nothing(premises: object) -> None:
@@ -136,6 +143,42 @@ def test_contradictory_premises_are_named_and_decide_nothing(premises: object) -
         decided = judge(*line, given=premises)
         assert decided.verdict == "undecided" and "contradict" in decided.evidence[0]
     assert judge(x, x, given=premises).verdict == "holds"
+
+
+@pytest.mark.parametrize(
+    "premises",
+    [
+        [sp.Eq(sp.sin(theta), sp.Rational(1, 2))],
+        [x * y > 0, x < 0],
+        [sp.Eq(x**2 + x - 1, 0)],
+        [sp.cos(theta) < 0, theta > sp.pi / 2, theta < sp.pi],
+        [x**3 < 0],
+    ],
+)
+def test_premises_that_can_hold_are_not_called_contradictory(premises: object) -> None:
+    assert "contradict" not in str(judge(a * z, a * z + 1, given=premises).evidence)
+
+
+REGIONS = [
+    (sp.sqrt(1 - sp.sin(x) ** 2), sp.cos(x), [x > -sp.pi / 2, x < sp.pi / 2]),
+    (sp.cos(z / 2), sp.sqrt((1 + x) / 2), [sp.Eq(z, sp.acos(x))]),
+    (x * y, sp.sqrt(2) * y, [sp.Eq(x**2, 2), x > 0]),
+    (x * z, y * z, [sp.Eq(x**2, y**2), x > 0, y > 0]),
+    (sp.acos(sp.cos(x)), 2 * sp.pi - x, [x >= sp.pi, x <= 2 * sp.pi]),
+    (y, z, [sp.Eq(x * y, x * z), x > 1]),
+    (sp.Abs(x * y), x * y, [x * y > 0]),
+]
+
+
+@pytest.mark.parametrize(("printed", "derived", "premises"), REGIONS)
+def test_a_line_that_is_true_in_a_region_holds_there_and_its_opposite_does_not(printed, derived, premises) -> None:
+    assert judge(printed, derived, given=premises).verdict == "holds-if"
+    assert judge(-printed, derived, given=premises).verdict == "refuted"
+
+
+def test_principal_values_refute_where_nothing_is_real() -> None:
+    assert judge(sp.log(x**2), 2 * sp.log(x), given=[x < 0]).verdict == "refuted"
+    assert judge(sp.log(x**2), 2 * sp.log(-x), given=[x < 0]).verdict == "holds-if"
 
 
 def test_premises_that_leave_no_domain_are_named() -> None:
