@@ -42,6 +42,7 @@ def markdown_html(text: str) -> str:
         return f"<pre>{escape(text)}</pre>"
     text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
     html: str = renderer.render(text)
+    html = html.replace('<div class="math block">', '<div class="wide">')  # drawn smaller or scrolled, as every formula
     for level in (3, 2, 1):  # below a heading of the page
         html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
