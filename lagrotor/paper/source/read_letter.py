@@ -26,7 +26,7 @@ def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
         return _exponential(reader, box), place + 1
     if box.name in ("i", "j", "imath") and not box.style and _is_imaginary(reader, row, place):
         return power_of(reader, Letter("imaginary_unit"), box), place + 1
-    if box.name == "pi" and not box.primes and not _may_call(row, place):
+    if box.name == "pi" and not box.primes and not (_may_call(row, place) and is_called(reader, box, row[place + 1])):
         return power_of(reader, Letter("pi"), box), place + 1
     return None
 
@@ -116,6 +116,9 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     if not given:
         raise FormulaError(bracket.at, "a function has no argument", "write it")
     named, raised = letter_of(reader, box)
+    if box.sub and not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
+        why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
+        raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
     name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())
     if tuple(given) == (Letter("t"),) and not (reader.notation.called.get(name, {"t"}) - {"t"}):
         node: Node = named

@@ -72,6 +72,7 @@ READ = {
     r"ds^2 = dx^2 + dy^2": "differential(s)**2 = differential(x)**2 + differential(y)**2",
     r"y = (2n)!! + n!": "y = double_factorial(2*n) + factorial(n)",
     r"y = |a||b|": "y = Abs(a)*Abs(b)",
+    r"y = 4\pi\left(\frac{m}{k}\right)^{3/2}": "y = 4*pi*(m/k)**(3/2)",
 }  # fmt: skip
 
 
@@ -133,6 +134,7 @@ OPEN = {
     r"y = S^{P}_{,t}": "whether P is a mark or a power",
     r"y = x^\mu + A_\mu": "whether mu is an upper index or a power",
     r"C = x + constant": "constant is a word",
+    r"\psi = Y_l^m(\theta, \phi)": "whether m is an upper index or a power",
     r"x^\mu = y": "whether mu is an upper index or a power",
     r"\partial_\mu J^\mu = 0": "whether mu is an upper index or a power",
     r"\partial_\mu F^{\mu\nu} = J^\nu": "whether nu is an upper index or a power",
