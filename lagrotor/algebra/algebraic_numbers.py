@@ -50,10 +50,10 @@ class _Bound:
 
     @property
     def degree(self) -> int:
-        found = prod(self.roots.values()) * int(sp.totient(self.turns))
-        if found > _MOST_BITS:
+        degree = prod(self.roots.values()) * int(sp.totient(self.turns))
+        if degree > _MOST_BITS:
             raise NotExactError("The degree is too large.")
-        return found
+        return degree
 
     def of(self, e: sp.Expr) -> tuple[float, float]:
         if e.is_Rational:

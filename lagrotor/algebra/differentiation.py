@@ -37,17 +37,17 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
     if e in known:
         return known[e]
     if e.is_Add:
-        found = sp.Add(*(_derivative(part, s, known) for part in e.args))
+        slope = sp.Add(*(_derivative(part, s, known) for part in e.args))
     elif e.is_Mul:
         slopes = [_derivative(part, s, known) for part in e.args]
-        found = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
+        slope = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
     elif e.is_Pow and e.exp.is_Number:
         d = _derivative(e.base, s, known)
-        found = d if d is sp.S.Zero else e * (d * e.exp / e.base)
+        slope = d if d is sp.S.Zero else e * (d * e.exp / e.base)
     elif isinstance(e, _FUNCTIONS) and len(e.args) == 1:
         d = _derivative(e.args[0], s, known)
-        found = d if d is sp.S.Zero else e.fdiff(1) * d
+        slope = d if d is sp.S.Zero else e.fdiff(1) * d
     else:
-        found = sp.diff(e, s)
-    known[e] = found
-    return found
+        slope = sp.diff(e, s)
+    known[e] = slope
+    return slope

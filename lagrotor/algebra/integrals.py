@@ -77,9 +77,9 @@ def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None
         return _at(expanded, t, end, where)
     if isinstance(rest, sp.atan | sp.erf | sp.tanh):
         slope = sp.expand(rest.args[0]).coeff(t)
-        found = signs(slope, where) or ANY
-        if not slope.has(t) and len(found) == 1 and sp.expand(rest.args[0] - slope * t).is_finite is not False:
-            [direction] = found
+        sign = signs(slope, where) or ANY
+        if not slope.has(t) and len(sign) == 1 and sp.expand(rest.args[0] - slope * t).is_finite is not False:
+            [direction] = sign
             return constant * side * direction * (sp.pi / 2 if isinstance(rest, sp.atan) else 1)
     return sp.S.Zero if _falls(rest, t, side, where) else None
 

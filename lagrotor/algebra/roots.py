@@ -123,16 +123,16 @@ def _content(square: PolyElement) -> int:
 
 def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> list[int]:
     """0 or 1 for the sign, then how often each number and each polynomial divides."""
-    content, found = _content(square), [int(square.LC < 0)]
+    content, exponents = _content(square), [int(square.LC < 0)]
     for number in numbers:
-        found.append(0)
+        exponents.append(0)
         while content % number == 0:
-            content, found[-1] = content // number, found[-1] + 1
+            content, exponents[-1] = content // number, exponents[-1] + 1
     for polynomial in polynomials:
-        found.append(0)
+        exponents.append(0)
         while not (division := square.div(polynomial))[1]:
-            square, found[-1] = division[0], found[-1] + 1
-    return found
+            square, exponents[-1] = division[0], exponents[-1] + 1
+    return exponents
 
 
 def _parity(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> int:

@@ -78,10 +78,10 @@ def value_of_series(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Regio
 
 def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
     """Whether an expression, linear in one sum to a natural n, is zero for all n: at the first, and with n at n + 1."""
-    found = expression.atoms(sp.Sum)
-    if len(found) != 1:
+    sums = expression.atoms(sp.Sum)
+    if len(sums) != 1:
         return False
-    [total] = found
+    [total] = sums
     body, (i, low, n), *others = total.args
     if others or not (n.is_Symbol and n.is_integer and low.is_Integer) or body.has(n):
         return False

@@ -40,8 +40,8 @@ class Audit:
     @property
     def counts(self) -> dict[str, int]:
         """How many equations have each verdict, the most frequent first, those not yet judged last."""
-        found = dict(Counter[str](verdict.verdict for verdict in self.verdicts).most_common())
-        return found | ({NOT_YET: len(self.waiting)} if self.waiting else {})
+        counts = dict(Counter[str](verdict.verdict for verdict in self.verdicts).most_common())
+        return counts | ({NOT_YET: len(self.waiting)} if self.waiting else {})
 
     def __repr__(self) -> str:
         return (

@@ -180,14 +180,14 @@ class Catalogue:
         given = self._equations_toml if name == "equations" else toml(file)
         if unknown := sorted(given.keys() - {key, "letters", "units"}):
             raise InputError(f"{file}: {unknown[0]!r} means nothing here: write [[{key}]]")
-        found: dict[Any, Row] = {}
+        rows: dict[Any, Row] = {}
         for each in given.get(key, []):
             where = f"{file}: {key} {each.get('id', each.get('number', '?')) if isinstance(each, dict) else '?'}"
             read: Row = row(kind, each, where)
-            if read.id in found:
+            if read.id in rows:
                 raise InputError(f"{where}: the id is given twice")
-            found[read.id] = read
-        return found
+            rows[read.id] = read
+        return rows
 
     def _problems(self) -> Iterator[str]:
         """What does not fit together, one sentence each."""
@@ -258,15 +258,15 @@ class Catalogue:
 
         Raises InputError for a name that the section does not have.
         """
-        names, found = self.letters(section).names, Glossary(self.glossary)
+        names, glossary = self.letters(section).names, Glossary(self.glossary)
         for unit, letters in self._equations_toml.get("units", {}).get(section, {}).items():
             for name in letters.split():
                 if name not in names:
                     raise InputError(
                         f"{self.folder / 'equations.toml'}: units: section {section} has no letter {name!r}"
                     )
-                found |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
-        return found
+                glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
+        return glossary
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
         """The printed lines of an equation as expressions. Raises InputError where one cannot be read."""

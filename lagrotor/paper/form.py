@@ -81,14 +81,14 @@ def _name(name: str, kind: Any) -> str:
     if name.startswith("Delta_"):
         return rf"\Delta {name[6:]}"
     stem, hat = (name[4:], True) if name.startswith("hat_") else (name, False)
-    found = re.fullmatch(r"([A-Za-z]+)((?:_[A-Za-z0-9]+)*?)(_d?dot)?", stem)
-    if found is None:
+    parts = re.fullmatch(r"([A-Za-z]+)((?:_[A-Za-z0-9]+)*?)(_d?dot)?", stem)
+    if parts is None:
         raise InputError(f"form: {name!r} is not a letter with an index")
-    letter = sp.latex(sp.Symbol(found[1]))
+    letter = sp.latex(sp.Symbol(parts[1]))
     if hat or (isinstance(kind, sp.MatrixBase) and kind.shape == (3, 1)):
         letter = rf"\{'hat' if hat else 'vec'}{{{letter}}}"
-    letter = rf"\{found[3][1:]}{{{letter}}}" if found[3] else letter
-    return letter + (f"_{{{found[2][1:].replace('_', ',')}}}" if found[2] else "")
+    letter = rf"\{parts[3][1:]}{{{letter}}}" if parts[3] else letter
+    return letter + (f"_{{{parts[2][1:].replace('_', ',')}}}" if parts[2] else "")
 
 
 def _bracketed(printer: Any, part: Any) -> str:

@@ -95,18 +95,18 @@ def declared(letters: Mapping[str, str]) -> dict[str, Any]:
     Kinds: "vector", (3, 1); "symmetric", a symmetric matrix (3, 3); or an assumption of sympy's, such as "real" or
     "positive". Raises InputError for another kind.
     """
-    found: dict[str, Any] = {}
+    symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():
             if kind == "vector":
-                found[name] = vector(name)
+                symbols[name] = vector(name)
             elif kind == "symmetric":
-                found[name] = symmetric(name)
+                symbols[name] = symmetric(name)
             elif kind in ("real", "positive", "nonnegative"):
-                found[name] = sp.Symbol(name, **{kind: True})
+                symbols[name] = sp.Symbol(name, **{kind: True})
             else:
                 raise InputError(f"letters: {kind!r} is not a kind of letter: vector, symmetric, real, positive")
-    return found
+    return symbols
 
 
 def read(text: str, letters: Mapping[str, Any], where: str) -> Any:

@@ -94,8 +94,8 @@ class Paper(Catalogue):
 
     def derived_in(self, identifier: str) -> str | None:
         """The script that derives an equation, derivations/….py; None where none does."""
-        found = self.scripts.stating.get(identifier)
-        return f"derivations/{found[0]}.py" if found else None
+        place = self.scripts.stating.get(identifier)
+        return f"derivations/{place[0]}.py" if place else None
 
     def stated(self, stem: str) -> list[Stated]:
         """What one derivation states of the paper's equations."""
@@ -103,14 +103,14 @@ class Paper(Catalogue):
 
     def statements(self, stem: str) -> list[Statement]:
         """What one derivation states, beside the print. Raises InputError with file and line where it does not fit."""
-        found = []
+        statements = []
         for each in self.stated(stem):
             try:
-                found.append(self.statement(each))
+                statements.append(self.statement(each))
             except InputError as error:
                 _, line = self.scripts.stating.get(each.id, (stem, 1))
                 raise InputError(f"{self.scripts.path('derivations', stem)}:{line}: {error}") from None
-        return found
+        return statements
 
     def statement(self, stated: Stated) -> Statement:
         """What a derivation states, beside the print. Raises InputError where it does not fit the paper."""
@@ -121,9 +121,9 @@ class Paper(Catalogue):
         if progress:
             progress(stem)
         began = time.perf_counter()
-        found = self.statements(stem)
-        share = (time.perf_counter() - began) / max(len(found), 1)
-        verdicts = [self._would_be(self._decided(each)) for each in found]
+        statements = self.statements(stem)
+        share = (time.perf_counter() - began) / max(len(statements), 1)
+        verdicts = [self._would_be(self._decided(each)) for each in statements]
         return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
 
     def _decided(self, statement: Statement) -> Verdict:
@@ -189,14 +189,14 @@ class Paper(Catalogue):
         """
         if not self.claims:
             return {}
-        found: dict[str, ClaimTest] = {}
+        tests: dict[str, ClaimTest] = {}
         for stem in self.scripts.names("derivations", self.about.claims_in):
             for test in self.scripts.executed("derivations", stem).shown(ClaimTest):
-                if test.id not in self.claims or test.id in found:
-                    wrong = "is tested twice" if test.id in found else "is not in claims.toml"
+                if test.id not in self.claims or test.id in tests:
+                    wrong = "is tested twice" if test.id in tests else "is not in claims.toml"
                     raise InputError(f"{self.scripts.path('derivations', stem)}: claim {test.id} {wrong}")
-                found[test.id] = test
-        return {identifier: found[identifier] for identifier in self.claims if identifier in found}
+                tests[test.id] = test
+        return {identifier: tests[identifier] for identifier in self.claims if identifier in tests}
 
     def measured(self, identifier: str) -> Result:
         """One claim after its test."""

@@ -70,8 +70,8 @@ class Scripts:
 
     def names(self, kind: Kind, prefix: str = "") -> list[str]:
         """Stems of the scripts in a folder that begin with `prefix`, in order, t2 before t10."""
-        found = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
-        return sorted(found, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
+        stems = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
+        return sorted(stems, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
 
     def executed(self, kind: Kind, stem: str) -> Script:
         """Run one script, once. Raises ScriptError with the file and the line where it fails."""
@@ -116,14 +116,14 @@ class Scripts:
 
         Raises InputError where two verdicts are on one equation.
         """
-        found: dict[str, tuple[str, int]] = {}
+        places: dict[str, tuple[str, int]] = {}
         for stem in self.names("derivations"):
             for identifier, line in verdicts_in(self.path("derivations", stem)):
-                if identifier in found:
-                    first = "{}.py:{}".format(*found[identifier])
+                if identifier in places:
+                    first = "{}.py:{}".format(*places[identifier])
                     raise InputError(f"{stem}.py:{line}: a verdict on {identifier} is in {first} already")
-                found[identifier] = stem, line
-        return found
+                places[identifier] = stem, line
+        return places
 
 
 class _Elsewhere(dict[str, Any]):
@@ -139,14 +139,14 @@ class _Elsewhere(dict[str, Any]):
 
 def verdicts_in(path: Path) -> list[tuple[str, int]]:
     """(equation's id, line) of each verdict that a derivation states. Raises ScriptError where it is no Python."""
-    found = []
+    calls = []
     tree = _tree(path) if "verdict(" in path.read_text(encoding="utf-8") else ast.Module([], [])
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "verdict" and node.args:
             first = node.args[0]
             if isinstance(first, ast.Constant) and isinstance(first.value, str):
-                found.append((first.value, node.lineno))
-    return found
+                calls.append((first.value, node.lineno))
+    return calls
 
 
 def _tree(path: Path) -> ast.Module:

@@ -203,7 +203,7 @@ def _forms(
     entry: Equation, lines: tuple[Line, ...], quantities: Mapping[str, Side], stated: Stated, letters: Letters
 ) -> dict[str, dict[str, Any]]:
     """quantity → its form in LaTeX, each decided to be what was derived, in general or under the premises."""
-    found: dict[str, dict[str, Any]] = {}
+    forms: dict[str, dict[str, Any]] = {}
     for name, given in _named(stated.written, entry).items():
         if name not in quantities:
             raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
@@ -212,8 +212,8 @@ def _forms(
         if granted is None:
             raise ProofError(f"verdict: {entry.id}: {name} = {given.text} is not what was derived")
         tex = _tex(given, name, _known(stated.derived, entry), letters)
-        found[name] = {"written": tex, "granted": granted}
-    return found
+        forms[name] = {"written": tex, "granted": granted}
+    return forms
 
 
 def _tex(given: Form, name: str, known: Mapping[str, tuple[sp.Symbol, int]], letters: Letters) -> str:

@@ -112,13 +112,13 @@ def uncorrected(verdict: Verdict) -> list[Relation]:
 
 def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
     """quantity = expression for each relation, in plain text."""
-    found = []
+    lines = []
     for relation in relations:
         small, order = relation.known or (relation.small, relation.claimed)
         rest = f" + O({small}**{order + 1})" if small is not None else ""
         right = from_latex(relation.written) if relation.written else readable(str(getattr(relation, side)) + rest)
-        found.append(f"{from_latex(relation.quantity)} = {right}")
-    return list(dict.fromkeys(found))
+        lines.append(f"{from_latex(relation.quantity)} = {right}")
+    return list(dict.fromkeys(lines))
 
 
 def _sides(relations: tuple[Relation, ...], side: str) -> str | None:

@@ -75,21 +75,21 @@ def measure_c15(case: Ansatz) -> dict[str, float]:
 
     Where the deviation of the azimuths vanishes with r₀, the amplitude at which it is WITHIN is found by two secant steps.
     """
-    found: dict[str, float] = {}
+    measured: dict[str, float] = {}
     what = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
     for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
         seen = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
         for k, quantity in enumerate(what):
-            found[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = seen[-1, k]
-            found[f"order_of_{quantity}_relative_{name}"] = measured_order(AMPLITUDES, np.maximum(seen[:, k], 1e-15))
-        if found[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
+            measured[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = seen[-1, k]
+            measured[f"order_of_{quantity}_relative_{name}"] = measured_order(AMPLITUDES, np.maximum(seen[:, k], 1e-15))
+        if measured[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
             r0, off = AMPLITUDES[0], seen[0]
             for _ in range(2):
                 r0 *= WITHIN / off[0]
                 off = np.array(deviations(once_round(case.spins, r0, bar)))
-            found[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] = r0
-            found |= {f"{quantity}_relative_there_{name}": off[k] for k, quantity in enumerate(what)}
-    return found | {"drift_of_B_relative": _drift_of_b(case.spins, case.I2_over_I1)}
+            measured[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] = r0
+            measured |= {f"{quantity}_relative_there_{name}": off[k] for k, quantity in enumerate(what)}
+    return measured | {"drift_of_B_relative": _drift_of_b(case.spins, case.I2_over_I1)}
 
 
 def _small(m: Mapping[str, float], quantity: str) -> Part:

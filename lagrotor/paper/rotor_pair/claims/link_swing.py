@@ -94,7 +94,7 @@ def measure_c17(spins: Spins) -> dict[str, float]:
 
     Opposite spins on their orbit; any other spins by how fast both axes go round the vertical.
     """
-    found, changes = {}, []
+    measured, changes = {}, []
     for r0 in AMPLITUDES:
         scene, rate = precession_scene(spins, r0, MASSLESS)
         constant = abs(scene.momenta[0]) / (scene.rotor.J * (1 - r0**2) ** 0.5)
@@ -102,8 +102,8 @@ def measure_c17(spins: Spins) -> dict[str, float]:
             run = simulate(scene, np.linspace(0, 5, 101), "minimal", 1e-11)
             rate = abs(run.azimuths[0, -1] - run.azimuths[0, 0]) / 5
         changes.append(rate / constant - 1)
-        found[f"rate_over_constant_inclination_r0_{r0}"] = rate / constant
-    return found | {
+        measured[f"rate_over_constant_inclination_r0_{r0}"] = rate / constant
+    return measured | {
         "change_over_r0_squared": changes[0] / AMPLITUDES[0] ** 2,
         "order_of_change": measured_order(AMPLITUDES, np.maximum(np.abs(changes), 1e-15)),
         f"rate_over_natural_r0_{PAPER_R0}": rate * scene.rotor.J / abs(scene.momenta[0]),

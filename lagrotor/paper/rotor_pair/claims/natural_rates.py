@@ -138,15 +138,15 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
 
 def measure_c22(spins: Spins) -> dict[str, float]:
     """For each bar, over three cycles of 5.7: the rate, and for how many cycles a wave of 5.7 keeps within a quarter."""
-    found = {}
+    measured = {}
     for name, bar in BARS.items():
         for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
             rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
-            found[f"rate_after_{shock}_{name}"] = rate
+            measured[f"rate_after_{shock}_{name}"] = rate
             off = max(abs(rate - OPPOSITE_RATE), 1e-12)
-            found[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
+            measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
     J, G = Scene(spins).rotor.J, spins[0]
-    return found | {
+    return measured | {
         "rate_springs_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
         "inertia_that_mass_1_needs_kg_m2": ((G / OPPOSITE_RATE) ** 2 / (J + 0.5) - J) / 2,
         "rate_of_equal_spins_m_1": abs(G) / (J + 0.5),

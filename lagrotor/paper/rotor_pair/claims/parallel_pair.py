@@ -54,7 +54,7 @@ def measure_c01(spins: Spins) -> dict[str, float]:
     sense = turning.mean(1) / (off**2).sum(-1).mean(1)
     across = _shocked(spins, _ACROSS, 12.0)
     parted = angle_between(across.axes)
-    found = {
+    measured = {
         "displacement_by_equation_7": shock_of(run.scene).impulse[0] / (abs(spins[0]) + abs(spins[1])),
         "angle_of_axes_shock_along_bar_rad": angle_between(run.axes).max(),
         "angle_of_axes_shock_across_bar_rad": parted.max(),
@@ -62,13 +62,13 @@ def measure_c01(spins: Spins) -> dict[str, float]:
         - shock_of(across.scene).at,
     }
     for i in (0, 1):
-        found |= {
+        measured |= {
             f"precession_{i + 1}_rad_per_s": sense[i],
             f"displacement_{i + 1}_first_cycles": first[i, 1],
             f"displacement_{i + 1}_last_cycles": last[i, 1],
             f"swing_{i + 1}_about_the_displaced_position": np.ptp(run.axes[i, :, 1]) / 2,
         }
-    return found
+    return measured
 
 
 def decide_c01(m: Mapping[str, float]) -> Finding:

@@ -67,11 +67,13 @@ def _after_shock(spins: Spins, bar: Link) -> float:
 
 def measure_c23(spins: Spins) -> dict[str, float]:
     """c for four bars on orbits, for three after a shock, and for equal spins."""
-    found = {f"coefficient_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
+    measured = {f"coefficient_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
     for name, bar in ({"massless": MASSLESS} | BARS).items():
-        found[f"coefficient_{name}"], found[f"order_{name}"] = coefficient(spins, bar)
-    found["coefficient_equal_spins_m_1_K_1"], found["order_equal_spins_m_1_K_1"] = coefficient(EQUAL, BARS["m_1_K_1"])
-    return found
+        measured[f"coefficient_{name}"], measured[f"order_{name}"] = coefficient(spins, bar)
+    measured["coefficient_equal_spins_m_1_K_1"], measured["order_equal_spins_m_1_K_1"] = coefficient(
+        EQUAL, BARS["m_1_K_1"]
+    )
+    return measured
 
 
 def decide_c23(m: Mapping[str, float]) -> Finding:

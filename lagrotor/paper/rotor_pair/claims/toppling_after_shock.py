@@ -51,7 +51,7 @@ def measure_c10(spins: Spins) -> dict[str, float]:
     along, across = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
     in_xz = np.unwrap(np.arctan2(along.axes[..., 0], along.axes[..., 2]))
     rate = abs(np.polyfit(along.t, in_xz[0], 1)[0])
-    found = {
+    measured = {
         "shock_along_x_tilt_after_2.7_s_deg": _tilt(along.axes),
         "shock_along_x_turned_in_XZ_rad": abs(in_xz[:, -1]).max(),
         "shock_along_x_rate_in_XZ_rad_per_s": rate,
@@ -60,7 +60,11 @@ def measure_c10(spins: Spins) -> dict[str, float]:
         "shock_along_y_turned_about_joint_line_rad": abs(turned_about_joint_line(across.axes)[-1]),
         "rate_by_closed_form_rad_per_s": shock_of(scene).impulse[0] / (2 * sum(scene.inertias)),
     }
-    return found if found["shock_along_x_tilt_after_2.7_s_deg"] < TILTED else found | _past_dead_point(pi / 2 / rate)
+    return (
+        measured
+        if measured["shock_along_x_tilt_after_2.7_s_deg"] < TILTED
+        else measured | _past_dead_point(pi / 2 / rate)
+    )
 
 
 def _past_dead_point(dead: float) -> dict[str, float]:
@@ -72,7 +76,7 @@ def _past_dead_point(dead: float) -> dict[str, float]:
     exact = after_shock(beside, PAPER_RUN)
     t = np.linspace(exact.t[0], shock_of(beside).at + dead + 2, 101)
     soon = angle_between(exact.axes[:, exact.t <= t[-1]]).max()
-    found = {
+    measured = {
         "dead_point_after_s": dead,
         "side_1_N_tilt_deg": _tilt(exact.axes),
         "side_1_N_axes_part_by_deg": np.degrees(soon),
@@ -80,9 +84,9 @@ def _past_dead_point(dead: float) -> dict[str, float]:
     }
     for name, S in SPRINGS.items():
         run = run_solver(paper_system(beside, S, DAMPING * (S / STIFFNESS) ** 0.5), beside.shock, np.append(0, t), 1e-5)
-        found[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
-        found[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
-    return found
+        measured[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
+        measured[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
+    return measured
 
 
 def decide_c10(m: Mapping[str, float]) -> Finding:
@@ -146,23 +150,23 @@ def _fall_of_springs(spins: Spins, force: Vector, seconds: float) -> float:
 
 def measure_c11(spins: Spins) -> dict[str, float]:
     """For each of the paper's shocks: largest x and turning within its 8 s, when x has fallen; powers of other shocks."""
-    found: dict[str, float] = {}
+    measured: dict[str, float] = {}
     falls = {name: fall(spins, force, WATCHED) for name, force in PAPER_SHOCKS.items()}
     for name, force in PAPER_SHOCKS.items():
         early = after_shock(shocked_scene(spins, force), min(PAPER_RUN, falls[name]))
         turned = turned_about_joint_line(early.axes)
         when = "not_fallen_within_s" if falls[name] == inf else "fallen_in_x_after_s"
-        found |= {
+        measured |= {
             f"{when}_{name}": min(falls[name], WATCHED),
             f"largest_x_{name}": abs(early.axes[..., 0]).max(),
             f"turned_about_joint_line_rad_{name}": turned[-1],
             f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, turned, 1)[0],
         }
     rate = natural_rate(Scene(spins, link=HEAVY_LINK))
-    found["period_of_the_natural_rate_s"] = 2 * pi / rate if rate else PAPER_RUN  # without swing, the whole run
+    measured["period_of_the_natural_rate_s"] = 2 * pi / rate if rate else PAPER_RUN  # without swing, the whole run
     if min(falls.values()) < PAPER_RUN or falls["-y"] == inf:
-        return found
-    return found | _powers(spins, falls["+x"], falls["-y"])
+        return measured
+    return measured | _powers(spins, falls["+x"], falls["-y"])
 
 
 def _powers(spins: Spins, plus_x: float, minus_y: float) -> dict[str, float]:

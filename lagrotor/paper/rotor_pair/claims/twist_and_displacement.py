@@ -44,18 +44,18 @@ def measure_c12(case: Twistable) -> dict[str, float]:
     line through the grounds.
     """
     unspun = abs(after_shock(shocked_scene((0, 0), (50, 0, 0)), 2.4).axes[..., 0]).max()
-    found = {f"inertia_kg_m2_stiffer_{i}": K for i, K in enumerate(case.stiffer, 1)}
+    measured = {f"inertia_kg_m2_stiffer_{i}": K for i, K in enumerate(case.stiffer, 1)}
     for name, inertia in (("own", case.K), *((f"stiffer_{i}", K) for i, K in enumerate(case.stiffer, 1))):
         scene = shocked_scene(OPPOSITE, (50, 0, 0), Link(mass=1, inertia=inertia))
         run = after_shock(scene, 2.4)
         bar = (run.tips[1] - run.tips[0]) / HEAVY_LINK.length
-        found |= {
+        measured |= {
             f"largest_x_over_unspun_{name}": abs(run.axes[..., 0]).max() / unspun,
             f"largest_angle_of_axes_rad_{name}": angle_between(run.axes).max(),
             f"largest_twist_of_bar_rad_{name}": abs(np.arctan2(bar[:, 1], bar[:, 0])).max(),
         }
     whole = after_shock(shocked_scene(OPPOSITE, (50, 0, 0), Link(mass=1, inertia=case.K)), PAPER_RUN)
-    return found | {"largest_angle_of_axes_rad_8_s": angle_between(whole.axes).max()}
+    return measured | {"largest_angle_of_axes_rad_8_s": angle_between(whole.axes).max()}
 
 
 def decide_c12(m: Mapping[str, float]) -> Finding:
