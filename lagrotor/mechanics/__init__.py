@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
     from lagrotor.mechanics.running.programs import motion_program as motion_program
     from lagrotor.mechanics.running.simulation import SystemRun as SystemRun
+    from lagrotor.mechanics.running.state_space import StateSpace as StateSpace
     from lagrotor.mechanics.running.switches import Event as Event
     from lagrotor.mechanics.running.switches import Impact as Impact
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral

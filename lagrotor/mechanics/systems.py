@@ -1,18 +1,21 @@
 """A mechanical system, and what can be derived from it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, overload
 
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equilibria import Equilibrium
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.simulation import SystemRun
+    from lagrotor.mechanics.running.state_space import StateSpace
     from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
 
@@ -39,9 +42,45 @@ class System(Equations):
     conserved = symmetry.conserved
     routh = symmetry.routh
     equilibria = equilibria.equilibria
-    linearise = linear_modes.linearise
     same_as = sameness.same_as
     in_coordinates = sameness.in_coordinates
+
+    @overload
+    def linearise(self, at: "Mapping[Any, Any] | Equilibrium") -> "linear_modes.LinearSystem": ...
+
+    @overload
+    def linearise(
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
+        values: "Values",
+        inputs: Sequence[sp.Symbol] = (),
+        outputs: Sequence[sp.Expr] = (),
+    ) -> "StateSpace": ...
+
+    def linearise(
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
+        values: "Values | None" = None,
+        inputs: Sequence[sp.Symbol] = (),
+        outputs: Sequence[sp.Expr] = (),
+    ) -> "linear_modes.LinearSystem | StateSpace":
+        """Small motion about an equilibrium or a steady motion, the coordinates and velocities `at` it.
+
+        Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`. With values of the parameters: the
+        numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u, also where bodies roll, for inputs u, parameters
+        (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
+
+        Raises SingularError where accelerations are left, ConstraintError off the constraints, InputError where the
+        coefficients change with time.
+        """
+        if values is None:
+            if inputs or outputs:
+                raise InputError("linearise: inputs and outputs are of numbers: give values={symbol: number, …}")
+            return linear_modes.linearise(self, at)
+        from lagrotor.mechanics.running import state_space
+
+        point = at.at if isinstance(at, Equilibrium) else at
+        return state_space.state_space(self, point, values, inputs, outputs)
 
     def consistent(self, values: "Values", q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.

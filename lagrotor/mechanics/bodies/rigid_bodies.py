@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, vector_of
@@ -88,10 +89,11 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
         place = sp.Matrix(list(centre))
     except (TypeError, ValueError):
         raise InputError(f"body: inertia = {inertia!r}, centre = {centre!r}: give (I1, I2, I3) and (x, y, z)") from None
-    if I.shape != (3, 3) or not I.is_symmetric(simplify=False) or place.shape != (3, 1):
+    if I.shape != (3, 3) or place.shape != (3, 1) or decide_equal(I, I.T).answer == "nonzero":
         raise InputError(
             f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
         )
+    I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric as written, too
     m = expression("body: mass", mass)
     if used := (m.free_symbols | I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v, t}:
         raise InputError(

@@ -1,0 +1,180 @@
+"""Small motion about an equilibrium or a steady motion in numbers: x' = A x + B u, y = C x + D u, under any constraints.
+
+With the motion s' = f(s, u) of the state s = (q, v), and the constraints Φ(s) = (g, G v + b) = 0, small displacements are
+δs = T x, T a basis of the null space of ∂Φ/∂s in which the independent states x are their own names. Then A = ∂f/∂s T and
+B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
+
+Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what rolls.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import by_symbol, expression
+from lagrotor.mechanics.running.admission import check_values
+from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.programs import (
+    Generated,
+    depends_on_time,
+    function_program,
+    motion_program,
+    parameter_values,
+)
+from lagrotor.mechanics.running.starts import consistent
+
+_STEP = 1e-30  # of the complex step, whose square is below all rounding
+_STEADY, _SAME, _OFF = 1e-8, 1e-7, 1e-7  # relative: accelerations left, a matrix that stays, a point on the constraints
+_DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
+_NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    """x' = A x + B u, y = C x + D u for small x: displacements of `states`, symbols of coordinates and velocities.
+
+    rates: the eigenvalues of A, 1/s, sorted by their real parts, the greatest first; those of coordinates on which nothing
+    depends are zero.
+    """
+
+    states: tuple[sp.Symbol, ...]
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+    @property
+    def rates(self) -> NDArray[np.complex128]:
+        """The eigenvalues of A, (n,)."""
+        found = np.linalg.eigvals(self.A).astype(complex)
+        return found[np.lexsort((found.imag, -found.real))]
+
+
+def state_space(
+    system: Equations,
+    at: Mapping[Any, Any],
+    values: Values,
+    inputs: Sequence[sp.Symbol] = (),
+    outputs: Sequence[sp.Expr] = (),
+) -> StateSpace:
+    """The linear system about a point at which all accelerations vanish: see `linear_modes.linearise`."""
+    wanted = tuple(expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs))
+    known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
+    check_values("linearise", system, known, wanted)
+    if depends_on_time(system):
+        raise InputError("linearise: the motion depends on time explicitly: there is no steady motion; simulate it")
+    start = _start(system, at, known)
+    motion = _slope(motion_program(system), known, inputs)
+    rate, J, B = motion(start)
+    n = len(system.c.q)
+    size = max(1.0, float(np.abs(start).max()))
+    if not np.isfinite(J).all():
+        raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
+    if np.abs(rate[n:]).max() > _STEADY * size * max(1.0, float(np.abs(J).max())):
+        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(system.c.a, rate[n:], strict=True) if abs(x) > _STEADY * size)
+        raise SingularError(f"linearise: {dict(at)} is no steady motion: {left} is left over; start from one")
+    later = start + np.concatenate([start[n:], np.zeros(n)]) / size
+    if np.abs(motion(later)[1] - J).max() > _SAME * max(1.0, float(np.abs(J).max())):
+        raise InputError(
+            "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
+            "turn along with the motion"
+        )
+    free, T = _tangent(system, known, start)
+    _, C, D = _slope(function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
+    states = tuple(s for s, own in zip((*system.c.q, *system.c.v), free, strict=True) if own)
+    return StateSpace(states, J[free] @ T, B[free], C[:, : 2 * n] @ T, D)
+
+
+def _start(system: Equations, at: Mapping[Any, Any], values: Values) -> Array:
+    """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
+    c = system.c
+    point = by_symbol(at, (*c.q, *c.v))
+    program = motion_program(system).program
+    used = set().union(*(e.free_symbols for _, e in program.stages), *(e.free_symbols for e in program.outputs))
+    moving = dict(zip(c.q, program.arguments, strict=False))  # a letter may have another name in a program
+    if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
+        raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
+    if strangers := [str(s) for s in point if s not in {*c.q, *c.v}]:
+        raise InputError(
+            f"linearise: {', '.join(strangers)} in the point: it gives coordinates and velocities; others are values"
+        )
+    given = [point.get(s, 0) for s in (*c.q, *c.v)]
+    letters = by_symbol(values, {s for e in map(sp.sympify, given) for s in e.free_symbols})
+    try:
+        start = np.array([float(sp.sympify(e).subs(letters)) for e in given])
+    except (TypeError, ValueError):
+        raise InputError(f"linearise: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
+    if system.multipliers:
+        n = len(c.q)
+        near = np.concatenate(consistent(system, values, start[:n], start[n:]))
+        if np.abs(near - start).max() > _OFF * (1 + np.abs(start).max()):
+            shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *c.v), near, strict=True) if x)
+            raise ConstraintError(
+                f"linearise: the point is off the constraints; the nearest on them is {shown or 'zero'}"
+            )
+        start = near
+    return start
+
+
+def _slope(
+    given: Generated, values: Values, inputs: Sequence[sp.Symbol]
+) -> Callable[[Array], tuple[Array, Array, Array]]:
+    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
+    program = given.program
+    jumping = set().union(*(e.atoms(*_NOT_ANALYTIC) for e in (*(e for _, e in program.stages), *program.outputs)))
+    if jumping:
+        raise InputError(
+            f"linearise: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
+        )
+    numbers, d = np.array(parameter_values(given, values, "linearise")), len(given.states)
+    names = [str(s) for s in (*given.states, *given.parameters)]
+
+    def slope(state: Array) -> tuple[Array, Array, Array]:
+        at = np.concatenate([state, numbers]).astype(complex)
+        moved = at[:, None] + 1j * _STEP * np.eye(len(at))
+        with np.errstate(all="ignore"):
+            rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved)]
+        found = np.array(rows, complex).reshape(len(rows), len(at))
+        by = found.imag / _STEP
+        own = [names.index(str(s)) if str(s) in names else None for s in inputs]
+        pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in own]
+        return found[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
+
+    return slope
+
+
+def _tangent(system: Equations, values: Values, state: Array) -> tuple[NDArray[np.bool_], Array]:
+    """Which of the states are independent, and T (2 N, free) that gives all of them."""
+    d = len(state)
+    if not system.multipliers:
+        return np.ones(d, bool), np.eye(d)
+    from scipy.linalg import qr
+
+    n, h = d // 2, len(system.constraints)
+    bound = function_program(system, *system.constraints, *system.residual)
+    slope = _slope(bound, values, ())(np.append(state, 0.0))[1][:, :d]
+    held = np.zeros(0, int)
+    for rows, first in (
+        (slope[:h, :n], 0),
+        (slope[h:, n:], n),
+    ):  # coordinates, then velocities, are given by the others
+        if len(rows):
+            _, triangle, order = qr(rows, pivoting=True)
+            diagonal = np.abs(np.diag(triangle))
+            if len(diagonal) < len(rows) or diagonal.min() < _DEPENDENT * diagonal.max():
+                raise SingularError(
+                    "linearise: the constraints are dependent there: leave out what follows from the others"
+                )
+            held = np.append(held, first + order[: len(rows)])
+    free = np.ones(d, bool)
+    free[held] = False
+    T = np.zeros((d, int(free.sum())))
+    T[free] = np.eye(T.shape[1])
+    T[held] = -np.linalg.solve(slope[:, held], slope[:, free])
+    return free, T
