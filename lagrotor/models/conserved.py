@@ -4,6 +4,7 @@ A run that does not keep them within what its error estimate allows is not the p
 """
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -76,7 +77,8 @@ def _conserved(scene: Scene, seen: Observed) -> Conserved:
 def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
     """The error of axes and rates that would explain how far a run at times t (n,) is from conserving what it must.
 
-    The scene is in natural units; `nodes`, where there is a shock, are among the times.
+    The scene is in natural units; `nodes`, where there is a shock, are among the times. Without them its work is not known, and
+    what comes after it is held to the first state after it.
     """
     found = _conserved(scene, seen)
     lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
@@ -85,20 +87,20 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
         bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
         lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
     defects = [float(np.abs(part).max()) for part in lengths]
-    work, turn, outside = (0.0, 0.0), (0.0, 0.0), np.ones(len(t), bool)
+    before, after = np.ones(len(t), bool), np.zeros(len(t), bool)
+    work, turn = (0.0, 0.0), (0.0, 0.0)
     if scene.shock:
-        if nodes is None:
-            return max(defects)
+        before, after = t <= max(scene.shock.begin, t[0]), t >= min(scene.shock.end, nodes.end if nodes else inf)
+    if nodes:
         work, turn = _received(scene, t, seen, nodes)
-        outside = (t <= nodes.begin) | (t >= nodes.end)
-    after = t >= nodes.end if nodes else np.zeros(len(t), bool)
     for values, (received, unsure), scale in (
         (found.energy, work, found.energy_scale),
         (found.momentum, turn, found.momentum_scale),
     ):
-        off = np.abs(values - values[0] - received * after) - unsure * after
         if scale > 0:
-            defects.append(float(off[outside].max()) / scale)
+            off = np.abs(values[before] - values[0])
+            later = values[after] - (values[0] + received if nodes else values[after][:1])
+            defects += [float(part.max(initial=0.0)) / scale for part in (off, np.abs(later) - unsure)]
     return max(defects)
 
 

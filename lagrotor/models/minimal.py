@@ -6,7 +6,7 @@ Exact for any bar and any k = ell / R. Singular only where an axis lies along th
 from __future__ import annotations
 
 from itertools import product
-from math import asin, atan2, atanh, cosh, hypot, sin, sinh
+from math import asin, asinh, atan2, cosh, hypot, sin, sinh
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,7 +80,7 @@ def _start(scene: Scene) -> Array:
         radius = hypot(r[1], r[2])
         if radius < 1e-6:
             raise SingularError(f"minimal: axis {i + 1} lies along the joint line, r = {r}; use model='spheres'")
-        u.append(atanh(r[0] / hypot(*r)))
+        u.append(asinh(r[0] / radius))
         alpha.append(atan2(-r[1], r[2]))
         u_v.append(v[0] / radius**2)
         alpha_v.append((r[1] * v[2] - r[2] * v[1]) / radius**2)

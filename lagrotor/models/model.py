@@ -170,7 +170,7 @@ def integrate_model(
     Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
     also where the model is badly conditioned, InputError without heyoka.
     """
-    problem = problem_of(model, scene, bounded, start, budget, companion and engine == "core")
+    problem = problem_of(model, scene, bounded, start, budget, companion)
     if engine == "core":
         return integrate(problem, times, local)
     from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_solver

@@ -37,6 +37,15 @@ class Ending:
     at: float = inf
     reason: str = ""
 
+    def __post_init__(self) -> None:
+        if (
+            self.kind not in _SAYS
+            or not isinstance(self.at, float)
+            or self.at != self.at
+            or type(self.reason) is not str
+        ):
+            raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is none")
+
     @property
     def early(self) -> bool:
         """Whether the run ended before its last time."""
@@ -195,7 +204,7 @@ def read_run(path: str | Path) -> Saved:
         t, errors = arrays.pop("t"), arrays.pop("errors")
         horizon, evaluations, ending = (about.pop(name) for name in ("horizon", "evaluations", "ending"))
         end = Ending(**ending)
-    except (KeyError, TypeError) as refusal:
+    except (KeyError, TypeError, InputError) as refusal:
         raise InputError(f"load: {path} is no run saved as .npz ({refusal}): give a file that `save` wrote") from None
     wrong = None
     if t.ndim != 1 or not len(t) or errors.shape != t.shape:
@@ -204,8 +213,8 @@ def read_run(path: str | Path) -> Saved:
         wrong = "its times do not increase"
     elif type(evaluations) is not int or evaluations < 0:
         wrong = "its number of evaluations is none"
-    elif type(horizon) is not float or (errors < 0).any() or end.kind not in _SAYS or type(end.at) is not float:
-        wrong = "its errors, its horizon or its ending is none"
+    elif type(horizon) is not float or (errors < 0).any():
+        wrong = "its errors or its horizon is none"
     if wrong:
         raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
     return Saved(

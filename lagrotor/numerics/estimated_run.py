@@ -63,7 +63,8 @@ class Evolution:
     defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
     difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
-    none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again.
+    none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again. independent:
+    whether no two runs are by the same order and the same steps, however short, so that where they agree they are right.
     """
 
     start: Array
@@ -78,6 +79,7 @@ class Evolution:
     watch: Array = field(default_factory=lambda: np.empty(0))
     singular: Callable[[Array], str] | None = None
     elsewhere: bool = False
+    independent: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,13 +231,30 @@ def start_beside(start: Array, unsure: float = 1.0) -> Array:
     return start * (1 + unsure * np.finfo(float).eps * np.cos(np.arange(1, start.shape[-1] + 1)))
 
 
-def estimated_errors(apart: Array, local: float, turns: Array, refused: bool = False) -> Array:
+def estimated_errors(
+    apart: Array, local: float, turns: Array, refused: bool = False, independent: bool = False
+) -> Array:
     """Errors (…, n) of the better of two runs that are `apart` (…, n), its local error, after so many turns (…, n).
 
     refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED.
+    independent: of the two, as `Evolution` has it.
     """
     safety = SAFETY.value ** (2 if refused or local < RESOLVED.value else 1)
-    return np.maximum(safety * apart, LEAST.value * local) + ROUNDING.value * (START.value + turns)
+    least = 0.0 if independent else LEAST.value * local
+    return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
+
+
+def errors_up_to(t: Array, errors: Array, turn: Array) -> Array:
+    """The largest errors (…, n) up to each of the times t (n,), of motions that turn in the times `turn` (…).
+
+    Two runs that part swing through each other: after the start, as much is known as to the end of the swing.
+    """
+    if not len(t):
+        return errors
+    grown = np.maximum.accumulate(errors, axis=-1)
+    swing = np.searchsorted(t, t[1:] + SWING.value * turn[..., None], side="right") - 1
+    grown[..., 1:] = np.take_along_axis(grown, swing, axis=-1)
+    return grown
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
@@ -318,7 +337,8 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comp
             for run, last in ((loose, one), (tight, other))
         ]
         apart = evolution.distance(one_states, states)
-        parts.append(estimated_errors(apart, tight.local, course.turns(at), bool(course.refused)))
+        refused = bool(course.refused)
+        parts.append(estimated_errors(apart, tight.local, course.turns(at), refused, evolution.independent))
         alone.append(passed[0] != passed[1])
         reached.append(states)
         together = ~alone[-1]
@@ -328,10 +348,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comp
         if lost < inf or stop:
             break
     errors, between = np.concatenate([np.empty(0), *parts]), np.concatenate([np.empty(0, bool), *alone])
-    grown = np.maximum.accumulate(np.where(between, 0.0, errors)) if len(errors) else errors
-    # Two runs that part swing through each other: from the start on, as much is known as to the end of the swing.
-    t = course.t[: len(errors)]
-    grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * evolution.turn, side="right") - 1]
+    grown = errors_up_to(course.t[: len(errors)], np.where(between, 0.0, errors), np.array(evolution.turn))
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.
     refusal: IntegrationError | None = stop

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, sweep
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.sweeps import chunk, ensemble
@@ -116,6 +116,8 @@ def test_what_nothing_finishes_is_nan(monkeypatch):
     assert [MODELS[m] for m in found.models] == ["none", "minimal"]
     assert np.isnan(found.axes[0]).all()
     assert np.isfinite(found.axes[1]).all()
+    with pytest.raises(InputError, match="of scene 0 nothing was reached: .*it stops"):
+        found.trajectory(0)
 
 
 @pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
@@ -208,12 +210,17 @@ def test_what_an_engine_does_not_do_is_refused_at_the_door():
         sweep([replace(family(1)[0], shock=Shock((1, 0, 0), 0.1, 0.1))], T, engine="fast")
 
 
-def test_what_nothing_can_finish_is_named():
+def test_what_nothing_can_finish_is_what_was_reached_with_its_ending():
     """Without spin a shock lays bar and axes in line: no model goes through that."""
-    falling = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05))
-    found = sweep([family(1)[0], falling], [0.0, 5.0, 30.0])
-    assert found.failed.tolist() == [1]
-    assert np.isnan(found.axes[1]).all() and np.isfinite(found.axes[0]).all()
+    falling, t = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05)), [2.0, 2.1, 7.0, 32.0]
+    with pytest.warns(LagrotorWarning, match="1 of 2 runs do not keep"):
+        found = sweep([family(1)[0], falling], t)
+    assert found.failed.tolist() == [1] and np.isfinite(found.axes[0]).all()
+    assert np.isfinite(found.axes[1, :, :2]).all() and np.isnan(found.axes[1, :, 2:]).all()
+    ending, run = found.endings[1], found.trajectory(1)
+    assert ending.kind == "singular" and 2.1 < ending.at < 7 and run.ending == ending
+    assert run.t.tolist() == t[:2] and run.error < 1e-6 and np.isnan(found.error[1])
+    assert found.endings[0].kind == "end" and found.trajectory(0).t.tolist() == t  # twin
 
 
 @pytest.mark.slow  # thousands of steps up to the place; that runs fall back at all is tested above

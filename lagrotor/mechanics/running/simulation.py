@@ -137,6 +137,7 @@ def simulate_system(
         patience=_PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
+        independent=engine == "fast",
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(

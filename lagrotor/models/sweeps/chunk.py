@@ -16,8 +16,9 @@ from lagrotor.models.model import Observed, check_range, constant_momenta
 from lagrotor.models.natural_units import natural_units, typical_rate
 from lagrotor.models.simulate import simulate
 from lagrotor.models.sweeps.batch_dop853 import LEAST_TOLERANCE, Index, Rates, Swarm, march_swarm
+from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.estimate_constants import APART, FIRST, LOST
-from lagrotor.numerics.estimated_run import UNKNOWN, estimated_errors, start_beside
+from lagrotor.numerics.estimated_run import UNKNOWN, errors_up_to, estimated_errors, start_beside
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.taylor import march_lanes
@@ -25,17 +26,20 @@ from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
 MODELS = ("minimal", "spheres", "none")
+_MOST_WATCHED = 16  # times, one a turn, at which two runs are compared besides those they are read at
 _BETWEEN = 0.38  # of the way from one time to the next, where a companion stops besides
 
 
 class Chunk(NamedTuple):
-    """axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,), models (n,) of part of an ensemble."""
+    """axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,), models (n,) of part of an ensemble, NaN after what was reached;
+    how each of its runs ended."""
 
     axes: Array
     rates: Array
     errors: Array
     evaluations: NDArray[np.int64]
     models: NDArray[np.int64]
+    endings: list[Ending]
 
 
 def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Chunk:
@@ -46,7 +50,8 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
     n, m = len(scenes), len(times)
     axes, rates = np.full((2, n, 2, m, 3), np.nan)
     none = np.full(n, MODELS.index("none"))
-    chunk = Chunk(axes, rates, np.full((n, m), np.nan), np.zeros(n, np.int64), none)
+    end = Ending("end", float(times[-1]))
+    chunk = Chunk(axes, rates, np.full((n, m), np.nan), np.zeros(n, np.int64), none, [end] * n)
     groups: dict[Kind | None, list[int]] = {}
     for i, scene in enumerate(scenes):
         groups.setdefault(kind_of(scene) if _in_range(scene) else None, []).append(i)
@@ -58,12 +63,14 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
             warnings.simplefilter("ignore", LagrotorWarning)
             try:
                 run = simulate(scenes[i], times, "spheres", tol)
-            except (IntegrationError, SingularError):
+            except (IntegrationError, SingularError) as refusal:
+                chunk.endings[i] = Ending("stopped", 0.0, str(refusal))
                 continue
+        reached = len(run.t)
         chunk.evaluations[i] += run.evaluations
-        if not run.ending.early:
-            chunk.axes[i], chunk.rates[i], chunk.errors[i] = run.axes, run.rates, run.errors
-            chunk.models[i] = MODELS.index("spheres")
+        chunk.axes[i, :, :reached], chunk.rates[i, :, :reached] = run.axes, run.rates
+        chunk.errors[i, :reached], chunk.endings[i] = run.errors, run.ending
+        chunk.models[i] = MODELS.index("spheres")
     return chunk
 
 
@@ -78,7 +85,8 @@ def _in_range(scene: Scene) -> bool:
 
 def _defects(scenes: list[Scene], times: Array, axes: Array, rates: Array) -> Array:
     """The error that explains how far each run is from conserving what it must, (n,): what rounding leaves in states that are
-    badly conditioned, which two runs may have in common. The work of a shock is not followed."""
+    badly conditioned, which two runs may have in common. The work of a shock is not known: after it, what it is kept from then
+    on."""
     found = np.empty(len(scenes))
     for i, scene in enumerate(scenes):
         units = natural_units(replace(scene, shock=scene.shock_until(float(times[-1]))))
@@ -105,11 +113,15 @@ def _by_minimal(
     """Run scenes of one kind side by side, at one local error after another, each APART times tighter, until two that follow
     each other agree within `tol`; put what comes out whole into its places."""
     ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
-    turns = np.array([typical_rate(scene) for scene in scenes])[:, None] * times / (2 * np.pi)
+    turn = 2 * np.pi / np.array([typical_rate(scene) for scene in scenes])
+    # Two runs may agree by chance at the few times at which they are read.
+    watched = int(min(_MOST_WATCHED, np.ceil(np.median(times[-1] / turn))))
+    grid = np.union1d(times, np.linspace(0, times[-1], watched + 1))
+    read, turns = np.isin(grid, times), grid / turn[:, None]
     columns, start = _columns(kind, scenes, ratios), np.array([MODEL.start(scene) for scene in scenes]).T.copy()
     swarm, who, local, companion = _swarm(kind, scenes, columns, start), np.arange(len(scenes)), tol * FIRST.value, True
     before, tightest = (
-        np.full((len(scenes), 2, len(times), 3), np.nan),
+        np.full((len(scenes), 2, len(grid), 3), np.nan),
         TIGHTEST if engine == "fast" else LEAST_TOLERANCE,
     )
     while who.size:
@@ -117,26 +129,26 @@ def _by_minimal(
         begun = start_beside(start[:, who].T).T if companion else start[:, who]
         if engine == "fast":
             parameters = np.array([column[who] for column in columns])
-            states, spent = march_lanes(program(*kind), begun, parameters, times, local, companion)
+            states, spent = march_lanes(program(*kind), begun, parameters, grid, local, companion)
         else:
             # A step ends at each time, and in a pulse all may be as long as they can be: a companion's end at others and
             # are shorter, so that no two take the same few steps.
-            t = np.union1d(times, times[:-1] + _BETWEEN * np.diff(times)) if companion else times
+            t = np.union1d(grid, grid[:-1] + _BETWEEN * np.diff(grid)) if companion else grid
             longest = COMPANION_STEP if companion else 1.0
             states, spent = march_swarm(replace(swarm.part(who), start=begun, longest=longest), t, local)
-            states = states[:, np.isin(t, times)]
+            states = states[:, np.isin(t, grid)]
         chunk.evaluations[places[who]] += spent
         whole = np.isfinite(states).all((1, 2))
         who, states = who[whole], states[whole]
-        axes, rates = np.empty((2, len(who), 2, len(times), 3))
+        axes, rates = np.empty((2, len(who), 2, len(grid), 3))
         for k in np.unique(ratios[who]):
             alike = np.flatnonzero(ratios[who] == k)
             seen = MODEL.observe(scenes[who[alike[0]]], states[alike].reshape(-1, 6))
             for rows, part in ((axes, seen.axes), (rates, seen.rates)):
-                rows[alike] = part.reshape(2, len(alike), len(times), 3).swapaxes(0, 1)
+                rows[alike] = part.reshape(2, len(alike), len(grid), 3).swapaxes(0, 1)
         apart = np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
-        apart = np.maximum(apart, _defects([scenes[i] for i in who], times, axes, rates)[:, None])
-        errors = np.maximum.accumulate(estimated_errors(apart, local, turns[who]), axis=1)
+        apart = np.maximum(apart, _defects([scenes[i] for i in who], grid, axes, rates)[:, None])
+        errors = errors_up_to(grid, estimated_errors(apart, local, turns[who], independent=True), turn[who])[:, read]
         errors[errors > LOST.value] = UNKNOWN
         before[who] = axes
         if not np.isnan(apart).any():  # of the first there is nothing to compare
@@ -144,14 +156,14 @@ def _by_minimal(
             better = who[~(errors[:, -1] >= chunk.errors[places[who], -1])]
             at = np.searchsorted(who, better)
             here = places[better]
-            chunk.axes[here], chunk.rates[here], chunk.errors[here] = (
-                axes[at],
-                rates[at],
-                errors[at],
-            )
+            chunk.axes[here], chunk.rates[here] = axes[at][:, :, read], rates[at][:, :, read]
+            chunk.errors[here] = errors[at]
             chunk.models[here] = MODELS.index("minimal")
             who = who[(errors[:, -1] > tol) & (local > tightest)]
         local, companion = local / APART.value, not companion
+    for i in places:
+        lost = np.flatnonzero(chunk.errors[i] == UNKNOWN)
+        chunk.endings[i] = Ending("lost", float(times[lost[0]])) if len(lost) else chunk.endings[i]
 
 
 def _columns(kind: Kind, scenes: list[Scene], ratios: Array) -> list[Array]:

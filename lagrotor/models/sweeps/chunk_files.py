@@ -1,7 +1,7 @@
 """Finished chunks of a sweep in a folder: each file says which sweep it belongs to and is checked whole before use."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
 
@@ -11,6 +11,7 @@ from lagrotor.about import __version__
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk
+from lagrotor.numerics.any_run import Ending
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import UNIT_ERROR
 
@@ -26,7 +27,9 @@ class ChunkFolder:
         return self.path / f"chunk-{number:06d}.npz"
 
     def write(self, number: int, found: Chunk) -> None:
-        write_arrays(self.file(number), {"sweep": self.sweep, "chunk": number}, found._asdict())
+        arrays = found._asdict()
+        endings = [asdict(ending) for ending in arrays.pop("endings")]
+        write_arrays(self.file(number), {"sweep": self.sweep, "chunk": number, "endings": endings}, arrays)
 
     def read(self, number: int, shape: tuple[int, ...]) -> Chunk | None:
         """A finished chunk of this shape; None where there is none or a damaged one, which is run again.
@@ -44,8 +47,11 @@ class ChunkFolder:
                 f"sweep: {self.file(number)} belongs to another sweep (scenes, times, tol, chunk, engine or version "
                 "differ): give an empty folder"
             )
-        whole = about.get("chunk") == number and held.keys() == set(Chunk._fields) and _is_whole(Chunk(**held), shape)
-        return Chunk(**held) if whole else None
+        try:
+            found = Chunk(**held, endings=[Ending(**ending) for ending in about["endings"]])
+        except (KeyError, TypeError, InputError):
+            return None
+        return found if about.get("chunk") == number and _is_whole(found, shape) else None
 
 
 def chunk_folder(
@@ -60,19 +66,20 @@ def chunk_folder(
 
 
 def _is_whole(found: Chunk, shape: tuple[int, ...]) -> bool:
-    """Whether the arrays are those of a chunk of this shape: finite motions of unit axes, NaN only where none ended."""
-    n = shape[0]
-    if any(part.shape != s for part, s in zip(found, (shape, shape, (n, shape[2]), (n,), (n,)), strict=True)):
+    """Whether the arrays are those of a chunk of this shape: finite motions of unit axes, NaN only after one that ended early."""
+    n, m = shape[0], shape[2]
+    arrays, wanted = found[:-1], (shape, shape, (n, m), (n,), (n,))
+    if any(part.shape != s for part, s in zip(arrays, wanted, strict=True)) or len(found.endings) != n:
         return False
-    if not all(part.dtype == kind for part, kind in zip(found, (float, float, float, np.int64, np.int64), strict=True)):
+    if any(part.dtype != kind for part, kind in zip(arrays, (float, float, float, np.int64, np.int64), strict=True)):
         return False
-    none = found.models == MODELS.index("none")
-    done = ~none
+    done = np.isfinite(found.errors)
+    early = np.array([ending.early for ending in found.endings])
     return bool(
         ((found.models >= 0) & (found.models < len(MODELS)) & (found.evaluations >= 0)).all()
-        and np.isnan(found.axes[none]).all()
-        and np.isfinite(found.axes[done]).all()
-        and np.isfinite(found.rates[done]).all()
+        and (done.all(1) | early).all()
+        and (done[:, :-1] >= done[:, 1:]).all()
+        and all((np.isfinite(part).all((1, 3)) == done).all() for part in (found.axes, found.rates))
         and (found.errors[done] >= 0).all()
-        and (np.abs(np.linalg.norm(found.axes[done], axis=-1) - 1) < UNIT_ERROR).all()
+        and (np.abs(np.linalg.norm(found.axes, axis=-1) - 1) < UNIT_ERROR)[np.repeat(done[:, None], 2, axis=1)].all()
     )

@@ -17,11 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.model import constant_momenta
 from lagrotor.models.simulate import check_times
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, kind_of, run_chunk
 from lagrotor.models.sweeps.chunk_files import chunk_folder
 from lagrotor.numerics.any_run import Ending
-from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
@@ -37,7 +37,8 @@ class Ensemble(Shown):
     errors: the estimated largest error of an axis up to each time, as a `Trajectory` has it.
 
     models (n,): index into MODELS. "spheres" ran, one by one, those without a bar and those that met a singular position
-    of the minimal coordinates; what neither could finish is "none", its axes NaN.
+    of the minimal coordinates; "none" is one of which nothing was reached. endings (n,): how each ended; after its end its axes,
+    rates and errors are NaN.
     """
 
     scenes: tuple[Scene, ...]
@@ -48,6 +49,7 @@ class Ensemble(Shown):
     tol: float
     evaluations: NDArray[np.int64]
     models: NDArray[np.int64]
+    endings: tuple[Ending, ...]
 
     def summary(self) -> dict[str, str]:
         """How many runs, by which models, name → words."""
@@ -63,29 +65,25 @@ class Ensemble(Shown):
 
     @property
     def error(self) -> Array:
-        """The estimated largest error of an axis over each run, (n,); NaN where none was finished."""
+        """The estimated largest error of an axis over each run, (n,); NaN for one that ended early."""
         return self.errors[:, -1]
 
     @property
     def failed(self) -> NDArray[np.int64]:
-        """Indices of the trajectories that no model could finish: theirs are NaN throughout."""
-        return np.flatnonzero(self.models == MODELS.index("none"))
-
-    def _ending(self, i: int) -> Ending:
-        if MODELS[self.models[i]] == "none":
-            return Ending("stopped", float(self.t[0]), "no model could finish it, and nothing of it is kept")
-        lost = np.flatnonzero(self.errors[i] >= UNKNOWN)
-        return Ending("lost", float(self.t[lost[0]])) if len(lost) else Ending("end", float(self.t[-1]))
+        """Indices of the trajectories that ended early."""
+        return np.flatnonzero([ending.early for ending in self.endings])
 
     def trajectory(self, i: int) -> Trajectory:
-        """Number i, with all that can be read off it."""
-        scene, name, errors = self.scenes[i], MODELS[self.models[i]], self.errors[i]
-        momenta = np.repeat(np.array(scene.momenta)[:, None], len(self.t), axis=1)
+        """Number i up to its end, with all that can be read off it. Raises InputError where nothing of it was reached."""
+        n = int(np.isfinite(self.errors[i]).sum())
+        if not n:
+            raise InputError(f"trajectory: of scene {i} nothing was reached: {self.endings[i]}")
+        scene, errors, name = self.scenes[i], self.errors[i, :n], MODELS[self.models[i]]
         beyond = np.flatnonzero(errors > self.tol)
         return Trajectory(
-            scene=scene, model=name, why="one of an ensemble", t=self.t, axes=self.axes[i], rates=self.rates[i], momenta=momenta,
-            errors=errors, horizon=float(self.t[beyond[0]]) if len(beyond) else inf, evaluations=int(self.evaluations[i]),
-            ending=self._ending(i),
+            scene=scene, model=name, why="one of an ensemble", t=self.t[:n], axes=self.axes[i, :, :n], rates=self.rates[i, :, :n],
+            momenta=constant_momenta(scene, n), errors=errors, horizon=float(self.t[beyond[0]]) if len(beyond) else inf,
+            evaluations=int(self.evaluations[i]), ending=self.endings[i],
         )  # fmt: skip
 
 
@@ -104,7 +102,7 @@ def sweep(
 
     tol: the largest error of an axis over each whole run, as of `simulate`; estimated by runs at several tolerances, which are
     compared at the times `t`. A LagrotorWarning says how many runs do not keep it. Look at `failed` of the result: rows that
-    no model could finish are NaN.
+    ended early are NaN from there on.
 
     engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
     time. executor: where chunks run; here, one after another, when None. folder: an existing folder for the finished
@@ -120,13 +118,15 @@ def sweep(
     shape = (len(members), 2, len(times), 3)
     (axes, rates), errors = np.empty((2, *shape)), np.empty((len(members), len(times)))
     evaluations, models = np.zeros((2, len(members)), np.int64)
-    whole = Ensemble(members, times, axes, rates, errors, tolerance, evaluations, models)
+    endings = [Ending()] * len(members)
     done, begin = 0, float(times[0])
 
     def keep(number: int, found: Chunk) -> None:
         nonlocal done
-        for name, values in found._asdict().items():
-            getattr(whole, name)[parts[number]] = values
+        for values, part in zip((axes, rates, errors, evaluations, models), found, strict=False):
+            values[parts[number]] = part
+        for i, ending in zip(parts[number], found.endings, strict=True):
+            endings[i] = replace(ending, at=begin + ending.at)
         done += len(parts[number])
         if progress is not None:
             progress(done, len(members))
@@ -141,6 +141,7 @@ def sweep(
         if target:
             target.write(number, found)
         keep(number, found)
+    whole = Ensemble(members, times, axes, rates, errors, tolerance, evaluations, models, tuple(endings))
     if missed := int((~(whole.error <= tolerance)).sum()):
         said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
         warnings.warn(said, LagrotorWarning, stacklevel=2)
