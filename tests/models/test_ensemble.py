@@ -116,7 +116,7 @@ def test_what_nothing_finishes_is_nan(monkeypatch):
     assert [MODELS[m] for m in found.models] == ["none", "minimal"]
     assert np.isnan(found.axes[0]).all()
     assert np.isfinite(found.axes[1]).all()
-    with pytest.raises(InputError, match="of scene 0 nothing was reached: .*it stops"):
+    with pytest.raises(InputError, match=r"of scene 0 nothing was reached: .*it stops"):
         found.trajectory(0)
 
 
@@ -212,14 +212,14 @@ def test_what_an_engine_does_not_do_is_refused_at_the_door():
 
 def test_what_nothing_can_finish_is_what_was_reached_with_its_ending():
     """Without spin a shock lays bar and axes in line: no model goes through that."""
-    falling, t = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05)), [2.0, 2.1, 7.0, 32.0]
+    falling, t = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 2.5, 0.05)), [2.0, 2.1, 7.0, 32.0]
     with pytest.warns(LagrotorWarning, match="1 of 2 runs do not keep"):
         found = sweep([family(1)[0], falling], t)
     assert found.failed.tolist() == [1] and np.isfinite(found.axes[0]).all()
     assert np.isfinite(found.axes[1, :, :2]).all() and np.isnan(found.axes[1, :, 2:]).all()
     ending, run = found.endings[1], found.trajectory(1)
     assert ending.kind == "singular" and 2.1 < ending.at < 7 and run.ending == ending
-    assert run.t.tolist() == t[:2] and run.error < 1e-6 and np.isnan(found.error[1])
+    assert run.t.tolist() == t[:2] and run.error < 1e-5 and np.isnan(found.error[1])
     assert found.endings[0].kind == "end" and found.trajectory(0).t.tolist() == t  # twin
 
 

@@ -106,7 +106,7 @@ def test_two_that_agree_are_known_no_better_than_a_share_of_their_local_error() 
     run = Made(share=0.0).run(1e-4)
     assert run.errors == pytest.approx(LEAST * run.local + rounding(T))
     independent = Made(share=0.0).run(1e-4, independent=True)
-    assert independent.errors == pytest.approx(rounding(T), abs=0)
+    assert (independent.errors < LEAST * run.local / 1e3).all()
 
 
 def test_the_shorter_a_run_the_looser_it_begins() -> None:

@@ -123,7 +123,7 @@ def sweep(
 
     def keep(number: int, found: Chunk) -> None:
         nonlocal done
-        for values, part in zip((axes, rates, errors, evaluations, models), found, strict=False):
+        for values, part in zip((axes, rates, errors, evaluations, models), found[:-1], strict=True):
             values[parts[number]] = part
         for i, ending in zip(parts[number], found.endings, strict=True):
             endings[i] = replace(ending, at=begin + ending.at)
