@@ -18,8 +18,8 @@ check: $(VENV)/.installed-test
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 
-docs: $(VENV)/.installed-docs
-	$(VENV)/bin/mkdocs build --quiet
+docs: $(VENV)/.installed-docs reproduce
+	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --quiet
 
 certify: $(VENV)/.installed
 	$(VENV)/bin/python -m lagrotor audit --certify certificates > /dev/null

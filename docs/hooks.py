@@ -1,8 +1,11 @@
-"""Pages of the site that are written from the sources as it is built: tutorials, gallery, reference, contributing, changes."""
+"""Pages of the site that are written from the sources as it is built: gallery, reference, contributing, changes."""
 
 import ast
-import json
+import re
+import shutil
 import tomllib
+from collections.abc import Iterable
+from html import escape, unescape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +15,9 @@ if TYPE_CHECKING:
     from mkdocs.structure.files import Files
 
 ROOT = Path(__file__).parent.parent
+REPORT = ROOT / "report"
+# The parts of the package with public names for other people's programs.
+PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebra", "numerics", "proved")
 
 
 def on_files(files: "Files", config: Any) -> "Files":
@@ -26,7 +32,6 @@ def on_files(files: "Files", config: Any) -> "Files":
         "heavy_top.md": heavy_top(),
     }
     pages |= reference()
-    pages |= {f"tutorials/{path.stem}.md": tutorial(path) for path in sorted((ROOT / "docs/notebooks").glob("*.ipynb"))}
     for name, text in pages.items():
         files.append(File.generated(config, name, content=text))
     for picture in ("pair.gif", "fig19_corrected_trajectories.png"):
@@ -40,35 +45,50 @@ def heavy_top() -> str:
     rows = tomllib.loads((folder / "equations.toml").read_text(encoding="utf-8"))["equation"]
     recorded = tomllib.loads((folder / "recorded.toml").read_text(encoding="utf-8"))
     verdicts = {i: row["verdict"] for i, row in recorded.items()}
-    lines = [f"| {row['id']} | {row['title']} | `{row['latex']}` | {verdicts[row['id']]} |" for row in rows]
+    lines = [
+        f"| {row['id']} | {row['title']} | ${row['latex'].replace('|', ' ')}$ | {verdicts[row['id']]} |" for row in rows
+    ]
     table = "\n".join(["| | equation | as printed | verdict |", "|---|---|---|---|", *lines])
     script = (folder / "derivations/s2_precession.py").read_text(encoding="utf-8")
     read = (folder / "README.md").read_text(encoding="utf-8")
     return f"{read}\n## Verdicts\n\n{table}\n\n## Where they come from\n\n```python\n{script}```\n"
 
 
-def tutorial(path: Path) -> str:
-    """A notebook as Markdown."""
-    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-    texts = ("".join(cell["source"]) for cell in cells)
-    return "\n\n".join(
-        text if cell["cell_type"] == "markdown" else f"```python\n{text}\n```"
-        for cell, text in zip(cells, texts, strict=True)
-    )
-
-
 def gallery() -> str:
-    """The textbook systems by their titles, and the figures by title and description, read off the scripts."""
-    parts = ["# Gallery", "![The paired precession](figures/pair.gif)"]
-    parts += ["![Corrected trajectories](figures/fig19_corrected_trajectories.png)", "## Textbook systems"]
-    systems = sorted((ROOT / "derivations").glob("g*.py"))
-    titles = ((path.stem, path.read_text(encoding="utf-8").split("# # ", 1)[1].splitlines()[0]) for path in systems)
-    parts += ["\n".join(f"- {title} (`derivations/{stem}.py`)" for stem, title in titles), "## Figures"]
+    """A card with its picture for each figure and each textbook system of the report, by its title."""
+    parts = ["# Gallery", "![The paired precession](figures/pair.gif)", "## Figures"]
+    cards = []
     for path in sorted((ROOT / "figures").glob("*.py")):
         names = assigned(path)
         if "TITLE" in names:
-            parts.append(f"### {names['TITLE']}\n\n{names.get('ALT', '')}\n\n`lagrotor figure`: `figures/{path.name}`")
+            picture = f"report/figures/{path.stem}.svg"
+            cards.append(card(picture, names["TITLE"], names.get("ALT", ""), picture))
+    parts += [cards_of(cards), "## Textbook systems"]
+    systems = sorted((ROOT / "derivations").glob("g*.py"))
+    titles = {path.stem: path.read_text(encoding="utf-8").split("# # ", 1)[1].splitlines()[0] for path in systems}
+    pages = {stem: f"report/pages/derivation-{stem}.html" for stem in titles}
+    parts.append(cards_of(card(run_picture(stem), title, "", pages[stem]) for stem, title in titles.items()))
     return "\n\n".join(parts)
+
+
+def cards_of(cards: Iterable[str]) -> str:
+    """Cards beside each other."""
+    return f'<div class="cards">{"".join(cards)}</div>'
+
+
+def card(picture: str, title: str, text: str, address: str) -> str:
+    """A picture over its title, both a link."""
+    image = f'<img src="{picture}" alt="{escape(text or title)}" loading="lazy">' if picture else ""
+    return f'<a class="card" href="{address}">{image}<span>{escape(title)}</span></a>'
+
+
+def run_picture(stem: str) -> str:
+    """The address of the first picture of a run in a derivation's page, which holds it; none where it has no run."""
+    page = REPORT / "pages" / f"derivation-{stem}.html"
+    held = (
+        re.search(r'src="(data:image/png;base64,[^"]+)"', page.read_text(encoding="utf-8")) if page.exists() else None
+    )
+    return held[1] if held else ""
 
 
 def assigned(path: Path) -> dict[str, str]:
@@ -85,43 +105,36 @@ def assigned(path: Path) -> dict[str, str]:
 
 
 def reference() -> dict[str, str]:
-    """The reference: the names at the top of the package, then a page a room, with every public docstring."""
+    """A page for each part of the package that hands on public names, with each of them, and one for the errors."""
     package = ROOT / "lagrotor"
-    rooms = sorted(path.name for path in package.iterdir() if (path / "__init__.py").is_file())
-    top = ", ".join(f"`{name}`" for name in sorted(names_of_face(package / "__init__.py")))
-    listed = "\n".join(f"- [{room}](reference/{room}.md)" for room in rooms)
-    pages = {"reference.md": f"# Reference\n\nFrom the top of the package: {top}.\n\nRoom by room:\n\n{listed}\n"}
-    for room in rooms:
-        modules = [module(path) for path in sorted((package / room).rglob("*.py"))]
-        pages[f"reference/{room}.md"] = "\n\n".join([f"# lagrotor.{room}", *filter(None, modules)])
+    pages = {"reference/errors.md": "# Errors\n\n::: lagrotor.errors\n    options:\n      show_root_heading: false\n"}
+    for part in ("", *PARTS):
+        name = f"lagrotor.{part}".rstrip(".")
+        names = names_of_face(package / part / "__init__.py")
+        entries = [f"::: {module}.{public}" for public, module in sorted(names.items()) if defines(module, public)]
+        how = f"`from {name} import {min(names)}` and likewise:" if names else ""
+        pages[f"reference/{part or 'lagrotor'}.md"] = "\n\n".join([f"# {name}", how, *entries]) + "\n"
     return pages
 
 
-def module(path: Path) -> str:
-    """A module's docstring, and its public functions and classes with theirs."""
-    name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    parts = [f"## {name}", fenced(ast.get_docstring(tree))]
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"):
-            parts += [f"### {node.name}", fenced(called(node) + "\n\n" + (ast.get_docstring(node) or ""))]
-            for inner in node.body if isinstance(node, ast.ClassDef) else []:
-                if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_") and ast.get_docstring(inner):
-                    parts += [
-                        f"#### {node.name}.{inner.name}",
-                        fenced(called(inner) + "\n\n" + (ast.get_docstring(inner) or "")),
-                    ]
-    return "\n\n".join(filter(None, parts)) if len(parts) > 2 else ""
+def defines(module: str, name: str) -> bool:
+    """Whether a module defines a function or a class of this name; what else it hands on is shown by what it is of."""
+    tree = ast.parse((ROOT / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8"))
+    return any(isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == name for node in tree.body)
 
 
-def called(node: ast.FunctionDef | ast.ClassDef) -> str:
-    """How a name is called."""
-    if isinstance(node, ast.ClassDef):
-        fields = [ast.unparse(n.target) for n in node.body if isinstance(n, ast.AnnAssign)]
-        return f"class {node.name}({', '.join(fields)})"
-    return f"{node.name}({ast.unparse(node.args)})"
+def on_page_content(html: str, page: Any, config: Any, files: "Files") -> str:
+    """Formulas between dollars, typeset; what is code stays as it is."""
+    from lagrotor.report.formulas.mathml_latex import mathml
+
+    parts = re.split(r"(<(?:pre|code|script|style)\b.*?</(?:pre|code|script|style)>)", html, flags=re.DOTALL)
+    for i in range(0, len(parts), 2):
+        parts[i] = re.sub(r"\$\$(.+?)\$\$", lambda m: mathml(unescape(m[1])) or m[0], parts[i], flags=re.DOTALL)
+        parts[i] = re.sub(r"\$([^$<>]+?)\$", lambda m: mathml(unescape(m[1]), display=False) or m[0], parts[i])
+    return "".join(parts)
 
 
-def fenced(text: str | None) -> str:
-    """A docstring as it is: its lines and formulas are its own."""
-    return f"```text\n{text.strip()}\n```" if text else ""
+def on_post_build(config: Any) -> None:
+    """The report beside the documentation, without what it keeps for its next run."""
+    if REPORT.is_dir():
+        shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=shutil.ignore_patterns("products", "*.json"))

@@ -1,4 +1,4 @@
-"""The documentation is written from the sources: tutorials, gallery, reference; and its builder, where installed, builds it."""
+"""The documentation is written from the sources: gallery, reference, formulas."""
 
 import importlib.util
 import tomllib
@@ -8,6 +8,7 @@ from types import ModuleType
 import pytest
 
 import lagrotor
+from lagrotor.faces import names_of_face
 
 ROOT = Path(lagrotor.__file__).parent.parent
 pytestmark = pytest.mark.skipif(not (ROOT / "docs").is_dir(), reason="installed without the documentation")
@@ -23,29 +24,39 @@ def hooks() -> ModuleType:
     return module
 
 
-def test_the_reference_has_every_public_name_with_its_docstring(hooks: ModuleType) -> None:
+def test_the_reference_has_every_public_name(hooks: ModuleType) -> None:
     pages = hooks.reference()
-    assert all(f"`{name}`" in pages["reference.md"] for name in lagrotor.__all__)
-    rooms = {path.name for path in (ROOT / "lagrotor").iterdir() if (path / "__init__.py").is_file()}
-    assert {f"reference/{room}.md" for room in rooms} < set(pages)
-    assert "### simulate\n" in pages["reference/models.md"]
-    said = (lagrotor.simulate.__doc__ or "").strip().splitlines()[0]
-    assert said in pages["reference/models.md"]
-    assert "#### Run.to_dataframe" in pages["reference/numerics.md"]
+    shown = "".join(pages.values())
+    parts = {path.parent.name for path in (ROOT / "lagrotor").glob("*/__init__.py") if names_of_face(path)}
+    assert parts - {"drawing", "pictures"} == set(hooks.PARTS), "pictures are drawn by figures/, not by other people"
+    for part in ("", *hooks.PARTS):
+        names = names_of_face(ROOT / "lagrotor" / part / "__init__.py")
+        classes = {f"::: {module}.{name}" for name, module in names.items() if hooks.defines(module, name)}
+        assert classes and all(entry in shown for entry in classes)
+    assert "::: lagrotor.models.simulate.simulate\n" in pages["reference/lagrotor.md"]
+    assert not hooks.defines("lagrotor.models.simulate", "no_such_name")
 
 
 def test_the_second_paper_is_shown_with_its_verdicts(hooks: ModuleType) -> None:
     page = hooks.heavy_top()
     assert page.count("| refuted |") == 2 and page.count("| holds |") == 8
-    assert r"| 4.1 | threshold of sleep | `\omega_{\min}^2 = \frac{4 m g l I_1}{I_3}` | refuted |" in page
+    assert r"| 4.1 | threshold of sleep | $\omega_{\min}^2 = \frac{4 m g l I_1}{I_3}$ | refuted |" in page
     assert page.count("```") % 2 == 0 and "weak_gravity = Premise(" in page
 
 
-def test_tutorials_are_the_notebooks_and_the_gallery_the_scripts(hooks: ModuleType) -> None:
-    text = hooks.tutorial(ROOT / "docs/notebooks/paired_precession.ipynb")
-    assert text.startswith("# The paired precession") and text.count("```python") == text.count("```") / 2
+def test_the_gallery_has_a_card_for_every_figure_and_system(hooks: ModuleType) -> None:
     gallery = hooks.gallery()
-    assert "### Corrected trajectories of the pair" in gallery and "derivations/g01" in gallery
+    systems = list((ROOT / "derivations").glob("g*.py"))
+    figures = [path for path in (ROOT / "figures").glob("*.py") if "TITLE" in hooks.assigned(path)]
+    assert gallery.count('class="card"') == len(systems) + len(figures)
+    assert "<span>Corrected trajectories of the pair</span>" in gallery
+    assert 'href="report/pages/derivation-g03_heavy_top.html"' in gallery
+
+
+def test_formulas_of_the_site_are_typeset_and_code_is_not(hooks: ModuleType) -> None:
+    pytest.importorskip("latex2mathml")
+    html = hooks.on_page_content("<p>$a^2$ and $$b$$</p><code>$c$</code>", None, None, None)
+    assert html.count("<math") == 2 and "<code>$c$</code>" in html
 
 
 def test_versions_and_extras_agree() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 import lagrotor
 
-FOLDER = Path(lagrotor.__file__).parent.parent / "docs" / "notebooks"
+FOLDER = Path(lagrotor.__file__).parent.parent / "docs" / "tutorials"
 pytestmark = pytest.mark.skipif(not FOLDER.is_dir(), reason="installed without the documentation")
 
 

@@ -27,7 +27,6 @@ _BESIDE = {
     "verdicts.json": "the verdicts as data",
     "claims.json": "the claims as data",
     "measured.json": "the numbers read off the figures",
-    "api.html": "the names to use from Python",
 }
 
 _HOW_TO_READ = (

@@ -15,7 +15,6 @@ CONTENTS = {
     "index.html",
     "pages",
     "whole.html",
-    "api.html",
     "report.md",
     "report.tex",
     "verdicts.json",

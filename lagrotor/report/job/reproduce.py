@@ -21,7 +21,6 @@ from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import ReportPart
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.api import api_page
 from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
@@ -182,7 +181,6 @@ def _write(folder: Path, report: Report) -> None:
     (folder / FOLDER).mkdir()
     for name, text in files.items():
         write_text(folder / name, text)
-    write_text(folder / "api.html", api_page())
     write_text(folder / "report.md", markdown(report))
     write_text(folder / "report.tex", supplement(report))
     write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts, report.paper)]) + "\n")

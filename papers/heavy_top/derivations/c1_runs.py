@@ -3,7 +3,7 @@
 #
 # **Objective.** What the text says of nutation, of the mean precession and of the sleeping top, tested by runs.
 #
-# **Assumptions.** $I_1 = 0.56$, $I_3 = 0.5$ kg m², $m = 1$ kg, $l = 0.6$ m. "Fast" is 60 rad/s.
+# **Assumptions.** $I_1 = 0.66$, $I_3 = 0.5$ kg m², $m = 1$ kg, $l = 0.6$ m. "Fast" is 60 rad/s.
 
 # %%
 import numpy as np
