@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.order_by_order import GrowingSeries as GrowingSeries
     from lagrotor.mechanics.order_by_order import Unknowns as Unknowns
     from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
+    from lagrotor.mechanics.running.monodromy import MonodromyMatrix as MonodromyMatrix
     from lagrotor.mechanics.running.programs import motion_program as motion_program
     from lagrotor.mechanics.running.simulation import SystemRun as SystemRun
     from lagrotor.mechanics.running.state_space import StateSpace as StateSpace

@@ -14,6 +14,7 @@ from lagrotor.mechanics.equilibria import Equilibrium
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
+    from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.simulation import SystemRun
     from lagrotor.mechanics.running.state_space import StateSpace
     from lagrotor.mechanics.running.switches import Event, Impact
@@ -81,6 +82,12 @@ class System(Equations):
 
         point = at.at if isinstance(at, Equilibrium) else at
         return state_space.state_space(self, point, values, inputs, outputs)
+
+    def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
+        """The monodromy matrix of the periodic motion through `at`, and its multipliers: see `running.monodromy`."""
+        from lagrotor.mechanics.running import monodromy
+
+        return monodromy.monodromy_matrix(self, at, values, period)
 
     def consistent(self, values: "Values", q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.

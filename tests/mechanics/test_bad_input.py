@@ -192,6 +192,23 @@ BAD: dict[str, Callable[[], Any]] = {
     "small motion at no point": lambda: pendulum.linearise({}),
     "small motion at a text": lambda: pendulum.linearise("here"),  # type: ignore[arg-type]
     "small motion in time": lambda: System(A, SWING + t * q).linearise({q: 0}),
+    "numbers at a text": lambda: pendulum.linearise("here", VALUES),  # type: ignore[arg-type]
+    "numbers at no number": lambda: point.linearise({x: np.nan}, {m: 1}),
+    "numbers at a letter": lambda: pendulum.linearise({q: k}, VALUES),
+    "numbers at a stranger": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
+    "numbers of a list": lambda: pendulum.linearise({q: 0}, [1, 1, 10]),  # type: ignore[arg-type]
+    "numbers off an equilibrium": lambda: pendulum.linearise({q: 1}, VALUES),
+    "numbers off a small one": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
+    "numbers off the constraint": lambda: circle.linearise({x: 1, y: 1}, VALUES),
+    "an input that is none": lambda: pendulum.linearise({q: 0}, VALUES, (k,)),
+    "a coordinate for an input": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),
+    "an input that is no tuple": lambda: pendulum.linearise({q: 0}, VALUES, m),  # type: ignore[arg-type]
+    "an output of text": lambda: pendulum.linearise({q: 0}, VALUES, (), ("theta",)),  # type: ignore[arg-type]
+    "an output of a stranger": lambda: pendulum.linearise({q: 0}, VALUES, (), (k,)),
+    "inputs of symbols": lambda: pendulum.linearise({q: 0}, inputs=(m,)),  # type: ignore[call-overload]
+    "an orbit of text": lambda: pendulum.floquet("here", VALUES, 1),  # type: ignore[arg-type]
+    "an orbit that is open": lambda: pendulum.floquet({q: 1}, VALUES, 1),
+    "an orbit of a list": lambda: pendulum.floquet({q: 0}, [1, 1, 10], 1),  # type: ignore[arg-type]
     "a comparison with nothing": lambda: pendulum.same_as(3),  # type: ignore[arg-type]
     "a comparison in other coordinates": lambda: pendulum.same_as(point),
     "a coordinate that is lost": lambda: point.in_coordinates(A, {x: q}),

@@ -1,7 +1,7 @@
 """What numbers must be so that a system of them moves: letters that it has, of their declared sign; masses that bodies have;
 friction that takes energy; a mass matrix that, with the constraints, gives one acceleration."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 from warnings import warn
 
@@ -24,6 +24,8 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     """Raise InputError for a name that is no letter of the system, or of `others`; for a value whose sign is not the
     letter's; for a body or a friction that there is none of. A symbol of another system, of a table that several share, is
     passed over."""
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, t}
     acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces, *others)
     letters = {str(s): s for e in acting for s in getattr(e, "free_symbols", ()) if s not in moving}

@@ -9,6 +9,7 @@ Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what r
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ from lagrotor.mechanics.running.starts import consistent
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
 _STEADY, _SAME, _OFF = 1e-8, 1e-7, 1e-7  # relative: accelerations left, a matrix that stays, a point on the constraints
+_ROUNDING = 1e-12  # of accelerations of free motion
 _DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
 _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
 
@@ -64,20 +66,28 @@ def state_space(
     outputs: Sequence[sp.Expr] = (),
 ) -> StateSpace:
     """The linear system about a point at which all accelerations vanish: see `linear_modes.linearise`."""
+    for name, listed in (("inputs", inputs), ("outputs", outputs)):
+        if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
+            raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
     wanted = tuple(expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs))
+    if not isinstance(values, Mapping) or len({*map(str, inputs)}) < len(inputs):
+        raise InputError(
+            f"linearise: values = {values!r} must be a dictionary, and inputs = {inputs} different letters"
+        )
     known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
     check_values("linearise", system, known, wanted)
     if depends_on_time(system):
         raise InputError("linearise: the motion depends on time explicitly: there is no steady motion; simulate it")
-    start = _start(system, at, known)
-    motion = _slope(motion_program(system), known, inputs)
+    start = point_state("linearise", system, at, known)
+    motion = motion_slope("linearise", motion_program(system), known, inputs)
     rate, J, B = motion(start)
     n = len(system.c.q)
     size = max(1.0, float(np.abs(start).max()))
     if not np.isfinite(J).all():
         raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
-    if np.abs(rate[n:]).max() > _STEADY * size * max(1.0, float(np.abs(J).max())):
-        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(system.c.a, rate[n:], strict=True) if abs(x) > _STEADY * size)
+    least = _STEADY * size * float(np.abs(J[n : 2 * n]).max()) + _ROUNDING
+    if np.abs(rate[n:]).max() > least:
+        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(system.c.a, rate[n:], strict=True) if abs(x) > least)
         raise SingularError(f"linearise: {dict(at)} is no steady motion: {left} is left over; start from one")
     later = start + np.concatenate([start[n:], np.zeros(n)]) / size
     if np.abs(motion(later)[1] - J).max() > _SAME * max(1.0, float(np.abs(J).max())):
@@ -85,54 +95,62 @@ def state_space(
             "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"
         )
-    free, T = _tangent(system, known, start)
-    _, C, D = _slope(function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
+    free, T = tangent_space("linearise", system, known, start)
+    _, C, D = motion_slope("linearise", function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
     states = tuple(s for s, own in zip((*system.c.q, *system.c.v), free, strict=True) if own)
     return StateSpace(states, J[free] @ T, B[free], C[:, : 2 * n] @ T, D)
 
 
-def _start(system: Equations, at: Mapping[Any, Any], values: Values) -> Array:
+def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
     """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
     c = system.c
     point = by_symbol(at, (*c.q, *c.v))
-    program = motion_program(system).program
-    used = set().union(*(e.free_symbols for _, e in program.stages), *(e.free_symbols for e in program.outputs))
-    moving = dict(zip(c.q, program.arguments, strict=False))  # a letter may have another name in a program
+    used, _ = _parts(motion_program(system))
+    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # which may have other names there
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
-        raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
+        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
     if strangers := [str(s) for s in point if s not in {*c.q, *c.v}]:
         raise InputError(
-            f"linearise: {', '.join(strangers)} in the point: it gives coordinates and velocities; others are values"
+            f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities; others are values"
         )
     given = [point.get(s, 0) for s in (*c.q, *c.v)]
     letters = by_symbol(values, {s for e in map(sp.sympify, given) for s in e.free_symbols})
     try:
         start = np.array([float(sp.sympify(e).subs(letters)) for e in given])
     except (TypeError, ValueError):
-        raise InputError(f"linearise: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
+        raise InputError(f"{where}: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
+    if not np.isfinite(start).all():
+        raise InputError(f"{where}: {dict(at)} must be finite")
     if system.multipliers:
         n = len(c.q)
-        near = np.concatenate(consistent(system, values, start[:n], start[n:]))
+        near = np.concatenate(consistent(system, values, start[:n], start[n:], time))
         if np.abs(near - start).max() > _OFF * (1 + np.abs(start).max()):
             shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *c.v), near, strict=True) if x)
             raise ConstraintError(
-                f"linearise: the point is off the constraints; the nearest on them is {shown or 'zero'}"
+                f"{where}: the point is off the constraints; the nearest on them is {shown or 'zero'}"
             )
         start = near
     return start
 
 
-def _slope(
-    given: Generated, values: Values, inputs: Sequence[sp.Symbol]
+@lru_cache(maxsize=64)
+def _parts(given: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
+    """The letters of a program's stages and outputs, and their parts that have no derivative everywhere."""
+    expressions = [*(e for _, e in given.program.stages), *given.program.outputs]
+    symbols = set().union(*(e.free_symbols for e in expressions))
+    return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
+
+
+def motion_slope(
+    where: str, given: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()
 ) -> Callable[[Array], tuple[Array, Array, Array]]:
     """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
-    program = given.program
-    jumping = set().union(*(e.atoms(*_NOT_ANALYTIC) for e in (*(e for _, e in program.stages), *program.outputs)))
+    _, jumping = _parts(given)
     if jumping:
         raise InputError(
-            f"linearise: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
+            f"{where}: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
         )
-    numbers, d = np.array(parameter_values(given, values, "linearise")), len(given.states)
+    numbers, d = np.array(parameter_values(given, values, where)), len(given.states)
     names = [str(s) for s in (*given.states, *given.parameters)]
 
     def slope(state: Array) -> tuple[Array, Array, Array]:
@@ -149,7 +167,9 @@ def _slope(
     return slope
 
 
-def _tangent(system: Equations, values: Values, state: Array) -> tuple[NDArray[np.bool_], Array]:
+def tangent_space(
+    where: str, system: Equations, values: Values, state: Array, time: float = 0.0
+) -> tuple[NDArray[np.bool_], Array]:
     """Which of the states are independent, and T (2 N, free) that gives all of them."""
     d = len(state)
     if not system.multipliers:
@@ -158,7 +178,7 @@ def _tangent(system: Equations, values: Values, state: Array) -> tuple[NDArray[n
 
     n, h = d // 2, len(system.constraints)
     bound = function_program(system, *system.constraints, *system.residual)
-    slope = _slope(bound, values, ())(np.append(state, 0.0))[1][:, :d]
+    slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, :d]
     held = np.zeros(0, int)
     for rows, first in (
         (slope[:h, :n], 0),
@@ -169,7 +189,7 @@ def _tangent(system: Equations, values: Values, state: Array) -> tuple[NDArray[n
             diagonal = np.abs(np.diag(triangle))
             if len(diagonal) < len(rows) or diagonal.min() < _DEPENDENT * diagonal.max():
                 raise SingularError(
-                    "linearise: the constraints are dependent there: leave out what follows from the others"
+                    f"{where}: the constraints are dependent there: leave out what follows from the others"
                 )
             held = np.append(held, first + order[: len(rows)])
     free = np.ones(d, bool)

@@ -1,0 +1,86 @@
+"""Floquet multipliers of a periodic motion: what a turn makes of small displacements.
+
+With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
+`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
+time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import t
+from lagrotor.mechanics.running.admission import check_values
+from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.programs import motion_program
+from lagrotor.mechanics.running.state_space import motion_slope, point_state, tangent_space
+from lagrotor.numerics.integrate import Problem, integrate
+
+_LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
+_CLOSED = 1e-6  # relative: what an orbit may be open by
+_MOST = 2_000_000  # evaluations
+
+
+@dataclass(frozen=True, eq=False)
+class MonodromyMatrix:
+    """Φ of one turn in the independent `states`, (n, n); error: how far two integrations of Φ are apart, relative to it."""
+
+    states: tuple[sp.Symbol, ...]
+    matrix: Array
+    error: float
+
+    @property
+    def multipliers(self) -> NDArray[np.complex128]:
+        """The eigenvalues of Φ, (n,), the largest first."""
+        found = np.linalg.eigvals(self.matrix).astype(complex)
+        return found[np.lexsort((found.imag, -np.abs(found)))]
+
+
+def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
+    """The monodromy matrix of the periodic motion through `at`, coordinates and velocities at t = 0 (or at the value of t).
+
+    A rest in a system that is driven is one, at the period of what drives.
+    Raises InputError where the motion has not come back after the period, or forces jump; ConstraintError as `linearise`.
+    """
+    try:
+        duration = np.nan if isinstance(period, str | bool) else float(period)
+    except (TypeError, ValueError):
+        duration = np.nan
+    if not 0 < duration < np.inf:
+        raise InputError(f"floquet: period = {period!r} must be a positive time in s")
+    check_values("floquet", system, values)
+    begin = float({str(s): x for s, x in at.items()}.get(str(t), 0)) if isinstance(at, Mapping) else 0.0
+    given = motion_program(system)
+    n, d = len(system.c.q), len(given.states)
+    place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
+    state = point_state("floquet", system, place, values, begin)
+    free, T = tangent_space("floquet", system, values, state, begin)
+    start = np.append(state, [begin] * (d - 2 * n))
+    slope, width = motion_slope("floquet", given, values), T.shape[1]
+
+    def rate(_: float, y: Array) -> list[float]:
+        f, J, _inputs = slope(y[:d])
+        spread = J[: 2 * n, : 2 * n] @ y[d:].reshape(2 * n, width)
+        return [*f.tolist(), *spread.ravel().tolist()]
+
+    whole = Problem(rate, np.concatenate([start, T.ravel()]), _MOST)
+    coarse, fine = (integrate(whole, np.array([duration]), local).states[-1] for local in _LOCAL)
+    end, J = fine[:d], slope(start)[1][:, : 2 * n]
+    size = max(1.0, float(np.abs(start).max()))
+    opened = np.abs(end - start)[n : 2 * n].max() / size
+    other = np.abs(slope(end)[1][:, : 2 * n] - J).max() / max(1.0, float(np.abs(J).max()))
+    if not max(opened, other) < _CLOSED:
+        raise InputError(
+            f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
+            f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
+        )
+    one, two = (y[d:].reshape(2 * n, width)[free] for y in (coarse, fine))
+    error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
+    states = tuple(s for s, own in zip((*system.c.q, *system.c.v), free, strict=True) if own)
+    return MonodromyMatrix(states, two, error)
