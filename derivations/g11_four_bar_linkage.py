@@ -1,7 +1,7 @@
 # %% [markdown]
 # # A four-bar linkage
 #
-# **Objective.** A closed loop of bars: its one freedom, its motion under gravity, and how well the loop stays closed.
+# **Objective.** A closed loop of bars: its one degree of freedom, its motion under gravity, and how well the loop stays closed.
 #
 # **Assumptions.** Three uniform bars of mass $\mu$ per length and lengths $a, b, c$; the ground bar has length $d$.
 #
@@ -28,7 +28,7 @@ end = frame.place()
 linkage = System(angles, L, (end[0] - d, end[2]))
 
 # %% [markdown]
-# ## One freedom is left
+# ## One degree of freedom is left
 #
 # With two lengths alike in pairs ($c=a$, $d=b$) the loop may be a parallelogram: then the coupler stays level, $q_2=-q_1$.
 

@@ -47,8 +47,9 @@ pair = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}
 # $$L=\sum_i\Big(\frac a2|\dot u_i|^2+\frac{G_i}2\,(y_i\dot x_i-x_i\dot y_i)+\frac\kappa2|u_i|^2\Big)
 # +\sum_{\text{bars }ij}b\,\dot u_i\cdot\dot u_j.$$
 #
-# Each bar holds the two tilts along it equal. With that put in, the Euler–Lagrange equations of the freedoms that are left are
-# linear. For freedoms that go as $e^{st}$ they are $D(s)\,q=0$, and such a motion exists where $P(s)=\det D(s)=0$.
+# Each bar holds the two tilts along it equal. With that put in, the Euler–Lagrange equations of the degrees of freedom that
+# are left are
+# linear. For degrees of freedom that go as $e^{st}$ they are $D(s)\,q=0$, and such a motion exists where $P(s)=\det D(s)=0$.
 
 
 # %%
@@ -75,7 +76,7 @@ def pencil(*of: object, **more: object) -> sp.Matrix:
 # %% [markdown]
 # ## The loaded pair
 #
-# The bar holds $x_1=x_2$: three freedoms, $x_1$, $y_1$, $y_2$, with the equations
+# The bar holds $x_1=x_2$: three degrees of freedom, $x_1$, $y_1$, $y_2$, with the equations
 
 # %%
 tilts_of_two, G_12 = ["x_1 y_1", "x_1 y_2"], (G_1, G_2)
@@ -127,12 +128,14 @@ prove(
 #
 # ## The same for any structure
 #
-# On $n$ freedoms $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of freedoms falls
+# On $n$ degrees of freedom $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of degrees
+# of freedom falls
 # without spins, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes
-# one of $2N$ freedoms, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no rigid
+# one of $2N$ degrees of freedom, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no
+# rigid
 # plate ($n=3$).
 #
-# Where all fall alike, every freedom belongs to a pair of motions on which the spins act with one $\beta$:
+# Where all fall alike, every degree of freedom belongs to a pair of motions on which the spins act with one $\beta$:
 # $\lambda^2+\beta^2s^2=0$, which is a quadratic in $p=s^2$ with the discriminant
 
 # %%
@@ -146,7 +149,7 @@ prove(quadratic.discriminant(), beta**2 * (beta**2 - 4 * a * kappa), "the discri
 #
 # ## The smallest jointed structure that stands
 #
-# Three rotors and two bars at a corner: $x_1=x_2$, $y_2=y_3$, four freedoms, $x_1$, $x_3$, $y_1$, $y_2$. Massless bars:
+# Three rotors and two bars at a corner: $x_1=x_2$, $y_2=y_3$, four degrees of freedom, $x_1$, $x_3$, $y_1$, $y_2$. Massless bars:
 
 # %%
 at_corner = pencil(["x_1 y_1", "x_1 y_2", "x_3 y_2"], (G_1, G_2, G_3))
@@ -261,7 +264,8 @@ Remark(
 # %% [markdown]
 # ## A brace across the bar
 #
-# A spring $k$ on $y_1$ of the pair ($k$ times $R^2$ against $\kappa$) leaves two freedoms that fall where $k>\kappa$, an
+# A spring $k$ on $y_1$ of the pair ($k$ times $R^2$ against $\kappa$) leaves two degrees of freedom that fall where
+# $k>\kappa$, an
 # even number:
 
 # %%

@@ -31,7 +31,7 @@ s = sp.Symbol("s")
 # %% [markdown]
 # ## What spins do to the resonance
 #
-# On the freedoms $(u,v_1,v_2)$ a force $F$ along the bar, times the length of the axis, drives $u$:
+# On the degrees of freedom $(u,v_1,v_2)$ a force $F$ along the bar, times the length of the axis, drives $u$:
 
 
 # %%

@@ -47,7 +47,8 @@ crossed = sp.Matrix([[0, 1], [-1, 0]])  # C = G times it
 # %% [markdown]
 # ## The ring
 #
-# Each bar is turned by $\theta$ against the one before it, and one bar a rotor leaves one freedom a rotor: the speed $s_k$
+# Each bar is turned by $\theta$ against the one before it, and one bar a rotor leaves one degree of freedom a rotor: the speed
+# $s_k$
 # of bar $k$ along itself. In the frame of joint 0 its own bar lies along $x$, the one before it along $(\cos\theta,-\sin
 # \theta)$; with $s_k=e^{iqk}$ the two projections of $u$ are $1$ and $e^{-iq}$:
 
@@ -135,7 +136,7 @@ prove(
 # %% [markdown]
 # $$\omega(q)=\frac{G\sin\theta\sin q}{a(1-\cos\theta\cos q)+2b\cos q(\cos q-\cos\theta)} .$$
 #
-# With equal spins the bars come in two kinds, $e$ and $o$, two freedoms a cell:
+# With equal spins the bars come in two kinds, $e$ and $o$, two degrees of freedom a cell:
 
 # %%
 own, next_to = a + 2 * b * sp.cos(q) ** 2, -(a + 2 * b) * c * sp.cos(q)
@@ -185,8 +186,10 @@ Remark(
 # %% [markdown]
 # ## An open zigzag of N rotors, exactly
 #
-# At an end the axis is free across its one bar. That freedom is the speed of a bar that is not there, so that the chain of
-# $N$ rotors is $N+1$ freedoms with $N$ equal terms, and the condition at an end is that the missing rotor's term vanishes,
+# At an end the axis is free across its one bar. That degree of freedom is the speed of a bar that is not there, so that the
+# chain of
+# $N$ rotors is $N+1$ degrees of freedom with $N$ equal terms, and the condition at an end is that the missing rotor's term
+# vanishes,
 # $f(q)=0$ for a single wave with
 
 # %%
@@ -284,7 +287,8 @@ Remark(
 # %% [markdown]
 # ## The honeycomb
 #
-# Two rotors a cell, three bars: one freedom. With $n_j$ the directions of the bars and $\varphi_j$ the phases of their far
+# Two rotors a cell, three bars: one degree of freedom. With $n_j$ the directions of the bars and $\varphi_j$ the phases of
+# their far
 # ends, the projections $f_j=n_j\cdot u_A$ have $\sum f_j=0$ as the $n_j$ add up to zero, and those of $u_B$,
 # $f_je^{-i\varphi_j}$, too: $f=(1,1,1)\times e^{-i\varphi}$, so $f_1=e^{-i\varphi_3}-e^{-i\varphi_2}$ and so on. With
 # $\Delta_j$ the differences of the phases:
@@ -364,7 +368,8 @@ assert off_row < 1e-12
 Remark("The straight row", f"With hinges and heavy bars its rates are the closed form's within {off_row:.0e}.")
 
 # %% [markdown]
-# In the square net two bars a rotor leave no freedom but on the lines $q_x=0$ and $q_y=0$, where a row or a column moves as
+# In the square net two bars a rotor leave no degree of freedom but on the lines $q_x=0$ and $q_y=0$, where a row or a column
+# moves as
 # one.
 
 # %%
@@ -387,7 +392,7 @@ Remark(
 # ## Weight and hinges
 #
 # With $\kappa$ on every axis the stiffness is $\kappa$ times the mass over $a$, and with $\beta(q)$ the rate without it
-# times $a$, $a\omega^2-\beta\omega-\kappa=0$ for each freedom.
+# times $a$, $a\omega^2-\beta\omega-\kappa=0$ for each degree of freedom.
 
 # %%
 beta = sp.Symbol("beta", real=True)

@@ -149,16 +149,19 @@ Remark(
 # %% [markdown]
 # ## Rigid bars
 #
-# Bars leave, at each $q$, the null space of their rows. A Chern number needs as many freedoms at every $q$. At $q=0$ two
-# translations are among them, and if the bars carry a self-stress there, tensions that balance at every joint, one freedom
-# more appears for each. In a honeycomb equal tensions balance: it has one freedom a cell, two at $q=0$, and no Chern number.
+# Bars leave, at each $q$, the null space of their rows. A Chern number needs as many degrees of freedom at every $q$. At $q=0$
+# two
+# translations are among them, and if the bars carry a self-stress there, tensions that balance at every joint, one degree of
+# freedom
+# more appears for each. In a honeycomb equal tensions balance: it has one degree of freedom a cell, two at $q=0$, and no Chern
+# number.
 
 # %%
 rows = sp.Matrix([[*n, *(-n)] for n in directions])
 prove(sp.ones(1, 3) * rows, sp.zeros(1, 4), "equal tensions of the honeycomb balance at q = 0", names="A^T t")
 
 # %% [markdown]
-# Squares joined into octagons have two freedoms a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance,
+# Squares joined into octagons have two degrees of freedom a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance,
 # until one joint is moved out of its place along both axes:
 
 # %%

@@ -61,7 +61,7 @@ prove(characteristic.as_expr(), s**4 * oscillating, "the characteristic polynomi
 
 # %% [markdown]
 # Every position at rest is an equilibrium: three of the zeros. The fourth belongs to a motion with $C\dot q = 0$, which goes on
-# at a constant velocity. So of the three freedoms one oscillates, one turns steadily, and one rests where it is put.
+# at a constant velocity. So of the three degrees of freedom one oscillates, one turns steadily, and one rests where it is put.
 
 # %%
 steady = pair.gyroscopic.nullspace()
@@ -110,15 +110,15 @@ verdict(
     },
     uses=["5.09"],
     evidence=[
-        f"To first order the {without_spins} freedoms without the spins are {oscillations} oscillation, {turnings} steady "
-        f"turning and {resting} displacement that rests. The conclusion's word oscillations fits one of its two modes: "
+        f"To first order the {without_spins} degrees of freedom without the spins are {oscillations} oscillation, {turnings} "
+        f"steady turning and {resting} displacement that rests. The conclusion's word oscillations fits one of its two modes: "
         "toppling has no restoring force and comes round only as a full turn. Section 5.2 says only that the turning can be "
         "thought of as a mode; counted so there are two (claim C24).",
     ],
 )
 
 # %% [markdown]
-# ## The third freedom
+# ## The third degree of freedom
 #
 # For opposite spins, $G_1 = -G_2 = G$, the linear pair keeps two quantities. They say where the centre of the precession
 # rests; both are zero for one about the upright position.
@@ -144,7 +144,7 @@ prove(
 
 # %%
 Remark(
-    "Where the third freedom is",
+    "Where the third degree of freedom is",
     "The precession centre, a displacement in x and one in y₁ − y₂, rests where a shock leaves it: two constants of the "
     "linear pair, and with the two of toppling the four zero roots.",
 )

@@ -22,7 +22,7 @@ ALT = (
 
 # %%
 def data() -> dict[str, np.ndarray]:
-    """The factors on the spins from which on each stands, whether it does, how many freedoms and bars it has."""
+    """The factors on the spins from which on each stands, whether it does, how many degrees of freedom and bars it has."""
     found = [example(name).stands() for name in GALLERY]
     return {
         "factor": np.array([each.critical_spin for each in found]),

@@ -68,7 +68,7 @@ GALLERY = {
     ),
     "plate": Example(
         lambda: Structure(joints=_SQUARE["joints"], bars=[*_SQUARE["bars"], (0, 2)], spins=60, **_WEIGHT),
-        "a rigid plate on four rotors: three freedoms, an odd number, fall",
+        "a rigid plate on four rotors: three degrees of freedom, an odd number, fall",
         2.5,
     ),
     "hexagon": Example(_hexagon, "a ring of six with spins that alternate", 5),

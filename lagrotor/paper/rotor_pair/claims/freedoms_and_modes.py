@@ -140,13 +140,14 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         f"roots: {m['displacements_at_rest']:.0f} displacements at rest and {m['steady_turnings']:.0f} steady turning, along "
         f"y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. A run is made of these to "
         f"{scientific(m['left_by_one_line_and_a_slope_relative'])} of its motion. To first order the pair has three "
-        "freedoms: paired precession, which oscillates; steady turning about the joint line; and the displacement of the "
-        "precession centre (in x and in the twist), which has no rate and stays where a shock leaves it, here at x = "
+        "degrees of freedom: paired precession, which oscillates; steady turning about the joint line; and the displacement "
+        "of the precession centre (in x and in the twist), which has no rate and stays where a shock leaves it, here at x = "
         f"{m['centre_x_1']:+.5f}. Of the two modes of the paper one oscillates.",
     )
 
 
-# No spins change the count of C14: a rotor at rest about its axis keeps that freedom. Without its bar the pair has 6 and 4.
+# No spins change the count of C14: a rotor at rest about its axis keeps that degree of freedom. Without its bar the pair has 6
+# and 4.
 # C24: after ten times the shock more is in the motion than its modes.
 C14 = ClaimTest(
     "C14",
