@@ -85,6 +85,7 @@ class Expander:
         self.document_class = ""
         self.notes: list[str] = []
         self.depth = self.files = self.expansions = 0
+        self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
         self.starts: list[tuple[int, str, list[int]]] = []  # where each file begins, its name, its ends of lines
         self.end = 0
         self.waiting: list[list[Token]] = []  # tokens in reverse order, the innermost file or expansion last
@@ -98,6 +99,7 @@ class Expander:
             raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: one may take in itself")
         self.starts.append((self.end, name, [m.start() for m in re.finditer("\n", text)]))
         self.waiting.append(tokenize(text, self.end)[::-1])
+        self.most += len(self.waiting[-1])
         self.end += len(text) + 1
 
     def line(self, at: int) -> tuple[str, int]:
@@ -272,7 +274,7 @@ class Expander:
 
     def _count(self, name: str) -> None:
         self.expansions += 1
-        if self.expansions > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > _MOST_TOKENS:
+        if self.expansions > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > self.most:
             raise InputError(
                 f"{self.file or 'the source'}: {name} expands without end: a macro that calls itself cannot be taken in"
             )

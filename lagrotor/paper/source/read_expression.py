@@ -95,7 +95,7 @@ class Grammar(FormulaReader):
 
     def term(self, row: list[Box]) -> Node:
         """The product that a row of boxes is."""
-        row = fold_derivatives(row, "d" not in self.notation.bare | self.notation.letters)
+        row = fold_derivatives(row, "d" not in self.notation.bare and "d" not in self.notation.letters)
         if row and row[-1].kind == "operator" and row[-1].name != "!":
             raise FormulaError(row[-1].at, f"nothing follows {row[-1].name}", "write the second factor")
         groups: list[tuple[str, list[Box]]] = [("", [])]

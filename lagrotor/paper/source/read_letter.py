@@ -116,7 +116,7 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     if not given:
         raise FormulaError(bracket.at, "a function has no argument", "write it")
     named, raised = letter_of(reader, box)
-    if box.sub and not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
+    if not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
         why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
         raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
     name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())

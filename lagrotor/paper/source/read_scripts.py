@@ -1,5 +1,7 @@
 """What an index, a mark or a power makes of a letter: a name, or a power of it."""
 
+from dataclasses import replace
+
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.rows import without_thin
@@ -7,7 +9,7 @@ from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector,
 from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
 
 TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
-_INDICES = ("i", "j", "k", "l", "a", "b", "c", "d")
+_INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
 
 
@@ -61,16 +63,18 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
 
 def _check_power(reader: FormulaReader, box: Box) -> None:
     row, known = without_thin(box.sup or []), reader.notation
-    alike = [b.name for b in row if _is_plain(b) and (b.name in _GREEK or b.name in _INDICES)]
+    alike = [b.name for b in row if _is_plain(replace(b, primes=0)) and (b.name in _GREEK or b.name in _INDICES)]
     if alike and len(alike) == len(row) and not set(alike) & known.letters:
         tensor = {name for name in alike if name in TENSOR and name not in known.bare}
-        if tensor or set(alike) & known.lowered or (len(alike) > 1 and set(alike) <= set("ijkl")):
+        lowered = (set(alike) - set("lmn")) & known.lowered
+        if tensor or lowered or any(b.primes for b in row) or (len(alike) > 1 and set(alike) <= set("ijkl")):
             raise FormulaError(
                 row[0].at,
                 f"whether {' '.join(alike)} is an upper index or a power is open",
                 f'write brackets around the power, or in paper.toml [notation] letters = "{alike[0]}"',
             )
-        reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
+        if set(alike) - set("lmn") or set(alike) & known.lowered:
+            reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
     if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
         raise FormulaError(
             row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"
@@ -84,6 +88,8 @@ def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
     if box.sup is None:
         return node
     row = without_thin(box.sup)
+    if box.kind == "group" and len(box.parts[0]) == 1:
+        _check_power(reader, box)
     if not row:
         raise FormulaError(box.at, "a power is empty", "write it")
     if (
