@@ -9,7 +9,7 @@ these, the difference is decided, and one change of sign, factor or power makes 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -183,7 +183,7 @@ class _Checker:
         point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
         for fixed, changing in ((a, right), (b, left)):
             value = _number(fixed, point)
-            for mutant, said in islice(slips(changing), _MOST_SLIPS):
+            for mutant, said in islice(chain(_whole(changing), slips(changing)), _MOST_SLIPS):
                 try:
                     other = sympy_expression(mutant, self.opaque)
                 except (TypeError, ValueError, ArithmeticError, AttributeError):
@@ -381,9 +381,19 @@ def slips(node: Node) -> Iterator[tuple[Node, str]]:
     if node.name == "power" and isinstance(node.args[1], Number):
         for more in (1, -1):
             yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
+    if node.name == "exp":
+        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
     for place, part in enumerate(node.args):
         for changed, said in slips(part):
             yield _with(node, place, changed), said
+
+
+def _whole(node: Node) -> Iterator[tuple[Node, str]]:
+    """The node with its sign or a factor 2 changed."""
+    if not (isinstance(node, Call) and node.name == "sum"):
+        yield Call("negative", (node,)), "the sign of the whole changed"
+    yield Call("product", (Number(Fraction(2)), node)), "the whole doubled"
+    yield Call("quotient", (node, Number(Fraction(2)))), "the whole halved"
 
 
 def _with(node: Call, place: int, part: Node) -> Call:

@@ -66,6 +66,12 @@ def test_numbers_that_no_one_writes_out_are_not_evaluated(body: str, expected: s
     assert verdicts(tmp_path, body) == [expected]
 
 
+@pytest.mark.parametrize("right", [r"2\sin\theta\cos\theta", r"\sin\theta\cos\theta", r"-2\sin\theta\cos\theta"])
+def test_a_factor_or_a_sign_of_a_whole_side_is_a_slip(right: str, tmp_path: Path) -> None:
+    body = rf"\[ y = \sin 2\theta = {right} \] \[ z = e^{{a}} e^{{b}} = e^{{a + b}} \]"
+    assert verdicts(tmp_path, body) == [HOLDS if right.startswith("2") else REFUTED, HOLDS]
+
+
 def test_environments_without_end_are_refused_in_words(tmp_path: Path) -> None:
     many = r"\begin{subequations}" * 3000 + r"\[ a = b \]" + r"\end{subequations}" * 3000
     with pytest.raises(InputError, match="nested too deeply"):
