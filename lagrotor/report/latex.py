@@ -10,6 +10,7 @@ from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
+from lagrotor.paper.source.tokens import tokenize
 
 _HEAD = r"""\documentclass[11pt]{article}
 \usepackage[a4paper,margin=22mm]{geometry}
@@ -139,7 +140,7 @@ def _loose(source: str) -> str:
     """A formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after every space."""
     parts: list[str] = []
     opened: list[int] = []
-    for piece in re.split(r"(\\left(?![a-z])|\\right(?![a-z]))", source):
+    for piece in (token.text for token in tokenize(source)):
         if piece == r"\left":
             opened.append(len(parts))
             parts.append("")

@@ -25,7 +25,8 @@ _EXAMPLE = "papers/pendulum"
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
 _HEAD = (
     "# The displayed equations of {name}. Each reading is unconfirmed until `lagrotor readings` shows it to you and you\n"
-    "# confirm it. Made again by `lagrotor init`: what is confirmed or derived stays; comments do not."
+    "# confirm it. Made again by `lagrotor init`: what is confirmed or derived stays, and comments\n"
+    "# stand above their equation."
 )
 
 
@@ -76,7 +77,9 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     prints = [read_print(each.latex, notation, each.lead) for each in found.equations]
     rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
-    write_text(folder / "equations.toml", _catalogue(rows, _vectors(found, prints, old), source.name))
+    letters = _vectors(found, prints, old)
+    head = _HEAD.format(name=source.name)
+    write_text(folder / "equations.toml", _catalogue(head, rows, letters, _comments(folder / "equations.toml")))
     _write_about(folder, found, again)
     _write_symbols(folder, prints, again)
     if not again:
@@ -199,14 +202,43 @@ def _vectors(found: Source, prints: list[Print], old: Mapping[str, Any]) -> dict
     return known
 
 
-def _catalogue(rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], name: str) -> str:
-    blocks = [_HEAD.format(name=name)]
+def _comments(file: Path) -> dict[str, list[str]]:
+    """Id → the comments above and within its equation; none where there is no file yet."""
+    found: dict[str, list[str]] = {}
+    text = read_text(file) if file.is_file() else ""
+    above: list[str] = []  # what stands behind a blank line belongs to the equation that follows
+    identifier, blank = "", True
+    for line in text[len(_head(text)) :].splitlines():
+        if line.startswith("#"):
+            (above if blank or not identifier else found[identifier]).append(line)
+        elif match := re.match(r'id = "(.*)"$', line):
+            identifier = match[1]
+            found[identifier], above = above, []
+        elif line.startswith("[[equation.line]]") and identifier:
+            found[identifier] += above
+            above = []
+        blank = not line.strip() or (blank and line.startswith("#"))
+    if identifier:
+        found[identifier] += above
+    return found
+
+
+def _catalogue(
+    head: str, rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], comments: Mapping[str, list[str]]
+) -> str:
+    blocks = [head] if head else []
     for section, given in letters.items():
         blocks.append(
             "\n".join([f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in given.items())])
         )
-    blocks += ["\n".join(_equation(row)) for row in rows]
+    blocks += ["\n".join([*comments.get(str(row["id"]), ()), *_equation(row)]) for row in rows]
     return "\n\n".join(blocks) + "\n"
+
+
+def _head(text: str) -> str:
+    """The comments that a file begins with."""
+    match = re.match(r"(?:#[^\n]*\n)*", text)
+    return match[0] if match else ""
 
 
 def _equation(row: Mapping[str, Any]) -> Iterator[str]:
@@ -250,12 +282,8 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         row.pop("changed", None)
         row |= {"read": "confirmed", "print": reading_digest(row["latex"], lines)}
         row["line"] = lines
-    head = re.match(r"(?:#[^\n]*\n)*", read_text(file))
-    blocks = [head[0].rstrip() if head else ""]
-    for section, letters in given.get("letters", {}).items():
-        blocks.append("\n".join([f"[letters.{_text(section)}]", *(f"{k} = {_text(v)}" for k, v in letters.items())]))
-    blocks += ["\n".join(_equation(row)) for row in rows.values()]
-    write_text(file, "\n\n".join(filter(None, blocks)) + "\n")
+    text = _catalogue(_head(read_text(file)).rstrip(), list(rows.values()), given.get("letters", {}), _comments(file))
+    write_text(file, text)
     return wanted
 
 

@@ -8,6 +8,8 @@ from html import unescape
 from importlib.metadata import PackageNotFoundError, version
 from xml.etree.ElementTree import Element, tostring
 
+from lagrotor.paper.source.tokens import tokenize
+
 _ACCENTS = dict(zip("→^ˆ˙¨¯‾―~∼˜", "→ˆˆ˙¨¯¯¯˜˜˜", strict=True))
 _RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"
 _SIGNS = "+-−±∓"
@@ -76,20 +78,15 @@ def _convert(source: str, display: bool) -> str:
 def _lines(source: str) -> Iterator[str]:
     """The parts of a source between wide spaces outside braces and environments."""
     depth, part = 0, ""
-    for piece in (
-        source.replace(r"\quad", "\0").replace(r";\ ", ";\0").replace(r"\begin", "{\1").replace(r"\end", "}\2")
-    ):
-        depth += {"{": 1, "}": -1}.get(piece, 0)
-        if piece == "\0" and depth == 0:
-            yield from [_source(part)] if part.strip() else []
+    for token in tokenize(source):
+        depth += {"open": 1, "close": -1}.get(token.kind, 0) + {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        parts = token.text == r"\quad" or (token.text == "\\ " and part.endswith(";"))
+        if parts and depth == 0:
+            yield from [part] if part.strip() else []
             part = ""
         else:
-            part += piece
-    yield _source(part)
-
-
-def _source(part: str) -> str:
-    return part.replace("{\1", r"\begin").replace("}\2", r"\end").replace("\0", r"\quad ")
+            part += token.text
+    yield part
 
 
 def _tidy(element: Element) -> None:

@@ -61,6 +61,20 @@ def test_what_is_confirmed_stays_and_what_has_changed_is_marked(source: Path) ->
     assert [row["latex"] for i, row in found.items() if i not in "123"] == ["q = 1"]
 
 
+def test_comments_stay_above_their_equation(source: Path) -> None:
+    folder = source.parent / "mine"
+    file = folder / "equations.toml"
+    first, mark, rest = file.read_text(encoding="utf-8").partition('[[equation]]\nid = "2"')
+    text = f"{first}# looked up\n# twice\n{mark}\n# within{rest}"
+    file.write_text(text.replace("[[equation.line]]", "# of the line\n[[equation.line]]", 1), encoding="utf-8")
+    confirm(folder, ["1"])
+    begin_paper(folder, source)
+    again = file.read_text(encoding="utf-8")
+    assert '# looked up\n# twice\n# within\n[[equation]]\nid = "2"' in again
+    assert '# of the line\n[[equation]]\nid = "1"' in again
+    assert rows(folder)["1"]["read"] == "confirmed"
+
+
 def test_an_equation_that_is_gone_stays_where_a_derivation_states_it(source: Path) -> None:
     folder = source.parent / "mine"
     (folder / "derivations" / "s1.py").write_text('verdict("2", 1)\n', encoding="utf-8")
