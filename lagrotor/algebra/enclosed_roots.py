@@ -14,6 +14,11 @@ from lagrotor.algebra.differentiation import derivative
 from lagrotor.algebra.enclosures import Bounds, Point, enclosure
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
+_MOST_BOXES, _LEAST, _CUT = (
+    4_000,
+    sp.Rational(1, 10**6),
+    sp.Rational(49, 100),
+)  # beside the middle, where roots often are
 Box = dict[sp.Symbol, Bounds]
 
 
@@ -83,3 +88,77 @@ def _sum(parts: Iterable[Bounds]) -> Bounds:
     for a, b in parts:
         low, high = low + a, high + b
     return low, high
+
+
+def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
+    """Narrow boxes, each of which holds exactly one root of the equations in the symbols of `box`, and small boxes that are left
+    undecided: outside all of these there is no root.
+
+    A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside,
+    and is cut in two otherwise. A root on the rim of the box is among them.
+    """
+    unknowns = list(box)
+    slopes = [[derivative(f, s) for s in unknowns] for f in equations]
+    roots: list[Box] = []
+    open_boxes, undecided, tried = [box], list[Box](), 0
+    while open_boxes:
+        X = open_boxes.pop()
+        tried += 1
+        values = [enclosure(f, X) for f in equations]
+        if any(v is not None and not v[0] <= 0 <= v[1] for v in values):
+            continue
+        wide = {s: (low - (high - low) / 8, high + (high - low) / 8) for s, (low, high) in X.items()}
+        K = _krawczyk(equations, slopes, unknowns, wide)
+        if K is not None and not all(_meet(K[s], X[s]) for s in unknowns):
+            continue
+        if K is not None and all(wide[s][0] < K[s][0] and K[s][1] < wide[s][1] for s in unknowns):
+            root = enclosed_root(equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
+            if root is not None and all(K[s][0] <= root[s][0] and root[s][1] <= K[s][1] for s in unknowns):
+                known = any(all(_meet(root[s], other[s]) for s in unknowns) for other in roots)
+                if not known and all(_meet(root[s], box[s]) for s in unknowns):
+                    roots.append(root)
+                continue
+        widest = max(unknowns, key=lambda s: (X[s][1] - X[s][0]) / (box[s][1] - box[s][0]))
+        low, high = X[widest]
+        if tried > _MOST_BOXES:
+            return roots, [*undecided, X, *open_boxes]
+        if high - low < _LEAST * (box[widest][1] - box[widest][0]):
+            undecided.append(X)
+            continue
+        cut = low + (high - low) * _CUT
+        open_boxes += [{**X, widest: (low, cut)}, {**X, widest: (cut, high)}]
+    return roots, undecided
+
+
+def _krawczyk(
+    equations: Sequence[sp.Expr], slopes: Sequence[Sequence[sp.Expr]], unknowns: Sequence[sp.Symbol], X: Box
+) -> Box | None:
+    """K(X); None where something has no enclosure there, or the middle of F'(X) is singular."""
+    middle = {s: _short((low + high) / 2) for s, (low, high) in X.items()}
+    values = [enclosure(f, middle) for f in equations]
+    spread = [[enclosure(slope, X) for slope in row] for row in slopes]
+    if any(v is None for v in (*values, *(v for row in spread for v in row))):
+        return None
+    mean = sp.Matrix([[_short((v[0] + v[1]) / 2) for v in row if v] for row in spread])
+    if mean.det() == 0:
+        return None
+    Y, n = mean.inv().applyfunc(_short), len(unknowns)
+    K: Box = {}
+    for i, s in enumerate(unknowns):
+        moved = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values) if v)
+        parts = [(middle[s] - moved[1], middle[s] - moved[0])]
+        for k, other in enumerate(unknowns):
+            product = _sum(_times((Y[i, j], Y[i, j]), v) for j in range(n) if (v := spread[j][k]))
+            off = (int(i == k) - product[1], int(i == k) - product[0])
+            parts.append(_times(off, (X[other][0] - middle[other], X[other][1] - middle[other])))
+        K[s] = _sum(parts)
+    return K
+
+
+def _meet(a: Bounds, b: Bounds) -> bool:
+    return a[0] <= b[1] and b[0] <= a[1]
+
+
+def _short(x: sp.Rational) -> sp.Rational:
+    """A rational near x with few digits, where any one near it does."""
+    return sp.Rational(float(x))

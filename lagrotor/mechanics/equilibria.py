@@ -5,14 +5,17 @@ is not returned. Where no factor can be solved so, the equilibrium is refused wi
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
+from typing import Any
 
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, normal_form
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.algebra.enclosed_roots import roots_in_box
+from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import by_symbol
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
@@ -26,23 +29,36 @@ class Equilibrium:
     """Values of the unknowns, `at`, and the conditions (relations) under which they are real and nothing is singular.
 
     regular: whether the mass matrix is regular there. Where it is not, as at the pole of spherical coordinates, no force
-    along a coordinate is necessary for rest and may not be enough: other coordinates decide.
+    along a coordinate is necessary for rest and may not be enough: other coordinates decide. enclosure: where it was found in
+    a box, rationals between which each coordinate is proved to lie; `at` is rounded.
     """
 
     at: Mapping[sp.Symbol, sp.Expr]
     domain: tuple[sp.Basic, ...] = ()
     regular: bool = True
+    enclosure: Mapping[sp.Symbol, tuple[sp.Rational, sp.Rational]] = field(default_factory=dict)
 
 
-def equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol] = ()) -> tuple[Equilibrium, ...]:
+def equilibria(
+    system: Equations,
+    unknowns: str | Sequence[str | sp.Symbol] = (),
+    values: Mapping[Any, Any] | None = None,
+    box: Mapping[Any, tuple[Any, Any]] | None = None,
+) -> tuple[Equilibrium, ...]:
     """Configurations at rest where no force is left: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
 
     unknowns: what to solve for, the coordinates unless others are named. Where these are not solved exactly in a system
     from `routh`, the momentum is found that a steady motion needs at any value of them, as p_phi for a top at an
     inclination. Angles in sines and cosines are found between −π and π.
 
-    Raises InputError when the conditions depend on time, or cannot be solved exactly.
+    With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
+    `enclosure`, and none elsewhere in the box, by interval Newton.
+
+    Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
+    stays undecided, as about equilibria that are not isolated.
     """
+    if values is not None or box is not None:
+        return _in_box(system, values or {}, box or {})
     if unknowns:
         return _equilibria(system, unknowns)
     try:
@@ -52,6 +68,51 @@ def equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol] = ()
             if len(system.c.q) == 1:
                 return _equilibria(system, (momentum,))
         raise
+
+
+def _in_box(
+    system: Equations, values: Mapping[Any, Any], box: Mapping[Any, tuple[Any, Any]]
+) -> tuple[Equilibrium, ...]:
+    """All equilibria in a box, in numbers."""
+    c = system.c
+    if system.multipliers:
+        raise InputError(
+            "equilibria: a box is searched without constraints: solve them for coordinates by in_coordinates"
+        )
+    letters = system.L.free_symbols | system.push.free_symbols
+    numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
+    still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
+    forces = [e.xreplace(still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
+    forces = [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in forces]
+    sides = by_symbol(box, c.q)
+    if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
+        raise InputError(f"equilibria: box = {box!r} must be {{coordinate: (least, largest)}} for each of {c.q}")
+    edges = {q: tuple(_rational(f"equilibria: box of {q}", x) for x in sides[q]) for q in c.q}
+    if empty := [str(q) for q, (low, high) in edges.items() if low >= high]:
+        raise InputError(f"equilibria: the box of {', '.join(empty)} is empty: give (least, largest)")
+    if left := sorted({str(s) for e in forces for s in e.free_symbols - {*c.q}}):
+        raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
+    roots, undecided = roots_in_box(forces, {q: (low, high) for q, (low, high) in edges.items()})
+    if undecided:
+        shown = ", ".join(f"{q} = {float(sum(x) / 2):.6g}" for q, x in undecided[0].items())
+        raise SingularError(
+            f"equilibria: {len(undecided)} small parts of the box are undecided, the first about {shown}: an equilibrium that is "
+            "not isolated, or degenerate, or forces that have no value; choose another box, or coordinates on which they depend"
+        )
+    middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
+    return tuple(
+        Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
+        for at, root in sorted(zip(middles, roots, strict=True), key=lambda pair: [float(x) for x in pair[0].values()])
+    )
+
+
+def _rational(where: str, given: Any) -> sp.Rational:
+    try:
+        if isinstance(given, str | bool):
+            raise TypeError
+        return sp.Rational(given) if isinstance(given, int | float | sp.Rational) else sp.Rational(float(given))
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{where} = {given!r} must be a finite number") from None
 
 
 def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[Equilibrium, ...]:

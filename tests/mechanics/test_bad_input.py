@@ -206,6 +206,16 @@ BAD: dict[str, Callable[[], Any]] = {
     "an output of text": lambda: pendulum.linearise({q: 0}, VALUES, (), ("theta",)),  # type: ignore[arg-type]
     "an output of a stranger": lambda: pendulum.linearise({q: 0}, VALUES, (), (k,)),
     "inputs of symbols": lambda: pendulum.linearise({q: 0}, inputs=(m,)),  # type: ignore[call-overload]
+    "a box with a value too few": lambda: pendulum.equilibria(values={m: 1, l: 1}, box={q: (-1, 1)}),
+    "a box of nothing": lambda: pendulum.equilibria(values=VALUES, box={}),
+    "a box of another coordinate": lambda: pendulum.equilibria(values=VALUES, box={"phi": (-1, 1)}),
+    "an empty box": lambda: pendulum.equilibria(values=VALUES, box={q: (1, -1)}),
+    "an infinite box": lambda: pendulum.equilibria(values=VALUES, box={q: (0, np.inf)}),
+    "a box of text": lambda: pendulum.equilibria(values=VALUES, box={q: ("a", "b")}),
+    "a box that is none": lambda: pendulum.equilibria(values=VALUES, box=3),  # type: ignore[arg-type]
+    "a box under a constraint": lambda: circle.equilibria(values=VALUES, box={x: (-1, 1), y: (-1, 1)}),
+    "a box in time": lambda: System(A, SWING + t * q).equilibria(values=VALUES, box={q: (-1, 1)}),
+    "a box with a degenerate rest": lambda: System(A, v**2 / 2 - q**4).equilibria(values={}, box={q: (-1, 2)}),
     "an orbit of text": lambda: pendulum.floquet("here", VALUES, 1),  # type: ignore[arg-type]
     "an orbit that is open": lambda: pendulum.floquet({q: 1}, VALUES, 1),
     "an orbit of a list": lambda: pendulum.floquet({q: 0}, [1, 1, 10], 1),  # type: ignore[arg-type]

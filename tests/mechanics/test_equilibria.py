@@ -1,0 +1,68 @@
+"""All equilibria in a box, against those of many starts of Newton's method, closed forms, and the exact solver."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.optimize import fsolve
+
+from lagrotor.mechanics import System, coordinates
+
+c, d = coordinates("x"), coordinates("a b")
+(x,), (v,) = c.q, c.v
+(a, b), (u, w) = d.q, d.v
+g, k, R, Omega = sp.symbols("g k R Omega", positive=True)
+
+
+def many_starts(system: System, values: dict, sides: list[tuple[float, float]]) -> list[tuple[float, ...]]:
+    """The distinct roots of the forces that Newton's method finds from 400 starts, inside the box."""
+    force = [sp.diff(system.L, q).subs(values).subs(dict.fromkeys(system.c.v, 0)) for q in system.c.q]
+    f = sp.lambdify([system.c.q], force)
+    slope = sp.lambdify([system.c.q], sp.Matrix(force).jacobian(list(system.c.q)))
+    generator, kept = np.random.default_rng(3), list[tuple[float, ...]]()
+    for _ in range(400):
+        start = [generator.uniform(*side) for side in sides]
+        root, _, found, _ = fsolve(f, start, fprime=slope, full_output=True, xtol=1e-13)
+        inside = all(low <= r <= high for r, (low, high) in zip(root, sides, strict=True))
+        if found == 1 and np.abs(f(root)).max() < 1e-10 and inside:
+            kept += [tuple(root)] if all(np.abs(np.subtract(root, other)).max() > 1e-6 for other in kept) else []
+    return sorted(kept)
+
+
+@pytest.mark.parametrize(
+    ("potential", "values"),
+    [
+        (2 * sp.cos(a) + sp.cos(b) - (a - b) ** 2 / 8, {}),
+        (g * sp.cos(a) + sp.sin(b) * a - k * a**2 - b**2 / 3, {g: 2.0, k: 0.3}),
+        (-((a**2 + b - 11) ** 2) / 20 - (a + b**2 - 7) ** 2 / 20, {}),
+    ],
+)
+def test_a_box_holds_what_many_starts_find_and_no_less(potential: sp.Expr, values: dict) -> None:
+    system, sides = System(d, (u**2 + w**2) / 2 + potential), [(-4.1, 4.3), (-4.2, 4.0)]
+    found = system.equilibria(values=values, box=dict(zip(d.q, sides, strict=True)))
+    places = [tuple(float(e) for e in each.at.values()) for each in found]
+    known = many_starts(system, values, sides)
+    assert len(places) == len(known) > 1
+    np.testing.assert_allclose(places, known, atol=1e-8)
+    for each in found:
+        for q, (low, high) in each.enclosure.items():
+            assert 0 < high - low < 1e-20 and abs(float(each.at[q]) - float(low)) < 1e-15
+
+
+def test_roots_on_the_rim_and_on_a_cut_are_found_once() -> None:
+    """sin x on [−2π, 2π] is zero five times, at the middle too; beyond the rim none is told of."""
+    pendulum = System(c, v**2 / 2 + g * sp.cos(x))
+    found = pendulum.equilibria(values={g: 9.81}, box={x: (-7, 7)})
+    np.testing.assert_allclose([float(e.at[x]) for e in found], np.pi * np.arange(-2, 3), atol=1e-15)
+    assert len(pendulum.equilibria(values={"g": 9.81}, box={"x": (0, 3)})) == 1
+    assert len(pendulum.equilibria(values={g: 9.81}, box={x: (0.001, 3.1415)})) == 0
+    assert System(c, v**2 / 2 - sp.exp(x)).equilibria(values={}, box={x: (-9, 9)}) == ()
+
+
+def test_a_bead_on_a_hoop_has_those_of_the_exact_solver() -> None:
+    hoop = System(c, R**2 * (v**2 + Omega**2 * sp.sin(x) ** 2) / 2 + g * R * sp.cos(x))
+    values = {R: 1, g: 10, Omega: 4}
+    found = [float(e.at[x]) for e in hoop.equilibria(values=values, box={x: (-3, 3)})]
+    exact = [float(e.at[x].subs(values)) for e in hoop.equilibria() if e.at[x] != sp.pi]
+    np.testing.assert_allclose(found, sorted(exact), atol=1e-14)
+    slow = hoop.equilibria(values=values | {Omega: 3}, box={x: (-3, 3)})
+    assert len(slow) == 1  # Omega² < g/R: the lowest point alone
