@@ -293,7 +293,7 @@ class _Door:
             watch=nodes.t if nodes else np.empty(0),
             singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
             elsewhere=bounded,
-            independent=engine == "fast",
+            independent=engine == "fast" and scene.shock is None,
         )
         try:
             return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)

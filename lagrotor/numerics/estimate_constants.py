@@ -1,6 +1,6 @@
 """Constants of the estimate of a run that were found by trial: what each was calibrated on, and the test that holds it."""
 
-from lagrotor.numerics.solver_constants import CROSSOVER, Calibrated
+from lagrotor.numerics.solver_constants import Calibrated
 
 _WIDE = "300 wide scenes of rotor pairs of up to 100 turns against 80-bit integrations, core and fast"
 _BEYOND = "test_estimated.py::test_where_two_runs_have_parted_the_rest_is_cheap"
@@ -32,10 +32,9 @@ SAFETY = Calibrated(
     "test_wide_scenes.py::test_the_difference_itself_is_no_bound",
 )
 RESOLVED = Calibrated(
-    CROSSOVER.value,
-    "local error of the better run below which rounding may be nearly all that differs between the two, or their solvers differ",
-    "518 pairs of runs of 175 wide scenes: those that exceed twice their difference by much are below it; of 300 wide "
-    "systems a looser run by LSODA is no worse than its companion in three",
+    5e-12,
+    "local error of the better run below which rounding may be nearly all that differs between the two",
+    "518 pairs of runs of 175 wide scenes: those that exceed twice their difference by much are all below it",
     "test_estimated_run.py::test_below_what_is_resolved_safety_counts_twice",
 )
 LEAST = Calibrated(

@@ -264,12 +264,17 @@ def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun
     Each integration is compared with the one before it, at APART times the local error. Where the two differ by more than `tol`,
     a third is enough if the second's local error gives it in proportion; else a pair follows at those that do. From where no
     tolerance keeps two together, the best goes on at BEYOND. A run that cannot reach its last time is what was reached, and its
-    ending says why. Raises IntegrationError for a motion that does not conserve what it must, or of which nothing is reached;
-    with its evaluations.
+    ending says why. Raises IntegrationError for a motion that does not conserve what it must, or of which nothing is reached,
+    with its evaluations; and for one of so many turns that rounding alone leaves nothing known.
     """
+    turns = float(times[-1] - times[0]) / evolution.turn
+    unavoidable = ROUNDING.value * (START.value + turns)
+    if unavoidable > UNKNOWN:
+        raise IntegrationError(
+            f"the run has {turns:.1e} turns, after which rounding leaves nothing known: take a shorter run"
+        )
     course = _Course(evolution, times)
     best = comparison = _loosest(course, tol)
-    unavoidable = ROUNDING.value * (START.value + float(course.turns(times[-1])))
     while unavoidable <= tol < comparison.error and not comparison.refusal and not _hopeless(course, comparison):
         following = _following(course, comparison, tol)
         if following is None:

@@ -108,18 +108,18 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
     # What fails unwatched is run again to see where; it takes the same steps, which were taken twice.
     states, log = _odeint(segment, watched, error, first)
     spent = (spent + 1) * (2 if bare else 1)
-    if stopped:
+    if stopped or not _successful(states, log):
+        # Of one that fails by itself, what comes after its last step is no number that it made.
         states = states[1:-1][segment.t_eval <= done]
         whole = np.isfinite(states).all(1)
         states = states if whole.all() else states[: int(np.argmin(whole))]
         reached = Stretch(states, states[-1], spent) if len(states) else None
-        reason = "the right-hand side is not finite" if lost else f"{spent} evaluations spent"
+        over = stopped and not lost
+        reason = (
+            f"{spent} evaluations spent" if over else "the right-hand side is not finite" if lost else log["message"]
+        )
         until = float(segment.t_eval[len(states) - 1]) if reached else left
-        raise StopError(until, reason, reached, spent, "stopped" if lost else "budget")
-    if not _successful(states, log):
-        excess = "Excess work" in log["message"] and segment.budget < 2**30
-        reason = f"{int(segment.budget)} steps made" if excess else log["message"]
-        raise StopError(left, reason, evaluations=spent, cause="budget" if excess else "stopped")
+        raise StopError(until, reason, reached, spent, "budget" if over else "stopped")
     return Stretch(states[1:-1], states[-1], spent)
 
 

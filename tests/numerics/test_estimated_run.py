@@ -288,3 +288,10 @@ def test_no_looser_pair_is_tried_once_one_is_given_up() -> None:
     made.fails[1.0] = StopError(7.3, "too many", cause="budget")
     made.run(1e-7)
     assert limit < max(made.locals) <= limit * APART**2
+
+
+def test_of_too_many_turns_nothing_is_begun() -> None:
+    made = Made()
+    with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, after which rounding leaves nothing known"):
+        made.run(1e-6, np.array([0.0, 1e300]))
+    assert not made.locals

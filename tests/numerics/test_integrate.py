@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.numerics import Problem, adams
 from lagrotor.numerics import integrate as module
+from lagrotor.numerics import lsoda as solver
 from lagrotor.numerics.integrate import check_tolerance, integrate
 from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
 from lagrotor.numerics.solver_constants import DETOUR
@@ -241,6 +242,24 @@ def test_a_budget_that_is_spent_is_said_with_all_that_was_spent_and_reached(tol:
     assert reached is not None and (times[: len(reached.states)] <= stop.at).all()
     assert np.abs(reached.states[:, 0] - np.cos(times[: len(reached.states)])).max() < 2e4 * tol
     assert len(reached.states) > 1 or tol > 1e-10  # what LSODA has made is not known
+
+
+def test_what_lsoda_made_before_it_failed_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    times, odeint = np.linspace(0.5, 9.5, 10), solver._odeint
+
+    def fails(segment: Segment, rhs: RightHandSide, error: float, first: float):  # type: ignore[no-untyped-def]
+        states, log = odeint(replace(segment, right=6.0, t_eval=times[times <= 6]), rhs, error, first)
+        rest = np.full((1 + len(times) - len(states[1:-1]), 2), 7.0)  # no number that it made
+        return np.concatenate([states[:-1], rest]), log | {"message": "Repeated error test failures"}
+
+    segment = Segment(oscillate, START, 0.0, 10.0, times)
+    assert solver.lsoda(segment, 1e-9).states[:, 0] == pytest.approx(np.cos(times), abs=1e-6)
+    monkeypatch.setattr(solver, "_odeint", fails)
+    with pytest.raises(StopError, match="Repeated error test failures") as stopped:
+        solver.lsoda(segment, 1e-9)
+    reached = stopped.value.reached
+    assert reached is not None and stopped.value.at == times[len(reached.states) - 1] <= 6 and len(reached.states) >= 5
+    assert reached.states[:, 0] == pytest.approx(np.cos(times[: len(reached.states)]), abs=1e-6)
 
 
 def test_the_allowance_is_for_the_whole_run() -> None:

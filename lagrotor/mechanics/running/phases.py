@@ -385,6 +385,8 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         if event.velocities is None:
             raise StopError(at.t, f"{event.section} = 0", cause="event")
         v = h.evaluate(h.system, event.velocities, at)
+    if not np.isfinite(v).all():
+        raise StopError(at.t, "the velocities after an event are not finite")
     after = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
     return after._replace(mode=_settle(h, after, fixed=kind in ("above", "below", "surface")))
 

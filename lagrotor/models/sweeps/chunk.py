@@ -148,7 +148,9 @@ def _by_minimal(
                 rows[alike] = part.reshape(2, len(alike), len(grid), 3).swapaxes(0, 1)
         apart = np.linalg.norm(axes - before[who], axis=-1).max(axis=1)
         apart = np.maximum(apart, _defects([scenes[i] for i in who], grid, axes, rates)[:, None])
-        errors = errors_up_to(grid, estimated_errors(apart, local, turns[who], independent=True), turn[who])[:, read]
+        errors = errors_up_to(grid, estimated_errors(apart, local, turns[who], independent=not kind[2]), turn[who])[
+            :, read
+        ]
         errors[errors > LOST.value] = UNKNOWN
         before[who] = axes
         if not np.isnan(apart).any():  # of the first there is nothing to compare

@@ -1,5 +1,6 @@
 """What a run refuses at its door: in words, none accepted for what it is not, none without an end."""
 
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -88,3 +89,14 @@ def test_at_rest_where_a_force_of_the_place_jumps() -> None:
         with pytest.warns(UserWarning, match=words):
             assert forced(force).simulate({}, (0,), (0,), T).ending.reason
         assert forced(force).simulate({}, (0,), (1,), T).ending.kind == "end"
+
+
+def test_velocities_of_an_event_that_are_not_finite_end_the_run_there() -> None:
+    """The root is of a negative number; the twin's is not."""
+    for below, kind in ((100, "stopped"), (-100, "end")):
+        event = Event(x, (sp.sqrt(v**2 - below),))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            ended = forced(-x).simulate({}, (1,), (0,), np.linspace(0, 2, 9), events=event)
+        assert ended.ending.kind == kind and np.isfinite(ended.q).all()
+    assert ended.t[-1] == 2
