@@ -85,6 +85,7 @@ class Row:
     numbered: bool = True
     number: str = ""
     stepped: bool = False
+    referred: str = ""  # what a reference to a display says whose number is withdrawn
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
@@ -203,7 +204,7 @@ class _Walker:
     def _end_subequations(self, kept: tuple[int, Macro | None]) -> None:
         self.counters.values["equation"], own = kept
         if own is None:
-            self.expander.macros.pop(r"\theequation")
+            self.expander.macros.pop(r"\theequation", None)
         else:
             self.expander.macros[r"\theequation"] = own
 
@@ -367,6 +368,7 @@ class _Walker:
     def _withdraw(self, row: Row) -> None:
         """The number that a display took as it began is not used."""
         if row.stepped:
+            row.referred = self.expander.printed("equation")
             self.counters.values["equation"] -= 1
             row.stepped = False
 
@@ -420,7 +422,7 @@ class _Walker:
         labels = [label for row in group for label in row.labels]
         for row in group:
             for label in row.labels:
-                self.found.labels.setdefault(label, row.number or number)
+                self.found.labels.setdefault(label, row.number or row.referred or number)
         sources = [" ".join(latex_of(row.tokens).split()) for row in group]
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"

@@ -78,6 +78,7 @@ class Expander:
         self.file, self.packages = file, packages or {}
         self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
         self.macros = ScopedMacros()
+        self.ended = False
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
@@ -217,6 +218,12 @@ class Expander:
     def tokens(self) -> Iterator[Token]:
         """Every token that is left after expansion, definitions and conditions taken out."""
         while (token := self.next()) is not None:
+            if self.ended:  # the group of an environment, once what read it has its number
+                self.macros.close()
+                self.ended = False
+            if token.kind == "scope":
+                self.macros.close()
+                continue
             if token.kind == "open" or token.text in (r"\begingroup", r"\bgroup"):
                 self.macros.open()
             elif token.kind == "close" or token.text in (r"\endgroup", r"\egroup"):
@@ -233,11 +240,12 @@ class Expander:
 
     def expand(self, tokens: Iterable[Token]) -> list[Token]:
         """These tokens, expanded by themselves."""
-        waiting, self.waiting = self.waiting, [list(tokens)[::-1]]
+        kept = self.waiting, self.ended
+        self.waiting, self.ended = [list(tokens)[::-1]], False
         try:
             return list(self.tokens())
         finally:
-            self.waiting = waiting
+            self.waiting, self.ended = kept
 
     def _expanded(self, token: Token) -> bool:
         """Whether the token stood for others, which now come next, or defined something."""
@@ -558,8 +566,11 @@ class Expander:
         name = self.argument()
         known = self.environments.get(latex_of(name).strip())
         if known is None and (command := self._command_of(latex_of(name).strip(), "", token.at)):
+            self.macros.open()
             self.push([command])
             return True
+        if latex_of(name).strip() != "document":
+            self.macros.open()
         if known is None:
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
@@ -571,13 +582,14 @@ class Expander:
         name = self.argument()
         known = self.environments.get(latex_of(name).strip())
         if known is None and (command := self._command_of(latex_of(name).strip(), "end", token.at)):
-            self.push([command])
+            self.push([command, Token("scope", "", token.at)])
             return True
         if known is None:
+            self.ended = latex_of(name).strip() != "document"
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
         self._count(rf"\end{{{latex_of(name)}}}")
-        self.push(Token(t.kind, t.text, token.at) for t in known[1])
+        self.push([*(Token(t.kind, t.text, token.at) for t in known[1]), Token("scope", "", token.at)])
         return True
 
     def _command_of(self, name: str, verb: str, at: int) -> Token | None:

@@ -94,7 +94,7 @@ def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Sour
     ids = {each.id for each in found.equations}
     for place, each in enumerate(found.equations):
         number = aux.get(each.label, each.number) if each.label else each.number
-        if number != each.number:
+        if number not in (each.number, found.labels.get(each.label)):
             said.append(
                 f"{each.label} is ({number}) in {source.with_suffix('.aux').name} and ({each.number or 'without a number'}) by "
                 "the source: the first is taken"
