@@ -11,6 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.from_sympy import parts_from_sympy
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
@@ -30,6 +31,11 @@ class System(Equations):
 
     The arguments are those of `Equations`, to which this class adds what is derived from them.
     """
+
+    @staticmethod
+    def from_sympy(given: Any, q: Sequence[Any] = ()) -> "System":
+        """The system of a LagrangesMethod of sympy.physics.mechanics, or of a Lagrangian of dynamicsymbols with its q."""
+        return System(**parts_from_sympy(given, q))
 
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
