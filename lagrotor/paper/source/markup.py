@@ -36,9 +36,10 @@ def read_source(file: Path) -> Source:
 def _cells(text: str, file: Path) -> str:
     """The Markdown of a notebook. Raises InputError where it is none."""
     try:
-        cells = json.loads(text)["cells"]
+        notebook = json.loads(text)
+        cells = notebook["cells"] if "cells" in notebook else notebook["worksheets"][0]["cells"]
         sources = [cell["source"] for cell in cells if cell["cell_type"] == "markdown"]
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, IndexError):
         raise InputError(f"--from {file}: it is no notebook: give one that Jupyter can open") from None
     return "\n\n".join(source if isinstance(source, str) else "".join(source) for source in sources)
 

@@ -179,7 +179,9 @@ def _is_side(row: list[Box], place: int) -> bool:
     after = row[place + 1] if place + 1 < len(row) else None
     if before is not None and before.kind == "number" and is_unit_like(row[place].name):
         return True
-    edges = (before is None or before.kind == "relation") and (after is None or after.kind == "relation")
+    edges = (before is None or before.kind == "relation") and (
+        after is None or after.kind == "relation" or (before is not None and after.kind in ("wide", "comma"))
+    )
     return edges and not (before is None and after is None)
 
 

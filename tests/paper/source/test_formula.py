@@ -72,6 +72,7 @@ READ = {
     r"ds^2 = dx^2 + dy^2": "differential(s)**2 = differential(x)**2 + differential(y)**2",
     r"y = (2n)!! + n!": "y = double_factorial(2*n) + factorial(n)",
     r"y = |a||b|": "y = Abs(a)*Abs(b)",
+    r"p = \text{const}\qquad (t > 0)": "p = const; t = 0",
     r"y = 4\pi\left(\frac{m}{k}\right)^{3/2}": "y = 4*pi*(m/k)**(3/2)",
 }  # fmt: skip
 

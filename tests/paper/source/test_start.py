@@ -9,6 +9,7 @@ import pytest
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper
+from lagrotor.paper.source.markup import read_source
 from lagrotor.paper.source.start import begin_paper, confirm
 
 TEX = r"""\documentclass{article}
@@ -122,3 +123,14 @@ def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source:
     with pytest.raises(InputError, match="no displayed equation"):
         begin_paper(tmp_path / "new", tmp_path / "empty.tex")
     assert not (tmp_path / "new").exists()
+
+
+def test_a_notebook_of_the_older_format_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "paper.ipynb"
+    file.write_text(
+        '{"worksheets": [{"cells": [{"cell_type": "markdown", "source": ["$$x = a$$"]}]}]}', encoding="utf-8"
+    )
+    assert [each.latex for each in read_source(file).equations] == ["x = a"]
+    file.write_text('{"worksheets": []}', encoding="utf-8")
+    with pytest.raises(InputError, match="it is no notebook"):
+        read_source(file)
