@@ -316,3 +316,8 @@ def test_what_nothing_finished_is_kept_as_such(tmp_path, monkeypatch):
 def test_one_scene_is_no_sequence_of_scenes():
     with pytest.raises(InputError, match="a sequence of at least one Scene"):
         sweep(family(1)[0], T)
+
+
+def test_scenes_at_rest_stay_there():
+    found = sweep([Scene((0.0, 0.0)), *family(1)], T)
+    assert (found.axes[0] == [0, 0, 1]).all() and found.error[0] < 1e-12 and found.endings[0].kind == "end"

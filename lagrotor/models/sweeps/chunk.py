@@ -113,7 +113,7 @@ def _by_minimal(
     """Run scenes of one kind side by side, at one local error after another, each APART times tighter, until two that follow
     each other agree within `tol`; put what comes out whole into its places."""
     ratios = np.array([scene.link.length / scene.rotor.length for scene in scenes if scene.link])
-    turn = 2 * np.pi / np.array([typical_rate(scene) for scene in scenes])
+    turn = 2 * np.pi / np.array([typical_rate(scene) or 1e-300 for scene in scenes])
     # Two runs may agree by chance at the few times at which they are read.
     watched = int(min(_MOST_WATCHED, np.ceil(np.median(times[-1] / turn))))
     grid = np.union1d(times, np.linspace(0, times[-1], watched + 1))
