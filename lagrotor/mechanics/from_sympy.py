@@ -24,11 +24,13 @@ def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
 
     clock = dynamicsymbols._t
     lagrange = isinstance(given, LagrangesMethod)
-    if not lagrange and (not isinstance(given, sp.Expr) or not q):
+    if not lagrange and (not isinstance(given, sp.Expr) or q in ((), [])):
         raise InputError(
             f"from_sympy: {type(given).__name__} must be a LagrangesMethod, or a Lagrangian with its coordinates: "
             "from_sympy(L, (q1, q2)); a KanesMethod has no Lagrangian, give that of its bodies"
         )
+    if not isinstance(q, Sequence | sp.MatrixBase):
+        raise InputError(f"from_sympy: q = {q!r} must be a tuple of coordinates: write ({q},)")
     functions = list(given.q) if lagrange else list(q)
     if not all(isinstance(f, sp.core.function.AppliedUndef) and f.args == (clock,) for f in functions):
         raise InputError(f"from_sympy: {functions} must be dynamicsymbols, each a coordinate")

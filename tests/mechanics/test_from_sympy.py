@@ -66,6 +66,8 @@ def test_what_is_none_of_these_is_refused() -> None:
         (KanesMethod(N, [q1], [u2], [u1 - u2]), (), "has no Lagrangian"),
         (DOUBLE, (sp.Symbol("q1"),), "dynamicsymbols"),
         (DOUBLE, (q1,), "plain"),
+        (DOUBLE, q1, "must be a tuple"),
+        (DOUBLE, "q1 q2", "dynamicsymbols"),
     ):
         with pytest.raises(InputError, match=words):
             System.from_sympy(given, q)
