@@ -2,11 +2,12 @@
 # `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
 # `make test-machines` runs the tests as they run elsewhere: other kernels of linear algebra, numpy without its vector features,
 # other hash seeds, the lowest dependencies, the extras, other Pythons; `make test-machines RUNS="Prescott extras"` some of it.
+# `make test-pages` opens every page of the report and the documentation in Chromium, on a desk, on a phone and on paper.
 # `make certify` writes a proof of every exact verdict into certificates/ and checks each with Coq (Debian: coq libcoq-interval).
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test check docs certify test-machines
+.PHONY: reproduce test check docs certify test-machines test-pages
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
@@ -24,6 +25,11 @@ docs: $(VENV)/.installed-docs reproduce
 certify: $(VENV)/.installed
 	$(VENV)/bin/python -m lagrotor audit --certify certificates > /dev/null
 	$(VENV)/bin/python -m lagrotor certify certificates
+
+# Needs a Chromium.
+test-pages: docs
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[pages]'
+	$(VENV)/bin/python -m tests.pages
 
 test-machines:
 	$(PYTHON) -m tests.machines $(RUNS)

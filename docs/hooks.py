@@ -134,6 +134,14 @@ def on_page_content(html: str, page: Any, config: Any, files: "Files") -> str:
     return "".join(parts)
 
 
+def on_post_page(output: str, page: Any, config: Any) -> str:
+    """What the theme leaves out for a keyboard and for a screen reader."""
+    output = output.replace(
+        'data-md-component="search" role="dialog"', 'data-md-component="search" role="dialog" aria-label="Search"'
+    )
+    return output.replace('class="highlight-ipynb hl-python"', 'class="highlight-ipynb hl-python" tabindex="0"')
+
+
 def on_post_build(config: Any) -> None:
     """The report beside the documentation, without what it keeps for its next run."""
     if REPORT.is_dir():
