@@ -66,12 +66,13 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     known = value(run.states, run.t)[0]
     for i, (a, b) in enumerate(pairwise(run.t)):
         march(phases, full[i], np.array([a, b]), run.local, inf, observe)
-        if side * known[i + 1] < 0 and max(abs(side), abs(known[i + 1])) > 0:  # between the end of a piece and the next
+        if side * known[i + 1] < 0:  # between the end of a piece and the beginning of the next
             way = 1 if known[i + 1] > 0 else -1
-            if not (passages and passages[-1][1] == -way and b - passages[-1][0] < 1e-3 * (b - a)):
+            near_end = bool(passages) and b - passages[-1][0] < 1e-3 * (b - a)
+            if near_end and passages[-1][1] == -way:
+                passages.pop()  # the next piece begins before it
+            elif not near_end:
                 passages.append((float(b), way, full[i + 1][: 2 * n]))
-            else:
-                passages.pop()
     if hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "

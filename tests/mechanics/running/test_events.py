@@ -33,6 +33,20 @@ def test_every_crossing_is_on_its_section_however_few_times_are_read(n: int, dur
     assert len(run.crossings(x - level).t) == len(run.crossings(x - level, 1).t) + len(run.crossings(x - level, -1).t)
 
 
+@pytest.mark.parametrize("tol", [1e-3, 1e-5, 1e-7, 1e-9])
+@pytest.mark.parametrize("samples", [21, 41, 61, 81])
+def test_a_crossing_at_a_sample_is_one_and_in_its_direction(samples: int, tol: float) -> None:
+    """x = cos t read where x is zero: rounding decides on which side of the sample the zero falls."""
+    run = OSCILLATOR.simulate({}, [1.0], [0.0], t=np.linspace(0.5 * np.pi, 20.5 * np.pi, samples), tol=tol)
+    for section in (x, v - sp.Rational(1, 10**12), x + v):
+        for direction in (1, -1):
+            there = run.crossings(section, direction)
+            assert np.diff(there.t) == pytest.approx(2 * np.pi, abs=10 * tol)
+            assert len(there.t) in (9, 10)
+            rates = {x: v, v - sp.Rational(1, 10**12): -x, x + v: v - x}[section]
+            assert (np.sign(there.evaluate(rates)) == direction).all()
+
+
 def test_a_section_that_is_only_touched_is_found_and_one_that_is_missed_is_not() -> None:
     run = OSCILLATOR.simulate({}, (1,), (0,), np.linspace(0, 20, 3), 1e-9)
     assert run.crossings(x - 1).t == pytest.approx(2 * np.pi * np.arange(1, 4), abs=1e-4)
