@@ -99,10 +99,10 @@ def _table(summary: dict[str, Any]) -> str:
     rows = [("stands", f"{verdict}: {summary['why']}")]
     freedoms = f"{summary['freedoms']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
     if summary["stands"] is None:
-        return table(("structure", ""), [*rows, ("freedoms", freedoms)])
+        return table(("structure", ""), [*rows, ("degrees of freedom", freedoms)])
     factor = summary["critical_spin"]
     least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
     modes = enumerate(summary["modes"], 1)
-    rows += [("least spin", least), ("freedoms", f"{freedoms}; modes that grow: {summary['topple']}")]
+    rows += [("least spin", least), ("degrees of freedom", f"{freedoms}; modes that grow: {summary['topple']}")]
     rows += [(f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s") for k, m in modes]
     return table(("structure", ""), rows)

@@ -1,8 +1,9 @@
-"""Whether a structure stands upright, why not, and the least factor on all its spins from which on it does.
+"""Whether a structure stands upright to first order, why not, and the least factor on all its spins from which on it does.
 
-What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n freedoms:
+What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n degrees of
+freedom:
 
-- an odd number of freedoms that fall (det K < 0) falls at any spin (Kelvin; Thomson & Tait, Natural Philosophy, § 345);
+- an odd number of degrees of freedom that fall (det K < 0) falls at any spin (Kelvin; Thomson & Tait, Natural Philosophy, § 345);
 - where all of K is negative it stands from some spin on if and only if det B ≠ 0, and that is the factor
 
       max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0,
@@ -11,6 +12,10 @@ What weight tips over, spin alone may hold. Without friction, K the stiffness an
 - with M = a 1 and K = −κ 1 (massless bars, equal loads) that is 2 sqrt(a κ)/β, i β the least root of B.
 
 Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5).
+
+All of this is the linear motion. What spins hold against weight has precessions of negative energy; where a fast rate is the
+sum of two slow ones, the bars' terms of third order can feed all three, and any push then falls in a time that grows as one over
+the push (Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199).
 """
 
 from dataclasses import dataclass, replace
@@ -29,9 +34,9 @@ _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Standing(Shown):
-    """Whether it stands, in words why; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
+    """Whether it stands to first order, why; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
 
-    critical_spin: the factor on all spins from which on it stands, inf where there is none.
+    critical_spin: the factor on all spins from which on it stands, inf where there is none. All of it linear.
     """
 
     stands: bool
@@ -50,7 +55,7 @@ class Standing(Shown):
 
 
 def stands(s: Assembly) -> Standing:
-    """Whether small motions about upright stay bounded. Raises InputError where upright breaks a bar's length."""
+    """Whether the linear motion about upright stays bounded. Raises InputError where upright breaks a bar's length."""
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     growth, falls = linear.growth, linear.growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
@@ -64,14 +69,17 @@ def _why(linear: SmallMotion, factor: float) -> str:
         if linear.drifts:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
         if not n:
-            return "the bars leave no freedom"
+            return "the bars leave no degree of freedom"
         held = (
             "springs or a hanging weight hold it"
             if K[0] > 1e-12
             else "nothing pulls at it, and spins or friction stop a push"
         )
-        return "every small motion stays bounded: " + (f"the spins hold {falling} of {n} freedoms" if falling else held)
-    first = f"{falling} of {n} freedoms fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
+        if not falling:
+            return f"every small motion stays bounded: {held}"
+        held = f"the spins hold {falling} of {n} degrees of freedom"
+        return f"to first order: {held}; a resonance of higher order may still let a push fall"
+    first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
     if falling % 2:
         return first + "an odd number of them, which no spins hold"
     if linear.damping.any():
@@ -87,7 +95,7 @@ def _why(linear: SmallMotion, factor: float) -> str:
 
 
 def critical_spin(s: Assembly) -> float:
-    """The factor on all spins from which on the structure stands, at every larger one too.
+    """The factor on all spins from which on the linear motion stays bounded, at every larger one too.
 
     0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
     that nothing holds and no spin acts on.

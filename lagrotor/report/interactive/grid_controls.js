@@ -15,7 +15,7 @@ function verdict(found, spin) {
   const number = (x) => x.toPrecision(3), freedoms = found.rows.length + found.columns.length;
   if (!freedoms) return ["There is no rotor.", ""];
   if (found.stands) {
-    return ["It stands.", `All ${freedoms} freedoms stay bounded; it stands from ${number(found.factor)} times these spins on.`];
+    return ["It stands to first order.", `Its linear motion, of ${freedoms} degrees of freedom, stays bounded from ${number(found.factor)} times these spins on.`];
   }
   const falls = `It falls: a small tilt grows e-fold in ${number(1 / found.growth)} s.`;
   if (!spin) return [falls, "Nothing turns."];
