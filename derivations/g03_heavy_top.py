@@ -64,9 +64,9 @@ prove(threshold, p**2 - 4 * J * m * g * l, "the sleeping top's threshold", names
 # ## Against Euler's equations of the body and its rotation matrix, integrated independently
 
 # %%
-values = {I1: 0.2, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}
+values = {I1: 0.3, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}
 times, twin = np.linspace(0, 2, 201), {I3: 0.501}
-inertia = np.array([0.56, 0.56, 0.5])
+inertia = np.array([0.66, 0.66, 0.5])
 
 
 def euler(_: float, y: np.ndarray) -> np.ndarray:

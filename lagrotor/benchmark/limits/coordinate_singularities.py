@@ -84,28 +84,9 @@ def euler_limits(quick: bool) -> list[Limit]:
 
 
 def joint_line_limits(quick: bool) -> list[Limit]:
-    """The minimal model's coordinates near the joint line, where x = tanh u comes within rounding of 1."""
-    wanted, tol = 1e-6, 1e-10
-
-    def lost(distance: float) -> bool:
-        """By the model's own start and the axes that it reads off it."""
-        off = []
-        for d in distance * np.linspace(1, 1.5, 40):
-            axis = (float(np.sqrt(1 - d * d)), 0.0, float(d))
-            scene = Scene((3.0, -3.0), axes=(axis, axis))
-            seen = minimal.MODEL.observe(scene, minimal.MODEL.start(scene)[None]).axes[0, 0]
-            off.append(abs(np.hypot(seen[1], seen[2]) / d - 1))
-        return max(off) > wanted
-
+    """A bar that folds over, and bar and axes in line."""
+    tol = 1e-10
     return [
-        Limit(
-            "an axis near the joint line",
-            f"distance from it (rad) that the minimal model's U gives to {wanted:g} of itself",
-            "sqrt(eps/(4 share)): x = 1 − d²/2 is rounded by eps/4",
-            sqrt(_EPS / (4 * wanted)),
-            threshold(lost, 3e-6, 1e-3, 0.1 if quick else 0.01),
-            "minimal refuses a start within 1e-6 rad, auto goes on by spheres",
-        ),
         Limit(
             "a bar shorter than the axes, folding over (chi past pi/2)",
             "difference between minimal and spheres through the fold (R)",
