@@ -166,8 +166,23 @@ def test_a_file_with_an_axiom_a_notation_or_an_open_proof_is_refused() -> None:
     ):
         assert failures(text + "\n" + added, (line,))[""]
     assert failures(text.replace("Qed.", "Admitted."), (line,))
-    assert foreign_word("(* Axiom *) (* (* Axiom a *) *) Lemma") == ""
-    assert foreign_word("(* *) Axiom a : False. (* *)") == "Axiom"
+    assert foreign_word(f"(* Axiom *) (* (* Axiom a *) *)\n{PREAMBLE}(* Axiom *)") == ""
+    assert foreign_word(f"{PREAMBLE}(* *) Axiom a : False. (* *)") == "Axiom"
+
+
+@pytest.mark.parametrize(
+    "forged", ["Lemma sin (x : R) : R.", "Theorem sin (x : R) : R.", "Ltac same := admit.", "Definition sin := cos."]
+)
+def test_no_name_of_the_statements_can_be_taken_by_another_thing(forged: str) -> None:
+    """A second sine would make every theorem below it one about something else."""
+    text, line = of(x + y, y + x)
+    proof = " Proof. exact x. Qed." if forged.endswith(": R.") else ""
+    for other in (
+        text.replace(PREAMBLE, f"{PREAMBLE}{forged}{proof}\n"),
+        text.replace(PREAMBLE, f"{forged}{proof}\n{PREAMBLE}"),
+    ):
+        assert other != text and failures(other, (line,))[""]
+    assert failures(text.replace("Ltac same := ", "Ltac same := try admit; "), (line,))[""]
 
 
 # ---- what the terms say

@@ -1,4 +1,4 @@
-"""Certificates checked by Coq's kernel: `coqc` compiles each file, and nothing but lemmas and theorems may be in it."""
+"""Certificates checked by Coq's kernel: `coqc` compiles each file; in it are the lemmas that all begin with, and theorems."""
 
 import re
 import shutil
@@ -17,8 +17,10 @@ from lagrotor.paper.certificates.certificate_folder import CertifiedEquation, re
 
 # The seconds after which a file counts as rejected.
 _LONGEST = 300
-# Words that a sentence of a certificate begins with: nothing is assumed, no notation is changed.
-_SENTENCES = frozenset(["From", "Open", "Lemma", "Theorem", "Proof", "Qed", "Ltac"])
+# Words that a sentence begins with after the preamble: nothing is assumed, no notation is changed, and no name is taken but
+# those of lines, since a lemma `sin` would be another sine in all that follows.
+_SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
+_NAME = re.compile(r"(line|correction)_\d+(_\w+)?")
 _START = re.compile(r"(?:\A|\.\s|[{}])\s*(#\[|[A-Z]\w*)")
 _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
 
@@ -105,11 +107,16 @@ def _compiled(folder: Path, name: str, text: str) -> str:
 
 
 def foreign_word(text: str) -> str:
-    """What in a file is neither lemma, theorem, tactic nor comment; empty where all is."""
-    plain = _without_comments(text)
+    """What in a file is neither the preamble, nor a theorem about a line, nor a comment; empty where all is."""
+    before, preamble, plain = _without_comments(text).partition(PREAMBLE)
+    if not preamble or before.strip():
+        return "another beginning than the preamble of certificates"
     if '"' in plain:
         return "a string"
-    return next((word for word in _START.findall(plain) if word not in _SENTENCES), "")
+    other = [word for word in _START.findall(plain) if word not in _SENTENCES]
+    names = re.findall(r"\bTheorem\s+([^\s:({]+)", plain)
+    other += [f"a theorem {name}" for name in names if not _NAME.fullmatch(name)]
+    return next(iter(other), "")
 
 
 def _without_comments(text: str) -> str:
