@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import ConstraintError, SingularError
+from lagrotor.mechanics.lagrangian import dependent_rows
 
 Array = NDArray[np.floating[Any]]
 
@@ -74,11 +75,6 @@ def project_velocity(G: Array, v: Array, mass: Array | None = None) -> Array:
     """
     W, S = _normals("project_velocity", G, mass)
     return v - W @ np.linalg.solve(S, G @ v)
-
-
-def dependent_rows(where: str, value: str) -> str:
-    """The refusal of constraints that repeat each other."""
-    return f"{where}: the constraints are dependent ({value}): their multipliers are not unique; drop a constraint"
 
 
 def _normals(where: str, G: Array, mass: Array | None) -> tuple[Array, Array]:

@@ -15,17 +15,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import check_names, decide_zero, derivative
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
-from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.expressions import expression, shortest
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
+    dependent_rows,
     gradient,
     jacobian,
     linear_solve,
@@ -217,6 +216,8 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
             f"degrees_of_freedom: {', '.join(sorted(map(str, G.free_symbols)))} without a value: "
             "the rank of G belongs to one configuration; give every symbol a number"
         )
+    import numpy as np
+
     k, n = G.shape
     return n - int(np.linalg.matrix_rank(np.array(G.tolist(), dtype=float))) if k else n
 

@@ -119,6 +119,11 @@ def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -
     return sp.Matrix(list(forces))
 
 
+def dependent_rows(where: str, value: str) -> str:
+    """The refusal of constraints that repeat each other."""
+    return f"{where}: the constraints are dependent ({value}): their multipliers are not unique; drop a constraint"
+
+
 def singular_mass(where: str, M: sp.Matrix, c: Coordinates) -> str:
     """The refusal of a Lagrangian whose velocities are not determined by its momenta."""
     idle = [v for j, v in enumerate(c.v) if M[:, j].is_zero_matrix] or c.v

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative, normal_form
@@ -71,6 +70,8 @@ class LinearSystem:
         return [column] if column is not None else list(pencil.nullspace(iszerofunc=_is_zero))
 
     def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
+        import numpy as np
+
         matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
         parts = [m.subs(by_symbol(values, m.free_symbols)) for m in matrices]
         if missing := set().union(*(m.free_symbols for m in parts)):

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, overload
 
 import sympy as sp
-from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
@@ -14,6 +13,8 @@ from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.simulation import SystemRun
@@ -95,7 +96,7 @@ class System(Equations):
 
         return monodromy.monodromy_matrix(self, at, values, period)
 
-    def consistent(self, values: "Values", q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> "tuple[Array, Array]":
+    def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
 
         Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
@@ -114,9 +115,9 @@ class System(Equations):
     def simulate(
         self,
         values: "Values",
-        q0: ArrayLike,
-        v0: ArrayLike,
-        t: ArrayLike,
+        q0: "ArrayLike",
+        v0: "ArrayLike",
+        t: "ArrayLike",
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 import sympy as sp
+from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
@@ -118,8 +118,8 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
         raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
     if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
         return
-    spread = np.linalg.eigvalsh(np.array((sp.eye(3) * I.trace() / 2 - I).tolist(), float))
-    if spread.min() < -_ROUNDING * abs(spread).max():
+    spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).tolist()), eigvals_only=True)
+    if min(spread) < -_ROUNDING * max(map(abs, spread)):
         shown = [[float(e) for e in row] for row in I.tolist()]
         raise InputError(
             f"{where}: no body has the inertia {shown}: of its principal inertias none is larger than the two others "

@@ -21,9 +21,8 @@ from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
-from lagrotor.mechanics.constraints import dependent_rows
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import jacobian, singular_mass, t
+from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
 from lagrotor.numerics.printers import compile_program, make_rhs
 
