@@ -202,13 +202,21 @@ def simulate(
         name, why, run = door.by_ladder(choice)
     else:
         name, why, run = model, "by name", door.run(MODELS[model], BY_NAME)
-    units = door.units
     run.warn_unless_kept(name, tolerance)
-    seen, n = MODELS[name].observe(units.scene, run.states), len(run.t)
+    return trajectory_of(scene, door.units, name, why, times, run)
+
+
+def trajectory_of(
+    scene: Scene, units: NaturalUnits, model: str, why: str, times: Array, run: EstimatedRun
+) -> Trajectory:
+    """What a run of the model in natural units shows of the scene, at those of the times (n,) that it reached."""
+    seen, n = MODELS[model].observe(units.scene, run.states), len(run.t)
     momenta = seen.momenta - constant_momenta(units.scene, n)
+    # By the clock of the natural units the last time is off by rounding.
+    ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
         scene=scene,
-        model=name,
+        model=model,
         why=why,
         t=times[:n],
         axes=seen.axes,
@@ -217,7 +225,7 @@ def simulate(
         errors=run.errors,
         horizon=run.horizon,
         evaluations=run.evaluations,
-        ending=run.ending,
+        ending=ending,
     )
 
 
@@ -244,56 +252,17 @@ class _Door:
 
         Raises StopError, in s, where nothing is reached.
         """
-        scene, rate, begin = self.units.scene, self.units.rate, float(self.times[0])
+        rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
-        engine = self.engine if _fast_runs(model, scene) else "core"
-        nodes = pulse_nodes(scene, float(t[-1]))
-        reported = 0.0
-
-        def report(s: float) -> None:
-            if self.progress is not None:
-                self.progress(begin + (reported + s) / rate)
-
-        shown = model if self.progress is None else replace(model, progress=report)
-
-        def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-            nonlocal reported
-            reported = float(times[0])
-            here, after = scene.since(reported), times - times[0]
-            here = replace(here, shock=here.shock_until(float(after[-1])))
-            try:
-                return integrate_model(shown, here, after, local, engine, bounded, companion, start, budget)
-            except StopError as stop:
-                stop.at += float(times[0])
-                raise
-
-        def defect(times: Array, states: Array) -> float:
-            felt = replace(scene, shock=scene.shock_until(float(times[-1])))
-            whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
-            return conservation_defect(felt, times, model.observe(scene, states), whole)
-
-        def distance(one: Array, other: Array) -> Array:
-            apart = model.observe(scene, one).axes - model.observe(scene, other).axes
-            return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
-
-        def difference(one: Array, other: Array) -> float:
-            apart = model.observe(scene, one).rates - model.observe(scene, other).rates
-            return float(np.abs(apart).max(initial=0.0)) / PACE
-
-        evolution = Evolution(
-            model.start(scene),
-            integrate,
-            distance,
-            turn=2 * pi / PACE,
-            patience=patience,
-            project=model.projection(scene) if model.projection else None,
-            unsure=start_unsure(model, scene, model.start(scene)),
-            defect=defect,
-            difference=difference,
-            watch=nodes.t if nodes else np.empty(0),
-            singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
-            elsewhere=bounded,
-            independent=engine == "fast" and scene.shock is None,
+        told = self.progress
+        evolution = evolution_of(
+            model,
+            self.units.scene,
+            float(t[-1]),
+            patience,
+            self.engine,
+            bounded=bounded,
+            progress=told and (lambda s: told(begin + s / rate)),
         )
         try:
             return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)
@@ -332,6 +301,65 @@ class _Door:
             raise last
         name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
         return name, why, replace(run, evaluations=spent)
+
+
+def evolution_of(
+    model: Model,
+    scene: Scene,
+    t_end: float,
+    patience: Patience,
+    engine: str = "core",
+    *,
+    bounded: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Evolution:
+    """What the contract of runs needs of a model of a scene in natural units, from 0 to t_end of its time.
+
+    bounded: it ends where the model is badly conditioned, and another is at hand.
+    """
+    engine = engine if _fast_runs(model, scene) else "core"
+    nodes = pulse_nodes(scene, t_end)
+    start = model.start(scene)
+
+    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        begin = float(times[0])
+        here, after = scene.since(begin), times - begin
+        here = replace(here, shock=here.shock_until(float(after[-1])))
+        shown = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
+        try:
+            return integrate_model(shown, here, after, local, engine, bounded, companion, start, budget)
+        except StopError as stop:
+            stop.at += begin
+            raise
+
+    def defect(times: Array, states: Array) -> float:
+        felt = replace(scene, shock=scene.shock_until(float(times[-1])))
+        whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
+        return conservation_defect(felt, times, model.observe(scene, states), whole)
+
+    def distance(one: Array, other: Array) -> Array:
+        apart = model.observe(scene, one).axes - model.observe(scene, other).axes
+        return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
+
+    def difference(one: Array, other: Array) -> float:
+        apart = model.observe(scene, one).rates - model.observe(scene, other).rates
+        return float(np.abs(apart).max(initial=0.0)) / PACE
+
+    return Evolution(
+        start,
+        integrate,
+        distance,
+        turn=2 * pi / PACE,
+        patience=patience,
+        project=model.projection(scene) if model.projection else None,
+        unsure=start_unsure(model, scene, start),
+        defect=defect,
+        difference=difference,
+        watch=nodes.t if nodes else np.empty(0),
+        singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
+        elsewhere=bounded,
+        independent=engine == "fast" and scene.shock is None,
+    )
 
 
 def start_unsure(model: Model, scene: Scene, start: Array) -> float:

@@ -7,7 +7,7 @@ conserves must be kept as well as the error allows.
 """
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import inf, log
@@ -80,6 +80,16 @@ class Evolution:
     singular: Callable[[Array], str] | None = None
     elsewhere: bool = False
     independent: bool = False
+
+
+class Leg(NamedTuple):
+    """What the estimate asks to be integrated: the arguments of `Evolution.integrate`."""
+
+    start: Array
+    times: Array
+    local: float
+    companion: bool
+    budget: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,8 +206,9 @@ class _Course:
     def integration(self, local: float, companion: bool) -> _Integration:
         return self.integrations.setdefault((local, companion), _Integration(local, companion))
 
-    def stage(self, run: _Integration, n: int, beside: _Integration | None = None) -> Stretch:
-        """Stage n of an integration, made if it is not yet; beside: a looser one, MORE times whose evaluations it may take."""
+    def stage(self, run: _Integration, n: int, beside: _Integration | None = None) -> Generator[Leg, Stretch, Stretch]:
+        """Stage n of an integration, asked for if it is not made yet; beside: a looser one, MORE times whose evaluations it may
+        take."""
         evolution = self.evolution
         while len(run.stages) <= n:
             if run.stops:
@@ -208,7 +219,7 @@ class _Course:
             begin = max(evolution.patience.begin, MORE.value * beside.stages[i].evaluations if beside else 0)
             most = begin + evolution.patience.turn * (t[-1] - t[0]) / evolution.turn
             try:
-                part = evolution.integrate(start, t, run.local, run.companion, most)
+                part = yield Leg(start, t, run.local, run.companion, most)
             except StopError as stop:
                 self.spent += stop.evaluations
                 self.refused.append(run.local)
@@ -267,6 +278,47 @@ def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun
     ending says why. Raises IntegrationError for a motion that does not conserve what it must, or of which nothing is reached,
     with its evaluations; and for one of so many turns that rounding alone leaves nothing known.
     """
+
+    def alone(legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
+        try:
+            return {0: evolution.integrate(*legs[0])}
+        except StopError as stop:
+            return {0: stop}
+
+    (run,) = estimate_runs([evolution], [times], tol, alone)
+    if isinstance(run, IntegrationError):
+        raise run
+    return run
+
+
+def estimate_runs(
+    evolutions: Sequence[Evolution],
+    times: Sequence[Array],
+    tol: float,
+    integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
+) -> list[EstimatedRun | IntegrationError]:
+    """Many motions side by side, each at its own times and as `estimate_run` has it, or what refuses it.
+
+    integrate: the legs that are asked for, by the number of the motion → what was made of each, or what stopped it.
+    """
+    askings = [_asking(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
+    ended: dict[int, EstimatedRun | IntegrationError] = {}
+    answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(askings)))
+    while answers:
+        legs = dict[int, Leg]()
+        for i, answer in answers.items():
+            try:
+                # The first answer is none: it begins the asking.
+                legs[i] = askings[i].throw(answer) if isinstance(answer, StopError) else askings[i].send(answer)  # type: ignore[arg-type]
+            except StopIteration as end:
+                ended[i] = end.value
+            except IntegrationError as refusal:
+                ended[i] = refusal
+        answers = integrate(legs) if legs else {}
+    return [ended[i] for i in range(len(askings))]
+
+
+def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
     turns = float(times[-1] - times[0]) / evolution.turn
     unavoidable = ROUNDING.value * (START.value + turns)
     if unavoidable > UNKNOWN:
@@ -274,9 +326,9 @@ def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun
             f"the run has {turns:.1e} turns, after which rounding leaves nothing known: take a shorter run"
         )
     course = _Course(evolution, times)
-    best = comparison = _loosest(course, tol)
+    best = comparison = yield from _loosest(course, tol)
     while unavoidable <= tol < comparison.error and not comparison.refusal and not _hopeless(course, comparison):
-        following = _following(course, comparison, tol)
+        following = yield from _following(course, comparison, tol)
         if following is None:
             break
         comparison = following
@@ -285,10 +337,10 @@ def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun
     if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
         refusal.evaluations = course.spent
         raise refusal
-    return _whole(course, best, tol)
+    return (yield from _whole(course, best, tol))
 
 
-def _loosest(course: _Course, tol: float) -> _Comparison:
+def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison]:
     """The first pair of integrations of which none is refused, to looser local errors up to GIVEN_UP; else the one that lasts
     longest. The companion begins at the larger an error, the shorter the run, in which it gathers to less."""
     turns = max(float(course.turns(course.times[-1])), 10 / SHORTEST.value)
@@ -298,7 +350,7 @@ def _loosest(course: _Course, tol: float) -> _Comparison:
     while True:
         loose = course.integration(local, tight is None or not tight.companion)
         tight = tight or course.integration(max(local / APART.value, TIGHTEST), not loose.companion)
-        comparison = _compare(course, loose, tight)
+        comparison = yield from _compare(course, loose, tight)
         best = comparison if best is None else min(comparison, best, key=lambda one: one.merit)
         if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value:
             return best
@@ -307,7 +359,7 @@ def _loosest(course: _Course, tol: float) -> _Comparison:
         tight, local = (None, local * APART.value**2) if stopped else (loose, local * APART.value)
 
 
-def _following(course: _Course, comparison: _Comparison, tol: float) -> _Comparison | None:
+def _following(course: _Course, comparison: _Comparison, tol: float) -> Generator[Leg, Stretch, _Comparison | None]:
     """A pair at the local errors that give `tol` in proportion; where one is refused there, one with the next tighter."""
     loose, tight = comparison.loose, comparison.tight
     if tight.local < APART.value * TIGHTEST:
@@ -317,23 +369,23 @@ def _following(course: _Course, comparison: _Comparison, tol: float) -> _Compari
     for companion in (tight,) if third else (course.integration(local, True), tight):
         better = course.integration(max(companion.local / APART.value, TIGHTEST), not companion.companion)
         if better.local > max(course.refused, default=0.0):
-            following = _compare(course, companion, better)
+            following = yield from _compare(course, companion, better)
             if not following.refusal:
                 return following
     return None
 
 
-def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comparison:
+def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Generator[Leg, Stretch, _Comparison]:
     """The two up to the stage in which they part or one stops; refused if the better one does not conserve what it must."""
     evolution, parts, alone = course.evolution, list[Array](), list[NDArray[np.bool_]]()
     reached, farther, lost, stop = list[Array](), 0.0, inf, None
     for n, t in enumerate(course.stages):
-        one = _states(course, loose, n, None)
+        one = yield from _states(course, loose, n, None)
         stop = loose.stops[0] if len(loose.stages) <= n else None
         # Where another model or a looser pair is tried next, nothing more is spent on this one.
         if stop and (evolution.elsewhere or (stop.cause == "budget" and loose.local <= GIVEN_UP.value)):
             break
-        other = _states(course, tight, n, loose)
+        other = yield from _states(course, tight, n, loose)
         stop = tight.stops[0] if len(tight.stages) <= n else stop
         m = min(len(one.states), len(other.states))
         one_states, states, at = one.states[:m], other.states[:m], t[:m]
@@ -363,10 +415,12 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> _Comp
     return _Comparison(loose, tight, len(parts), errors, lost, refusal)
 
 
-def _states(course: _Course, run: _Integration, n: int, beside: _Integration | None) -> Stretch:
+def _states(
+    course: _Course, run: _Integration, n: int, beside: _Integration | None
+) -> Generator[Leg, Stretch, Stretch]:
     """Stage n of an integration, or what was reached of it."""
     try:
-        return course.stage(run, n, beside if beside and len(beside.stages) > n else None)
+        return (yield from course.stage(run, n, beside if beside and len(beside.stages) > n else None))
     except StopError as stop:
         nothing = Stretch(np.empty((0, len(course.evolution.start))), course.evolution.start, 0)
         return (stop.reached or nothing) if len(run.stages) == n else nothing
@@ -388,7 +442,7 @@ def _not_conserving(course: _Course, states: Array, error: float) -> Integration
     )
 
 
-def _whole(course: _Course, best: _Comparison, tol: float) -> EstimatedRun:
+def _whole(course: _Course, best: _Comparison, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
     """The better integration to the end: after the stage in which the two part at BEYOND, at its own local error if that stops;
     and what is known of its error."""
     last, known = len(course.stages) - 1, best.tight.stages[: best.stages]
@@ -397,7 +451,7 @@ def _whole(course: _Course, best: _Comparison, tol: float) -> EstimatedRun:
         for local in (max(BEYOND.value, run.local), run.local):
             run = replace(run, local=local, stages=list(known), stops=[])
             try:
-                course.stage(run, last)
+                yield from course.stage(run, last)
                 break
             except StopError:
                 continue

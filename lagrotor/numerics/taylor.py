@@ -9,7 +9,7 @@ component of the state. A constant dummy state, the last one, of a size chosen a
 order: three orders serve every tolerance, each in the steps that pay.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, reduce
 from math import exp
 from operator import mul
@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
+from lagrotor.numerics.estimated_run import Leg
 from lagrotor.numerics.segment import Projection, Segment, SegmentSolver, StopError, Stretch, states_on_constraints
 
 Array = NDArray[np.float64]
-Counts = NDArray[np.int64]
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
 MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
@@ -139,35 +139,47 @@ def companion_order(tol: float) -> int:
     return taylor_order(tol) - 1
 
 
-def march_lanes(
-    program: Program, start: Array, parameters: Array, times: Array, tol: float, companion: bool = False
-) -> tuple[Array, Counts]:
-    """States (n, m, d) at times (m,) of n starts (d, n) with parameters (p, n), LANES at a time, and evaluations (n,).
+def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
+    """The legs of an autonomous motion with parameters (p, n), by the number of the motion, LANES at a time.
 
-    The lanes of a processor's vectors step together, each with its own step. One that stops leaves NaN. Raises InputError
-    without heyoka.
+    The lanes of a processor's vectors step together, each with its own step. Raises InputError without heyoka.
     """
-    (d, n), m = start.shape, len(times)
-    states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
-    order = companion_order(tol) if companion else taylor_order(tol)
-    solver = _solver(program, d, False, order, LANES, get_ident())
-    first, cyclic = int(times[0] == 0), _cyclic(program, d)
-    grid = np.repeat(np.concatenate([[0.0], times[first:]])[:, None], LANES, axis=1)
-    for begin in range(0, n, LANES):
-        lanes = np.minimum(np.arange(begin, begin + LANES), n - 1)  # the last few are filled up with copies
-        solver.set_time(np.zeros(LANES))
-        solver.state[:d], solver.state[d] = start[:, lanes], dummy_size(tol, order)
-        solver.state[cyclic] *= _CARRIED
-        solver.pars[:] = parameters[:, lanes]
-        _, found = solver.propagate_grid(grid, max_steps=MOST_STEPS)
-        found[:, cyclic] /= _CARRIED
-        kept = min(LANES, n - begin)
-        steps = [steps for _, _, _, steps in solver.propagate_res[:kept]]
-        stopped = ["time_limit" not in str(outcome) for outcome, *_ in solver.propagate_res[:kept]]
-        states[begin : begin + kept] = found[1 - first :, :d, :kept].transpose(2, 0, 1)
-        states[begin : begin + kept][stopped] = np.nan
-        spent[begin : begin + kept] = np.array(steps) * solver.order
-    return states, spent
+    answers: dict[int, Stretch | StopError] = {}
+    orders: dict[int, list[int]] = {}
+    for i, leg in legs.items():
+        orders.setdefault(companion_order(leg.local) if leg.companion else taylor_order(leg.local), []).append(i)
+    for order, numbers in orders.items():
+        d = len(legs[numbers[0]].start)
+        solver, cyclic = _solver(program, d, False, order, LANES, get_ident()), _cyclic(program, d)
+        numbers.sort(key=lambda i: len(legs[i].times))
+        for begin in range(0, len(numbers), LANES):
+            kept = numbers[begin : begin + LANES]
+            lanes = kept + kept[-1:] * (LANES - len(kept))  # the last few are filled up with copies
+            m = len(legs[lanes[-1]].times)
+            # A shorter one is read once more and again where it ends, at neighbouring doubles.
+            grid = np.array([_lengthened(legs[i].times - legs[i].times[0], m) for i in lanes]).T
+            solver.set_time(np.zeros(LANES))
+            solver.state[:d] = np.array([legs[i].start for i in lanes]).T
+            solver.state[d] = [dummy_size(legs[i].local, order) for i in lanes]
+            solver.state[cyclic] *= _CARRIED
+            solver.pars[:] = parameters[:, lanes]
+            _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=MOST_STEPS)
+            states[:, cyclic] /= _CARRIED
+            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(kept, solver.propagate_res, strict=False)):
+                read, spent = states[: len(legs[i].times), :d, lane], steps * order
+                whole = np.isfinite(read).all(1)
+                n = len(read) if whole.all() else int(np.argmin(whole))
+                made = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), spent)
+                stopped = n < len(read) or "time_limit" not in str(outcome)
+                reason = "the Taylor series has no step"
+                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, made) if stopped else made
+    return answers
+
+
+def _lengthened(times: Array, m: int) -> Array:
+    """Increasing times (n,), followed by neighbouring doubles up to m."""
+    more = times[-1] * (1 + 4 * np.finfo(float).eps * np.arange(1, m - len(times) + 1))
+    return np.concatenate([times, more])
 
 
 def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:

@@ -11,6 +11,7 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, swee
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models.minimal import MODEL
+from lagrotor.models.natural_units import typical_rate
 from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.sweeps.chunk import MODELS, run_chunk
 from lagrotor.models.sweeps.ensemble import started
@@ -81,7 +82,7 @@ def test_the_estimated_rate_is_that_of_the_motion(scene):
     run = simulate(scene, t, "minimal", 1e-9)
     turning = np.abs(np.gradient(run.rates, t, axis=1)).max() / np.abs(run.rates).max()
     seen = max(np.linalg.norm(run.rates, axis=-1).max(), turning)
-    assert seen / 3 < chunk._fastest(scene) < 3 * seen
+    assert seen / 3 < typical_rate(scene) < 3 * seen
 
 
 def test_a_short_shock_late_in_the_run_is_not_missed():
@@ -321,3 +322,29 @@ def test_one_scene_is_no_sequence_of_scenes():
 def test_scenes_at_rest_stay_there():
     found = sweep([Scene((0.0, 0.0)), *family(1)], T)
     assert (found.axes[0] == [0, 0, 1]).all() and found.error[0] < 1e-12 and found.endings[0].kind == "end"
+
+
+def test_a_sweep_holds_its_runs_to_the_work_of_their_shocks(monkeypatch):
+    """Each scene's shock is a run's own: one that is given another force conserves, but not what it must."""
+    scenes = [replace(s, shock=Shock((5.0, -2.0, 1.0), 0.6, 0.03)) for s in family(3)]
+    kept = sweep(scenes, T, 1e-8)
+    assert [MODELS[m] for m in kept.models] == ["minimal"] * 3
+    made = chunk._swarm
+
+    def weaker(kind, members, columns):
+        return made(kind, [replace(s, shock=replace(s.shock, force=(4.9, -2.0, 1.0))) for s in members], columns)
+
+    monkeypatch.setattr(chunk, "_swarm", weaker)
+    again = sweep(scenes, T, 1e-8)  # what the check refuses is run alone
+    assert [MODELS[m] for m in again.models] == ["spheres"] * 3 and (again.evaluations > kept.evaluations).all()
+    np.testing.assert_allclose(again.axes, kept.axes, atol=1e-7)
+    monkeypatch.setattr("lagrotor.models.simulate.conservation_defect", lambda *given: 0.0)  # twin: nothing is checked
+    wrong = sweep(scenes, T, 1e-8)
+    assert np.abs(wrong.axes - kept.axes).max() > 1e-4 > (wrong.error).max()
+
+
+def test_times_at_which_a_sweep_is_read_cost_little():
+    """A step is read by its dense output; it used to end at each time."""
+    few, many = (sweep(family(5), np.linspace(0, 2.5, n), 1e-8) for n in (2, 1001))
+    assert (many.evaluations < 1.3 * few.evaluations).all()
+    np.testing.assert_allclose(many.axes[:, :, [0, -1]], few.axes, atol=2e-8)

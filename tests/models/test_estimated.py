@@ -2,6 +2,7 @@
 
 import warnings
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -131,10 +132,15 @@ def test_where_two_runs_have_parted_the_rest_is_cheap(monkeypatch: pytest.Monkey
 def test_of_two_pairs_that_part_the_one_that_lasts_is_kept(monkeypatch: pytest.MonkeyPatch, lost: tuple) -> None:
     runs = estimated_run._Integration(1e-5, True), estimated_run._Integration(1e-7, False)
     pairs = [estimated_run._Comparison(*runs, 1, np.array([2.0]), t) for t in lost]
-    monkeypatch.setattr(estimated_run, "_loosest", lambda course, tol: pairs[0])
+
+    def asking_nothing(value: Any) -> Any:
+        return value
+        yield
+
+    monkeypatch.setattr(estimated_run, "_loosest", lambda course, tol: asking_nothing(pairs[0]))
     monkeypatch.setattr(estimated_run, "_hopeless", lambda course, pair: pair is pairs[1])
-    monkeypatch.setattr(estimated_run, "_compare", lambda course, loose, tight: pairs[1])
-    monkeypatch.setattr(estimated_run, "_whole", lambda course, best, tol: best)
+    monkeypatch.setattr(estimated_run, "_compare", lambda course, loose, tight: asking_nothing(pairs[1]))
+    monkeypatch.setattr(estimated_run, "_whole", lambda course, best, tol: asking_nothing(best))
     still = estimated_run.Evolution(START, lambda *_: None, lambda *_: None, 1.0, estimated_run.Patience(1, 1))
     assert estimated_run.estimate_run(still, T, 1e-6).lost == 5
 

@@ -1,116 +1,125 @@
-"""Many trajectories of one right-hand side side by side, by DOP853, each with its own time and step.
+"""Many trajectories of one right-hand side side by side, by DOP853, each with its own time, step and tolerance.
 
 One step of all n costs the same array operations as a step of one, so that the interpreter is paid for once. Those that
 have arrived leave; nobody waits.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.pulse import PULSE_REACH
+from lagrotor.numerics.estimated_run import Leg
+from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
+from lagrotor.numerics.segment import StopError, Stretch
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 # (s (n,), y (d, n), into (d, n)): writes y' into its last argument. Made anew for those who are left.
 Rates = Callable[[Array, Array, Array], None]
 _SHRINK, _GROW, _SAFE = 0.2, 10.0, 0.9
-LEAST_TOLERANCE = 20 * 2.3e-14  # below it every step is refused for what rounding leaves
+_TIGHTEST = 2.3e-14  # local error below which every step is refused for what rounding leaves
 _LEAST = 1e-14  # of the run or of the pulse's width: a step below it goes nowhere
-# Evaluations in all, and more for each radian of `fastest` that is done: three times what motions take at a tolerance of 1e-13
-# that stay clear of singular positions.
-_PATIENCE, _PER_RADIAN = 5_000, 250
+_BETWEEN = 0.38  # of a leg: where a companion's step ends besides, so that it never takes the same few steps
+_PATIENCE = 5_000  # evaluations before they are weighed against the share of the leg that is done
 
 
 @dataclass(frozen=True, eq=False)
 class Swarm:
-    """n problems y' = rates(s, y) with s = t − at, y = start (d, n) at t = 0.
+    """n problems y' = rates(s, y) with s = t − at.
 
-    rates: given the indices of those still on their way, their right-hand side. fastest (n,), rad/s: for the first step, and
-    for the evaluations after which one is stopped. at, width (n,), s: pulses, within 6.5 widths of which no step is longer
-    than `longest` widths, and at whose edges a step ends; width 0 for none.
+    rates: given the indices of those still on their way, their right-hand side. first, rad/s: the rate that bounds the first
+    step. at, width (n,): pulses, at whose edges a step ends, and within which none is longer than a width; width 0 for none.
     """
 
     rates: Callable[[Index], Rates]
-    start: Array
-    fastest: Array
+    first: float
     at: Array
     width: Array
-    longest: float = 1.0
-
-    def part(self, who: Index) -> "Swarm":
-        """Those of the indices `who`."""
-        return replace(
-            self,
-            rates=lambda left: self.rates(who[left]),
-            start=self.start[:, who],
-            fastest=self.fastest[who],
-            at=self.at[who],
-            width=self.width[who],
-        )
 
 
-def march_swarm(swarm: Swarm, times: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
-    """States (n, m, d) at the times (m,), increasing from 0 or later, and evaluations (n,).
+def march_swarm(swarm: Swarm, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
+    """The legs of the problems of these numbers, from the first of the times of each, where its start holds.
 
-    DOP853 (Hairer, Nørsett & Wanner, II.5) with the error norm of scipy's, taken for each trajectory by itself, and a
-    local error of tol / 20, as in `numerics.solve`. One that gets stuck or takes far more evaluations than what is
-    done is worth leaves NaN from there on.
+    DOP853 (Hairer, Nørsett & Wanner, II.5) with the error norm of scipy's, taken for each trajectory by itself, a local error of
+    a twentieth of the leg's, as `numerics.integrate` has it, and the method's dense output between the steps.
     """
-    (d, n), m, error = swarm.start.shape, len(times), max(tol / 20, 2.3e-14)
-    states, spent = np.full((n, m, d), np.nan), np.zeros(n, np.int64)
-    first = int(times[0] == 0)
-    if first:
-        states[:, 0] = swarm.start.T
-    if first == m:
-        return states, spent
+    asked, n = list(legs.values()), len(legs)
+    who, m = np.array(list(legs)), np.array([len(leg.times) for leg in asked])
+    times = np.full((n, m.max()), np.inf)
+    for row, leg in zip(times, asked, strict=True):
+        row[: len(leg.times)] = leg.times
+    times -= swarm.at[who, None]
+    states = np.empty((*times.shape, len(asked[0].start)))
+    states[:, 0] = [leg.start for leg in asked]
     with np.errstate(all="ignore"):
-        _march(swarm, times, error, first, states, spent)
-    return states, spent
+        return _march(swarm, who, asked, times, m, states)
 
 
-def _march(swarm: Swarm, times: Array, error: float, first: int, states: Array, spent: NDArray[np.int64]) -> None:
-    n, m = states.shape[:2]
-    who, reach = np.arange(n), PULSE_REACH * swarm.width
-    s, y, h = -swarm.at, swarm.start, 0.5 * error ** (1 / 8) / swarm.fastest
-    least = _LEAST * np.where(swarm.width > 0, np.minimum(swarm.width, times[-1]), times[-1])
-    following, pulsed = np.full(n, first), bool((swarm.width > 0).any())
+def _march(
+    swarm: Swarm, who: Index, asked: list[Leg], times: Array, m: NDArray[np.int64], states: Array
+) -> dict[int, Stretch | StopError]:
+    n = len(who)
+    error = np.array([max(leg.local / 20, _TIGHTEST) for leg in asked])
+    longest = np.array([COMPANION_STEP if leg.companion else 1.0 for leg in asked]) * swarm.width[who]
+    budget = np.array([leg.budget for leg in asked])
+    s, y, reach = times[:, 0].copy(), states[:, 0].T.copy(), PULSE_REACH * swarm.width[who]
+    begin, end = s, times[np.arange(n), m - 1]
+    between = np.array([_BETWEEN if leg.companion else 1.0 for leg in asked]) * (end - begin) + begin
+    halts = np.array([between, end, -reach, np.where(reach > 0, reach, -np.inf)])
+    least = _LEAST * np.where(reach > 0, np.minimum(swarm.width[who], end - begin), end - begin)
+    h, spent, following = 0.5 * error ** (1 / 8) / swarm.first, np.ones(n, np.int64), np.ones(n, np.int64)
+    answers: dict[int, Stretch | StopError] = {}
+    lane = np.arange(n)  # of those that are still on their way
     rates, room = swarm.rates(who), np.empty((13, *y.shape))
     rates(s, y, room[0])
-    spent += 1
-    while who.size:
-        target = times[following] - swarm.at[who]
-        stop, longest = target, h
-        if pulsed:
-            edge = reach[who]
-            stop = np.minimum(target, np.where(s < -edge, -edge, np.where(s < edge, edge, np.inf)))
-            longest = np.where((s >= -edge) & (s < edge), np.minimum(h, swarm.longest * swarm.width[who]), h)
-        step = np.minimum(longest, stop - s)
-        last = step == stop - s
-        after, size = _step(rates, s, y, step, error, room)
-        spent[who] += 12
+    while lane.size:
+        stop = np.where(halts[:, lane] > s, halts[:, lane], np.inf).min(0)
+        pulsed = (s >= -reach[lane]) & (s < reach[lane])
+        step = np.minimum(np.where(pulsed, np.minimum(h, longest[lane]), h), stop - s)
+        after, size = _step(rates, s, y, step, error[lane], room)
+        spent[lane] += 12
         ok = size < 1
         factor = np.clip(np.nan_to_num(_SAFE * size ** (-1 / 8), nan=_SHRINK), _SHRINK, _GROW)
+        later = np.where(step == stop - s, stop, s + step)
+        # What is read within a step costs three evaluations more, the end of a leg none.
+        at = np.flatnonzero(ok & (times[lane, following[lane]] < later))
+        if at.size:
+            spent[lane[at]] += 3
+            dense = _dense_output(swarm.rates(who[lane[at]]), s[at], y[:, at], after[:, at], step[at], room[:, :, at])
+            inside = np.arange(at.size)
+            while inside.size:
+                here = lane[at[inside]]
+                x = (times[here, following[here]] - s[at[inside]]) / step[at[inside]]
+                states[here, following[here]] = (y[:, at[inside]] + _interpolated(dense[:, :, inside], x)).T
+                following[here] += 1
+                inside = inside[times[here, following[here]] < later[at[inside]]]
         h = np.where(ok & (step < h), np.maximum(h, step * factor), step * factor)
-        s = np.where(ok, np.where(last, stop, s + step), s)
-        y = np.where(ok, after, y)
+        s, y = np.where(ok, later, s), np.where(ok, after, y)
         np.copyto(room[0], room[12], where=ok)
-        there = ok & (s == target)
-        if there.any():
-            states[who[there], following[there]] = y[:, there].T
-            following = following + there
-        worth = _PATIENCE + _PER_RADIAN * swarm.fastest[who] * (s + swarm.at[who])
-        stay = (following < m) & (spent[who] < worth) & (ok | (step > least[who]))
+        there = s == end[lane]
+        share = (s - begin[lane]) / (end[lane] - begin[lane])
+        over = spent[lane] > np.minimum(budget[lane], _PATIENCE + share * budget[lane])
+        stay = ~there & ~over & (ok | (step > least[lane]))
         if not stay.all():
-            who, s, h, following = who[stay], s[stay], h[stay], following[stay]
-            f, y, rates = room[0][:, stay], y[:, stay], swarm.rates(who)
-            room = np.empty((13, *y.shape))
+            for i in np.flatnonzero(~stay):
+                k, used, read = int(who[lane[i]]), int(spent[lane[i]]), following[lane[i]]
+                states[lane[i], read:] = y[:, i]
+                made = Stretch(states[lane[i], : m[lane[i]] if there[i] else read], y[:, i].copy(), used)
+                reason = f"{used} evaluations spent" if over[i] else "the step is below what doubles resolve"
+                answers[k] = (
+                    made
+                    if there[i]
+                    else StopError(float(s[i] + swarm.at[k]), reason, made, cause="budget" if over[i] else "stopped")
+                )
+            lane, s, h, y, f = lane[stay], s[stay], h[stay], y[:, stay], room[0][:, stay]
+            rates, room = swarm.rates(who[lane]), np.empty((13, *y.shape))
             room[0] = f
+    return answers
 
 
-def _step(rates: Rates, s: Array, y: Array, h: Array, error: float, room: Array) -> tuple[Array, Array]:
+def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
     """One step h (n,) of all from y (d, n), whose rates are room[0]: y after it, and the error's norm (n,) in units of
     what is allowed. room (13, d, n): the stages; its last holds the rates after the step."""
     from scipy.integrate import DOP853
@@ -132,3 +141,23 @@ def _step(rates: Rates, s: Array, y: Array, h: Array, error: float, room: Array)
     fifth, third = (((moved(weights) / scale) ** 2).sum(0) for weights in (DOP853.E5, DOP853.E3))
     size = fifth / np.sqrt((fifth + 0.01 * third) * d)
     return after, np.where(fifth == 0, 0.0, size)
+
+
+def _dense_output(rates: Rates, s: Array, y: Array, after: Array, h: Array, room: Array) -> Array:
+    """Coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n), whose stages are room (13, d, n)."""
+    from scipy.integrate import DOP853
+
+    stages = np.concatenate([room, np.empty((3, *y.shape))])
+    for i, (a, c) in enumerate(zip(DOP853.A_EXTRA, DOP853.C_EXTRA, strict=True), start=13):
+        rates(s + c * h, y + h * np.einsum("i,idn->dn", a[:i], stages[:i]), stages[i])
+    change = after - y
+    first = [change, h * stages[0] - change, 2 * change - h * (stages[12] + stages[0])]
+    return np.concatenate([first, h * np.einsum("ji,idn->jdn", DOP853.D, stages)])
+
+
+def _interpolated(dense: Array, x: Array) -> Array:
+    """The change (d, n) of the state in the share x (n,) of a step."""
+    value = np.zeros(dense.shape[1:])
+    for i, part in enumerate(dense[::-1]):
+        value = (value + part) * (1 - x if i % 2 else x)
+    return value

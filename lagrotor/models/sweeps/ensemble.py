@@ -100,14 +100,13 @@ def sweep(
 ) -> Ensemble:
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
 
-    tol: the largest error of an axis over each whole run, as of `simulate`; estimated by runs at several tolerances, which are
-    compared at the times `t`. A LagrotorWarning says how many runs do not keep it. Look at `failed` of the result: rows that
-    ended early are NaN from there on.
+    tol: the largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says how
+    many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
 
     engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
     time. executor: where chunks run; here, one after another, when None. folder: an existing folder for the finished
     chunks; a later sweep with the same arguments runs only those that are missing or damaged. progress: called with the
-    number of trajectories done and of all, after each chunk. A step ends at each of the times: a thousand are costly.
+    number of trajectories done and of all, after each chunk.
 
     Raises InputError for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
