@@ -330,7 +330,10 @@ def claims_command(given: argparse.Namespace) -> int:
         for result in results:
             identifier, finding = result.test.id, result.finding
             print(wrap(f"{identifier}  {readable(paper.claims[identifier].text)}", 5))
-            print(wrap(f"     {word(finding.outcome)}: {readable(finding.explanation)}", 5), end="\n\n")
+            print(wrap(f"     {word(finding.outcome)}: {readable(finding.explanation)}", 5))
+            for part, theorem in finding.theorems:
+                print(wrap(f"     {readable(part.says)}: {part.outcome}: {theorem.text}", 5))
+            print()
     if untested := sorted(wanted - {result.test.id for result in results}):
         say(f"not yet tested: {', '.join(untested)}", 0)
     if given.record:

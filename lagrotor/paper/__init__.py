@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from lagrotor.paper.stating import verdict as verdict
     from lagrotor.paper.tables import FigureLink as FigureLink
     from lagrotor.paper.tables import Table as Table
+    from lagrotor.paper.theorems import Theorem as Theorem
     from lagrotor.paper.verdicts import LineVerdict as LineVerdict
     from lagrotor.paper.verdicts import Relation as Relation
     from lagrotor.paper.verdicts import Series as Series

@@ -1,47 +1,50 @@
 """Tests of the paper's claims: what is said in words is run, measured, and decided by the numbers alone.
 
 A `ClaimTest` separates the run from the decision, so that the same decision can be given the numbers of a case that
-contradicts the claim, and must then come out otherwise.
+contradicts the claim, and must then come out otherwise. Where motion can be enclosed, a part is decided by a theorem instead.
 """
 
 import json
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal
 
+from lagrotor.errors import NotProved, ProofError
 from lagrotor.paper.catalogue import Claim
 from lagrotor.paper.tables import Table
+from lagrotor.paper.theorems import Theorem, can_prove, verify
 
-Outcome = Literal["confirmed", "confirmed-if", "refuted"]
+Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
 @dataclass(frozen=True)
 class Part:
     """One part of a claim's sentence, in words, and whether the numbers bear it out.
 
-    only_if: where it does not hold unconditionally, the condition under which it does; empty where there is none.
+    only_if: where it does not hold unconditionally, the condition under which it does; empty where there is none. theorems:
+    those from which it follows; without any it rests on runs, which are estimates.
     """
 
     says: str
     holds: bool
     only_if: str = ""
+    theorems: tuple[Theorem, ...] = ()
 
     @property
     def outcome(self) -> str:
         """In words."""
-        if self.holds:
-            return "holds"
-        return f"holds only if: {self.only_if}" if self.only_if else "does not hold"
+        said = "holds" if self.holds else f"holds only if: {self.only_if}" if self.only_if else "does not hold"
+        return f"{said}, proved" if self.theorems else said
 
 
 @dataclass(frozen=True)
 class Finding:
     """What the numbers say of each part of the sentence, and an explanation with the numbers.
 
-    A claim is confirmed where every part holds, confirmed-if where some hold only under a condition, and refuted where one
-    does not hold under any.
+    A claim is confirmed where every part holds, proved where each of them follows from theorems, confirmed-if where some hold
+    only under a condition, and refuted where one does not hold under any.
     """
 
     parts: tuple[Part, ...]
@@ -52,7 +55,9 @@ class Finding:
         """What follows from the parts."""
         if any(not part.holds and not part.only_if for part in self.parts):
             return "refuted"
-        return "confirmed" if all(part.holds for part in self.parts) else "confirmed-if"
+        if not all(part.holds for part in self.parts):
+            return "confirmed-if"
+        return "proved" if self.parts and all(part.theorems for part in self.parts) else "confirmed"
 
     @property
     def condition(self) -> str | None:
@@ -60,13 +65,36 @@ class Finding:
         needed = dict.fromkeys(part.only_if for part in self.parts if not part.holds)
         return "; ".join(needed) if self.outcome == "confirmed-if" else None
 
+    @property
+    def theorems(self) -> tuple[tuple[Part, Theorem], ...]:
+        """The parts that follow from theorems, each with each of its theorems."""
+        return tuple((part, theorem) for part in self.parts for theorem in part.theorems)
+
+    def decided_by(self, proved: Iterable[Part], where: str) -> "Finding":
+        """The finding with parts that follow from theorems in place of those of the same words.
+
+        Raises ProofError where there is no such part, where it has no theorem, or where a run says otherwise.
+        """
+        parts = {part.says: part for part in self.parts}
+        for part in proved:
+            if part.says not in parts or not part.theorems:
+                wrong = "has no theorem" if part.says in parts else "is not a part of the claim"
+                raise ProofError(f"{where}: {part.says!r} {wrong}")
+            if part.holds != parts[part.says].holds:
+                raise ProofError(
+                    f"{where}: {part.says}: the run says that it {parts[part.says].outcome}, and a theorem that it {part.outcome}"
+                )
+            parts[part.says] = part
+        return replace(self, parts=tuple(parts.values()))
+
 
 @dataclass(frozen=True)
 class ClaimTest:
     """The test of one claim: `measure(case)` runs a case and returns name → number; `decide` makes a finding of them.
 
     case: what the claim is about, whatever `measure` takes. foreign: part of the sentence → a case in which that part comes
-    out otherwise. model: what is run.
+    out otherwise. model: what is run. prove: case → those parts that follow from theorems, with them; a part that the runs
+    decide otherwise, and a certificate that is rejected, are errors.
     """
 
     id: str
@@ -75,12 +103,25 @@ class ClaimTest:
     model: str
     measure: Callable[[Any], Mapping[str, float]]
     decide: Callable[[Mapping[str, float]], Finding]
+    prove: Callable[[Any], Iterable[Part]] | None = None
 
     def evaluated(self, case: Any) -> "Result":
-        """Any case, measured and decided."""
+        """Any case, measured and decided, by theorems where there are any.
+
+        Raises ProofError where a theorem contradicts a run or its certificate is rejected.
+        """
         began = time.perf_counter()
         measured = {name: float(value) for name, value in self.measure(case).items()}
-        return Result(self, measured, self.decide(measured), time.perf_counter() - began)
+        finding = self.decide(measured)
+        if self.prove is not None and can_prove():
+            parts: list[Part] = []
+            try:
+                parts += self.prove(case)
+            except NotProved as refusal:
+                finding = replace(finding, explanation=f"{finding.explanation} Not proved: {refusal}.")
+            finding = finding.decided_by(parts, self.id)
+            verify((theorem for _, theorem in finding.theorems), self.id)
+        return Result(self, measured, finding, time.perf_counter() - began)
 
     @cached_property
     def result(self) -> "Result":
@@ -111,7 +152,15 @@ def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
         "text": entry.text,
         "verdict": result.finding.outcome,
         "condition": result.finding.condition,
-        "parts": [asdict(part) for part in result.finding.parts],
+        "parts": [
+            {
+                "says": part.says,
+                "holds": part.holds,
+                "only_if": part.only_if,
+                "proved": [{"says": each.says, "encloses": each.encloses} for each in part.theorems],
+            }
+            for part in result.finding.parts
+        ],
         "model": result.test.model,
         "measured": dict(result.measured),
         "explanation": result.finding.explanation,

@@ -31,7 +31,7 @@ from lagrotor.paper.witness import witness
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
 _SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
-_RANK: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "undecided", "refuted")
+_RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
 
 def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
@@ -68,7 +68,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
     worst = _weakest(lines)
     answer: Answer = "definition" if statement.names else worst.verdict
     corrected = _weakest(right).verdict if right else None
-    if statement.measured and answer in AGREES:
+    if statement.measured and answer in AGREES and answer != "proved":
         answer = "measured"
     used = right if answer == "refuted" else lines if answer in (*AGREES, "measured") else ()
     return Verdict(
@@ -113,6 +113,8 @@ def _united(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple
 
 def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
     """One member of a printed line under the fewest premises that it needs."""
+    if relation.theorem is not None and relation.theorem.bounds is not None:
+        return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)
     alone = _under(relation, ())
     if alone.answer == "holds":
@@ -311,6 +313,20 @@ def _where_apart(relation: Relation, under: Hypotheses) -> tuple[tuple[int, int]
             if decide_equal(entry, sp.S.Zero).answer == answer:
                 return divmod(i, gap.cols), entry
     return None, None
+
+
+def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Finding:
+    """A printed number against the bounds of a theorem, within what its digits allow."""
+    within, printed = relation.within or sp.S.Zero, sp.nsimplify(relation.printed, rational=True)
+    if not printed.is_Rational or low > high or low * high <= 0:
+        return _Finding("undecided", reasons=("a theorem bounds numbers of one sign, and a number must be printed",))
+    off = [printed / end - 1 for end in (low, high)]
+    if all(abs(each) <= within for each in off):
+        return _Finding("proved")
+    where = f"between {sp.N(low, 12)} and {sp.N(high, 12)}"
+    if min(off) > within or max(off) < -within:
+        return _Finding("refuted", reasons=(f"a theorem has it {where}",), difference=printed - (low + high) / 2)
+    return _Finding("undecided", reasons=(f"a theorem has it {where}, which does not decide the digits",))
 
 
 def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:

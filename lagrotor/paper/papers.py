@@ -19,7 +19,8 @@ from lagrotor.paper.claim_tests import ClaimTest, Result
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.scripts import Scripts
 from lagrotor.paper.stating import Stated, statement
-from lagrotor.paper.verdicts import Statement, Verdict
+from lagrotor.paper.theorems import can_prove
+from lagrotor.paper.verdicts import AGREES, LineVerdict, Statement, Verdict
 
 Progress = Callable[[str], None]
 
@@ -136,7 +137,25 @@ class Paper(Catalogue):
                 f"{self.scripts.path('derivations', stem)}:{line}: {statement.id}: its correction is "
                 f"{verdict.correction_verdict}: {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
             )
-        return verdict
+        return self._on_record(verdict)
+
+    def _on_record(self, verdict: Verdict) -> Verdict:
+        """The verdict; where theorems cannot be proved here, with those on record of lines that agree."""
+        if can_prove() or not any(line.relation.theorem for line in verdict.lines):
+            return verdict
+        row, lines = self.recorded.get(verdict.id), list(verdict.lines)
+        for i, line in enumerate(lines):
+            known = row.theorems_of(line.relation.quantity) if row and line.relation.theorem else ()
+            relation = replace(line.relation, theorem=known[0] if known else None)
+            proved = known and line.verdict in AGREES
+            lines[i] = (
+                LineVerdict(relation, "proved", dimensions=line.dimensions)
+                if proved
+                else replace(line, relation=relation)
+            )
+        everything = all(line.verdict == "proved" for line in lines)
+        said: dict[str, Any] = {"verdict": "proved", "premises": ()} if everything else {}
+        return replace(verdict, lines=tuple(lines), **said)
 
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
         """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
@@ -199,9 +218,14 @@ class Paper(Catalogue):
         return {identifier: tests[identifier] for identifier in self.claims if identifier in tests}
 
     def measured(self, identifier: str) -> Result:
-        """One claim after its test."""
+        """One claim after its test; where theorems cannot be proved here, with those on record that its run bears out."""
         with self.importable():
-            return self.claim_tests[identifier].result
+            result = self.claim_tests[identifier].result
+        if result.test.prove is None or can_prove() or identifier not in self.recorded:
+            return result
+        row = self.recorded[identifier]
+        parts = [replace(part, theorems=row.theorems_of(part.says)) for part in result.finding.parts]
+        return replace(result, finding=replace(result.finding, parts=tuple(parts)))
 
     def evaluate(self, progress: Progress | None = None, wanted: Collection[str] | None = None) -> list[Result]:
         """Every claim (or the wanted ones) in the paper's order; `progress` gets each claim's id before its run."""

@@ -15,6 +15,7 @@ from typing import Any
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.verdicts import LineVerdict, Verdict
 
 
@@ -24,7 +25,7 @@ class OnRecord:
 
     printed: a digest of the print. uses: ids of the equations that the equation uses. premises: in words and as formulas.
     lines, correction: verdict, order and premises of each member of each line. dimensions: of the lines in which they are not
-    seen to be the same. parts: of a claim, each part and its outcome.
+    seen to be the same. parts: of a claim, each part and its outcome. theorems: those of a part or a line, in words.
     """
 
     verdict: str
@@ -36,12 +37,21 @@ class OnRecord:
     correction: tuple[str, ...] | None = None
     dimensions: tuple[str, ...] | None = None
     parts: tuple[str, ...] | None = None
+    theorems: tuple[str, ...] | None = None
+
+    def theorems_of(self, what: str) -> tuple[Theorem, ...]:
+        """The theorems on record of a part or a line, which were not proved again."""
+        said = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
+        return tuple(Theorem(text) for text in said)
 
 
 def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
     """The record of a verdict, or of a claim after its test."""
     if isinstance(found, Result):
-        return OnRecord(found.finding.outcome, parts=tuple(f"{p.says}: {p.outcome}" for p in found.finding.parts))
+        finding = found.finding
+        proved = tuple(f"{part.says}: {' '.join(filter(None, (t.says, t.encloses)))}" for part, t in finding.theorems)
+        parts = tuple(f"{part.says}: {part.outcome}" for part in finding.parts)
+        return OnRecord(finding.outcome, parts=parts, theorems=proved or None)
     entry = equations.get(found.id)
     return OnRecord(
         found.verdict,
@@ -52,6 +62,7 @@ def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnReco
         tuple(map(_line, found.lines)),
         tuple(map(_line, found.correction_lines)),
         tuple(dict.fromkeys(_dimensions(found.lines))),
+        theorems=tuple(dict.fromkeys(_proved(found.lines))) or None,
     )
 
 
@@ -66,6 +77,12 @@ def _line(line: LineVerdict) -> str:
     order = f" through order {line.order} in {line.small}" if line.verdict == "holds-to-order" else ""
     needs = f" if {'; '.join(premise.says for premise in line.premises)}" if line.premises else ""
     return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
+
+
+def _proved(lines: Iterable[LineVerdict]) -> Iterator[str]:
+    for line in lines:
+        if theorem := line.relation.theorem:
+            yield f"{line.relation.quantity}: {' '.join(filter(None, (theorem.says, theorem.encloses)))}"
 
 
 def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
@@ -131,6 +148,10 @@ def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) 
     different: list[str] = []
     for field in fields(OnRecord):
         old, new = getattr(before, field.name), getattr(now, field.name)
+        if (
+            field.name == "theorems"
+        ):  # their digits differ from machine to machine; that they are there is in parts and lines
+            continue
         if old is not None and old != new:
             different.append(f"{identifier}: {_WORDS[field.name]}: recorded {_said(old)}, found {_said(new)}")
     return different

@@ -3,14 +3,14 @@
 The printed lines come from the catalogue when the statement is judged: a script cannot touch them.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 
 from lagrotor.algebra import decide_equal
-from lagrotor.errors import InputError, ProofError
+from lagrotor.errors import InputError, NotProved, ProofError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.form import Form
@@ -18,7 +18,10 @@ from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.letters import Letters, Line, components
 from lagrotor.paper.premises import Premise, with_meanings
 from lagrotor.paper.proof import Formula
+from lagrotor.paper.theorems import Theorem, can_prove, verify
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
+
+Proof: TypeAlias = Callable[[], Theorem]
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,7 @@ class Stated:
     uses: tuple["str | Stated", ...]
     evidence: tuple[str, ...]
     written: "Form | Mapping[str, Form] | None" = None
+    prove: "Proof | Mapping[str, Proof] | None" = None
 
     @property
     def depends_on(self) -> tuple[str, ...]:
@@ -64,6 +68,7 @@ def verdict(
     uses: Iterable["str | Stated"] = (),
     evidence: Iterable[str] = (),
     written: "Form | Mapping[str, Form] | None" = None,
+    prove: "Proof | Mapping[str, Proof] | None" = None,
 ) -> Stated:
     """What the paper prints as `identifier` is to be judged against what was derived under no premise.
 
@@ -72,9 +77,10 @@ def verdict(
     should be printed; it is judged against `derived`, which may hold quantities besides the printed ones. uses: ids of
     equations that this one rests on, or what was stated of them, which gives the letters that are defined there their derived
     meaning. written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked
-    against the paper when it is judged.
+    against the paper when it is judged. prove: for a number that is read off a run, what proves its bounds, called when it is
+    judged; the theorem decides then.
     """
-    return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written)
+    return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written, prove)
 
 
 def statement(stated: Stated, catalogue: Catalogue) -> Statement:
@@ -97,8 +103,14 @@ def statement(stated: Stated, catalogue: Catalogue) -> Statement:
     meanings = _defined_elsewhere(entry, stated, catalogue)
     known = _known(stated.derived, entry)
     forms = _forms(entry, lines, derived, stated, letters)
+    theorems, evidence = _theorems(entry, stated)
     relations = [
-        replace(relation, known=known.get(line.quantity), **forms.get(line.quantity, {}))
+        replace(
+            relation,
+            known=known.get(line.quantity),
+            theorem=theorems.get(line.quantity),
+            **forms.get(line.quantity, {}),
+        )
         for line in lines
         if not line.names
         for relation in _relations(stated.id, line, derived, meanings, catalogue.written_out)
@@ -112,9 +124,36 @@ def statement(stated: Stated, catalogue: Catalogue) -> Statement:
         names,
         entry.measured,
         stated.depends_on,
-        stated.evidence,
+        (*stated.evidence, *evidence),
         entry.title,
     )
+
+
+def _theorems(entry: Equation, stated: Stated) -> tuple[dict[str, Theorem], list[str]]:
+    """quantity → the theorem that bounds it, without words where it cannot be proved here; what is not proved, in words.
+
+    Raises InputError where a number is not read off a run, ProofError where a certificate is rejected.
+    """
+    theorems: dict[str, Theorem] = {}
+    refusals: list[str] = []
+    for name, prove in _named(stated.prove, entry).items():
+        if not any(line["quantity"] == name and "read_off" in line for line in entry.line):
+            raise InputError(
+                f"verdict: {entry.id}: a theorem is given for {name}, which has no number that is read off"
+            )
+        if not can_prove():
+            theorems[name] = Theorem("")
+            continue
+        try:
+            theorem = prove()
+        except NotProved as refusal:
+            refusals.append(f"Not proved: {refusal}")
+            continue
+        if theorem.bounds is None:
+            raise InputError(f"verdict: {entry.id}: the theorem about {name} has no bounds to hold the number against")
+        verify([theorem], entry.id)
+        theorems[name] = theorem
+    return theorems, refusals
 
 
 def _defined_elsewhere(entry: Equation, stated: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:

@@ -33,6 +33,7 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("if", readable(premise.with_formula)) for premise in verdict.premises]
     rows += [("domain", relation_text(relation)) for relation in verdict.domain]
     rows += [("dimensions", text) for text in dimension_texts(verdict)]
+    rows += [("proved", theorem.text) for theorem in verdict.theorems]
     if verdict.reaches_result is not None:
         reach = (
             "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"
@@ -150,6 +151,7 @@ def verdict_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
         "correction_lines": [line_data(line) for line in verdict.correction_lines],
         "depends_on": list(statement.depends_on),
         "reaches_result": verdict.reaches_result,
+        "proved": [{"says": each.says, "encloses": each.encloses} for each in verdict.theorems],
         "evidence": list(verdict.evidence),
         "seconds": round(verdict.seconds, 4),
     }

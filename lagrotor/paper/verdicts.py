@@ -13,11 +13,12 @@ from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Table
+from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.units import Dimensions
 
-Answer = Literal["holds", "holds-if", "holds-to-order", "refuted", "measured", "definition", "undecided"]
+Answer = Literal["holds", "holds-if", "holds-to-order", "proved", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
-AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order")
+AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "proved")
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,8 @@ class Relation:
     within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
     scene: values that the text gives for this line, a premise of their own. known: the small quantity and the order through
     which the derived side is known, where it is a series. written: LaTeX of the derived side, in a correction of what should
-    be printed, as a physicist writes it; granted: it is equal under the premises only.
+    be printed, as a physicist writes it; granted: it is equal under the premises only. theorem: it encloses the number that is
+    printed, and decides in place of the derived side.
     """
 
     printed: Side
@@ -49,6 +51,7 @@ class Relation:
     written: str = ""
     granted: bool = False
     known: tuple[sp.Symbol, int] | None = None
+    theorem: Theorem | None = None
 
     @property
     def scene_premises(self) -> tuple[Premise, ...]:
@@ -147,6 +150,12 @@ class Verdict:
     def id(self) -> str:
         """The equation's id in the catalogue."""
         return self.statement.id
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """Those that decide its lines, each once."""
+        found = [line.relation.theorem for line in self.lines if line.relation.theorem]
+        return tuple(theorem for i, theorem in enumerate(found) if theorem not in found[:i])
 
     @property
     def condition(self) -> str | None:

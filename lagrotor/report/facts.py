@@ -45,6 +45,8 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
     if verdict.reaches_result is not None:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
+    for theorem in verdict.theorems:
+        yield Fact("Proved", (theorem.text,))
     if verdict.evidence:
         yield Fact("Evidence", verdict.evidence)
     linked = {
@@ -65,7 +67,9 @@ _REACHES = {
 
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
-    """The equations and figures that a claim is about, as far as they are in the report."""
+    """The theorems that decide parts of a claim; the equations and figures it is about, as far as they are in the report."""
+    for part, theorem in result.finding.theorems:
+        yield Fact("Proved", (f"{part.says}: {part.outcome}.", theorem.text))
     entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
     drawn = {picture.key for picture in report.pictures}
     if ids := tuple(i for i in entry.equations if i in judged):

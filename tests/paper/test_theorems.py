@@ -1,0 +1,207 @@
+"""The verdict `proved`: theorems decide parts of claims and printed numbers; what is rejected, contradicted or not proved."""
+
+import json
+import shutil
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy as sp
+
+pytest.importorskip("flint", reason="the extra `proof` is not installed")
+
+from lagrotor.errors import InputError, ProofError
+from lagrotor.mechanics import System, coordinates
+from lagrotor.paper import (
+    ClaimTest,
+    Finding,
+    Paper,
+    Part,
+    Relation,
+    Statement,
+    Theorem,
+    decide,
+    papers,
+    stating,
+    verdict,
+)
+from lagrotor.paper import claim_tests as tests_of_claims
+from lagrotor.paper.claim_tests import claim_data
+from lagrotor.paper.record import changes, record_text, recorded, row_of
+from lagrotor.paper.scripts import beside
+from lagrotor.paper.verdict_text import in_words, verdict_data
+from lagrotor.proved import NotProved, enclose
+
+RATE = "the rate is 1.00"
+
+
+@cache
+def swing() -> Theorem:
+    """x″ = −x from x = 1 at rest: cos 1 is enclosed."""
+
+    c = coordinates("x")
+    proved = enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), {}, [1], [0], 1)
+    return Theorem.of(proved, "x = 0.5403…", (sp.Rational("0.5403023"), sp.Rational("0.5403024")))
+
+
+def claim(*proved: Part, off: float = 0.0, refusal: str = "") -> ClaimTest:
+    """A claim of two parts, of which some follow from theorems."""
+
+    def measured_parts(measured: Any) -> Finding:
+        return Finding((Part(RATE, measured["off"] < 1), Part("it goes on", True)), "As measured.")
+
+    def prove(case: Any) -> Iterator[Part]:
+        yield from proved
+        if refusal:
+            raise NotProved(refusal)
+
+    return ClaimTest("C01", None, {}, "a model", lambda case: {"off": off}, measured_parts, prove)
+
+
+def test_a_claim_is_proved_where_each_part_follows_from_a_theorem() -> None:
+    both = claim(Part(RATE, True, theorems=(swing(),)), Part("it goes on", True, theorems=(swing(),))).result.finding
+    assert (both.outcome, [p.outcome for p in both.parts]) == ("proved", ["holds, proved", "holds, proved"])
+    one = claim(Part(RATE, True, theorems=(swing(),))).result.finding
+    assert (one.outcome, [p.outcome for p in one.parts]) == ("confirmed", ["holds, proved", "holds"])
+
+
+def test_a_claim_is_refuted_by_a_theorem() -> None:
+    finding = claim(Part(RATE, False, theorems=(swing(),)), off=2).result.finding
+    assert (finding.outcome, finding.parts[0].outcome) == ("refuted", "does not hold, proved")
+
+
+def test_what_is_not_proved_rests_on_its_run_and_says_how_far_the_proof_came() -> None:
+    finding = claim(Part(RATE, True, theorems=(swing(),)), refusal="it came to t = 3 s").result.finding
+    assert [p.outcome for p in finding.parts] == ["holds, proved", "holds"]
+    assert finding.explanation.endswith("Not proved: it came to t = 3 s.")
+
+
+def mutated(theorem: Theorem) -> Theorem:
+    """Its claim moved by 1e-6."""
+    document = json.loads(json.dumps(theorem.certificate))
+    document["claim"]["t"] = ["100001p-20", "0p0"]
+    return replace(theorem, certificate=document)
+
+
+@pytest.mark.parametrize(
+    ("part", "says"),
+    [
+        (
+            lambda: Part(RATE, False, theorems=(swing(),)),
+            "the run says that it holds, and a theorem that it does not hold",
+        ),
+        (lambda: Part(RATE, True), "has no theorem"),
+        (lambda: Part("another", True, theorems=(swing(),)), "is not a part of the claim"),
+        (lambda: Part(RATE, True, theorems=(mutated(swing()),)), "the certificate of a theorem is rejected"),
+        (lambda: Part(RATE, True, theorems=(replace(swing(), says="All is well."),)), "proves something else"),
+        (lambda: Part(RATE, True, theorems=(Theorem("All is well."),)), "has no certificate"),
+        (lambda: Part(RATE, True, theorems=(replace(swing(), certificate={"kind": "x"}),)), "is rejected"),
+        (lambda: Part(RATE, True, theorems=(replace(swing(), certificate={"a": sp.S.One}),)), "is rejected"),
+    ],
+)
+def test_a_theorem_that_does_not_bear_a_part_out_is_an_error(part: Any, says: str) -> None:
+    with pytest.raises(ProofError, match=says):
+        _ = claim(part()).result
+
+
+def test_without_flint_what_is_on_record_stands_and_is_said_to(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(beside("papers") / "pendulum", tmp_path / "mine"))
+    script = folder / "derivations" / "c1_period.py"
+    test = claim(Part(RATE, True, theorems=(swing(),)), Part("it goes on", True, theorems=(swing(),)))
+    paper = Paper(folder)
+    monkeypatch.setitem(vars(paper), "claim_tests", {"C01": test})
+    row = row_of(test.result, {})
+    (folder / "recorded.toml").write_text(record_text({"C01": row}), encoding="utf-8")
+    assert recorded(folder / "recorded.toml")["C01"] == row
+    for module in (tests_of_claims, papers):
+        monkeypatch.setattr(module, "can_prove", lambda: False)
+    again = replace(test)
+    monkeypatch.setitem(vars(paper), "claim_tests", {"C01": again})
+    found = paper.measured("C01")
+    assert again.result.finding.outcome == "confirmed" and found.finding.outcome == "proved"
+    assert changes({"C01": row_of(found, {})}, {"C01": row}, ["C01"]) == []
+    assert all("not proved again here" in theorem.text for _, theorem in found.finding.theorems)
+    # A run that contradicts what is on record is a change all the same.
+    monkeypatch.setitem(vars(paper), "claim_tests", {"C01": claim(off=2)})
+    assert changes({"C01": row_of(paper.measured("C01"), {})}, {"C01": row}, ["C01"])
+    assert script.is_file()
+
+
+def test_the_data_of_a_claim_have_its_theorems() -> None:
+    result = claim(Part(RATE, True, theorems=(swing(),))).result
+    entry = next(iter(Paper(beside("papers") / "pendulum").claims.values()))
+    first, second = claim_data(result, entry)["parts"]
+    assert first["proved"] == [{"says": swing().says, "encloses": "x = 0.5403…"}] and second["proved"] == []
+
+
+@pytest.mark.parametrize(
+    ("printed", "within", "answer"),
+    [
+        ("0.54", "0.01", "proved"),
+        ("0.5403", "0.0001", "proved"),
+        ("0.55", "0.01", "refuted"),
+        ("-0.54", "0.01", "refuted"),
+        ("0.5403023", "0.0000001", "undecided"),
+    ],
+)
+def test_a_printed_number_is_held_against_the_bounds_of_a_theorem(printed: str, within: str, answer: str) -> None:
+    relation = Relation(sp.Rational(printed), sp.Integer(7), within=sp.Rational(within), theorem=swing())
+    found = decide(Statement("", (relation,), measured=True))
+    assert found.verdict == answer, found
+    if answer == "refuted":
+        assert "a theorem has it between 0.5403" in found.lines[0].reason
+
+
+def number(folder: Path, line: str, prove: str) -> Paper:
+    """The pendulum's paper, which prints a number that a theorem encloses."""
+    with (folder / "equations.toml").open("a", encoding="utf-8") as file:
+        file.write(
+            '\n[[equation]]\nid = "1.2"\nsection = "1"\ntitle = "a number"\nlatex = "x = 0.54"\nmeasured = true\n'
+            f"[[equation.line]]\nquantity = 'x'\n{line}\n"
+        )
+    (folder / "derivations" / "s2_number.py").write_text(
+        "# %%\nfrom tests.paper.test_theorems import swing\nfrom lagrotor.errors import NotProved\n"
+        "from lagrotor.paper import verdict, Theorem\nimport sympy as sp\n\n"
+        f"def refuse():\n    raise NotProved('it came to t = 0.5')\n\nverdict('1.2', sp.Rational('0.5403'), prove={prove})\n",
+        encoding="utf-8",
+    )
+    return Paper(folder)
+
+
+READ_OFF = 'members = ["0.54"]\nread_off = "0.54"'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(beside("papers") / "pendulum", tmp_path / "mine"))
+
+
+def test_an_equation_is_proved_recorded_and_stands_without_flint(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    paper = number(folder, READ_OFF, "swing")
+    found = paper.audit("1.2")
+    assert found.verdict == "proved" and found.theorems == (swing(),)
+    assert "proved" in in_words(found, paper) and verdict_data(found, paper)["proved"][0]["says"] == swing().says
+    paper.renew_record([found])
+    for module in (stating, papers):
+        monkeypatch.setattr(module, "can_prove", lambda: False)
+    again = Paper(folder)
+    standing = again.audit("1.2")
+    assert standing.verdict == "proved" and "not proved again here" in in_words(standing, again)
+    assert again.changes([standing], ["1.2"]) == []
+    # Without a record it is only measured.
+    (folder / "recorded.toml").unlink()
+    assert Paper(folder).audit("1.2").verdict == "measured"
+
+
+def test_a_number_that_is_not_proved_is_measured_and_says_so(folder: Path) -> None:
+    found = number(folder, READ_OFF, "refuse").audit("1.2")
+    assert found.verdict == "measured" and "Not proved: it came to t = 0.5" in found.evidence
+
+
+def test_theorems_of_equations_are_refused_in_words(folder: Path) -> None:
+    with pytest.raises(InputError, match="no number that is read off"):
+        number(folder, 'members = ["0.54"]', "swing").audit("1.2")
+    assert verdict("1.2", sp.S.One, prove=swing).prove is swing
