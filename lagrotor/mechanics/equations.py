@@ -21,7 +21,7 @@ from lagrotor.algebra import check_names, decide_zero, derivative
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
-from lagrotor.mechanics.expressions import expression, shortest
+from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, shortest
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     dependent_rows,
@@ -42,7 +42,8 @@ class Equations:
 
     constraints: expressions g(q, t) that stay zero. rolling: expressions f(q, v, t), affine in the velocities, that stay
     zero. dissipation: Rayleigh's function D(q, v, t), W. forces: the generalised forces Q(q, v, t), one for each
-    coordinate, or none.
+    coordinate, or none. In any of them unknown functions, as sympy's Function("U")(r), are among the letters: their
+    derivatives stand in the equations, and a run takes values for them.
 
     Raises InputError for what does not make sense, with the way out.
     """
@@ -71,6 +72,8 @@ class Equations:
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
+        acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
+        no_coordinate("System: a force or a constraint", acting, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters)
         self._check_symbols()
         if not self.bodies:
@@ -122,6 +125,7 @@ class Equations:
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
         L = expression("System: L", self.lagrangian)
+        no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters, L)
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
@@ -161,7 +165,7 @@ class Equations:
     def gamma(self) -> sp.Matrix:
         """γ, shape (k, 1), so that the time derivative of `residual` is G a + γ."""
         still = dict.fromkeys(self.c.a, sp.S.Zero)
-        return self.residual.applyfunc(lambda e: total_derivative(e, self.c).xreplace(still))
+        return self.residual.applyfunc(lambda e: put_in(total_derivative(e, self.c), still))
 
     @property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
@@ -229,7 +233,7 @@ def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
     """
     moving = dissipation.free_symbols & {*c.q, *c.v, t}
     falls = [
-        _falling(dissipation.xreplace({s: abs(x) if s.is_negative is None else x for s, x in letters.items()}), c)
+        _falling(put_in(dissipation, {s: abs(x) if s.is_negative is None else x for s, x in letters.items()}), c)
         for letters in points(dissipation.free_symbols - moving)
     ]
     if None not in falls:
@@ -243,7 +247,7 @@ def _falling(dissipation: sp.Expr, c: Coordinates) -> str | None:
     """A state, in words, at which D is below its value at rest; None where there is none of some random ones."""
     for point in points(dissipation.free_symbols):
         still, fast = ({s: x * scale if s in c.v else x for s, x in point.items()} for scale in (0, _FAST))
-        if (dissipation.xreplace(fast) - dissipation.xreplace(still)).evalf(15).is_negative:
+        if (put_in(dissipation, fast) - put_in(dissipation, still)).evalf(15).is_negative:
             return ", ".join(f"{s} = {float(x):.3g}" for s, x in fast.items())
     return None
 

@@ -15,7 +15,7 @@ from lagrotor.algebra import decide_zero, normal_form
 from lagrotor.algebra.enclosed_roots import roots_in_box
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol
+from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
@@ -82,7 +82,7 @@ def _in_box(
     letters = system.L.free_symbols | system.push.free_symbols
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
     still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
-    forces = [e.xreplace(still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
+    forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
     forces = [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in forces]
     sides = by_symbol(box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):

@@ -1,13 +1,18 @@
 """What is given as an expression is one: of plain symbols, finite, no text. What is found is written as short as it can be."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra import normal_form
+from lagrotor.algebra.enclosures import jet_of
 from lagrotor.errors import InputError, NotExactError
 
+_PLAIN = (
+    "coordinates and velocities are plain symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
+)
 _MOST_OPERATIONS = 600  # of an expression that a shorter form is sought of: one that is still read
 
 
@@ -19,10 +24,12 @@ def expression(where: str, given: Any) -> sp.Expr:
         e = None
     if not isinstance(e, sp.Expr) or isinstance(e, sp.MatrixExpr | sp.MatrixBase):
         raise InputError(f"{where} = {given!r} is no expression: build it from sympy symbols")
-    if moving := e.atoms(sp.Derivative, sp.core.function.AppliedUndef):
+    if any(not d.expr.atoms(AppliedUndef) for d in e.atoms(sp.Derivative)):
+        raise InputError(f"{where} = {e}: {_PLAIN}")
+    e = e.doit() if e.has(sp.Derivative, sp.Subs) else e
+    if strange := [d for d in e.atoms(sp.Derivative) if jet_of(d) is None]:
         raise InputError(
-            f"{where} contains {', '.join(sorted(map(str, moving)))}: coordinates and velocities are plain "
-            "symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
+            f"{where} contains {strange[0]}, which is no derivative of a function of symbols: write it out"
         )
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise InputError(f"{where} = {e} is not finite: correct it")
@@ -31,10 +38,51 @@ def expression(where: str, given: Any) -> sp.Expr:
     return e
 
 
+def no_coordinate(where: str, given: Any, names: Iterable[sp.Symbol]) -> None:
+    """Raise InputError where a function has the name of a coordinate: θ(t) beside θ would be another quantity."""
+    moving = {*map(str, names)}
+    if wrong := [f for f in unknown_functions(given) if str(f.func) in moving]:
+        raise InputError(f"{where} contains {wrong[0]}: {_PLAIN}")
+
+
+def unknown_functions(given: Any) -> list[sp.Expr]:
+    """The functions U(r), y(t) … in expressions of which nothing is known but their name, in a fixed order."""
+    listed = given if isinstance(given, Iterable) else (given,)
+    return sorted(set().union(*(e.atoms(AppliedUndef) for e in map(sp.sympify, listed))), key=sp.default_sort_key)
+
+
+def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
+    """The expression with values for symbols; a derivative U'(r) is then one at that place."""
+    return e.subs(values, simultaneous=True) if e.has(sp.Derivative) else e.xreplace(dict(values))
+
+
+def _jets(e: sp.Expr) -> list[sp.Expr]:
+    """The outermost unknown functions and derivatives of them."""
+    if not e.has(AppliedUndef):
+        return []
+    return [e] if jet_of(e) is not None else [jet for a in e.args for jet in _jets(a)]
+
+
+def with_jets(e: sp.Expr, made: Callable[[str, tuple[int, ...], tuple[sp.Expr, ...]], sp.Expr | None]) -> sp.Expr:
+    """The expression with made(name, orders, arguments) for each unknown function and each of its derivatives, where that
+    is not None; orders: how often it is differentiated by each argument."""
+    if not e.has(AppliedUndef):
+        return e
+    if (jet := jet_of(e)) is not None:
+        (function, orders), arguments = jet
+        inside = tuple(with_jets(a, made) for a in arguments)
+        new = made(str(function), orders, inside)
+        return e if new is None else new
+    return e.func(*(with_jets(a, made) for a in e.args))
+
+
 def shortest(e: sp.Expr) -> sp.Expr:
     """The expression, its normal form, or that with A sin² for A − A cos²: whichever has the fewest operations."""
     if sp.count_ops(e) > _MOST_OPERATIONS:
         return e
+    if jets := _jets(e):
+        letters = {jet: sp.Dummy() for jet in jets}
+        return shortest(e.xreplace(letters)).xreplace({letter: jet for jet, letter in letters.items()})
     try:
         reduced = normal_form(e)
     except NotExactError:

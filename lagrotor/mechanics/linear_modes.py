@@ -14,7 +14,7 @@ from lagrotor.algebra import decide_zero, derivative, normal_form
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.expressions import by_symbol
+from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
 
 _S = sp.Symbol("s")
@@ -162,12 +162,12 @@ def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol
 
     def value(entry: sp.Expr) -> sp.Expr:
         if general:  # reduced while its symbols are independent, before roots are put in
-            entry = _reduce(entry.xreplace(rest))
-        entry = entry.xreplace(parameters)
-        number = entry.xreplace(at)
+            entry = _reduce(put_in(entry, rest))
+        entry = put_in(entry, parameters)
+        number = put_in(entry, at)
         if number.has(sp.nan, sp.zoo, sp.oo):
             try:
-                number = normal_form(entry).xreplace(at)
+                number = put_in(normal_form(entry), at)
             except NotExactError:
                 number = sp.nan
         if number.has(sp.nan, sp.zoo, sp.oo):

@@ -12,7 +12,7 @@ from lagrotor.algebra.enclosures import apart, solved_at
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
-from lagrotor.mechanics.expressions import expression
+from lagrotor.mechanics.expressions import expression, put_in
 from lagrotor.mechanics.lagrangian import Coordinates, euler_lagrange, jacobian, t, total_derivative
 
 _POINTS = 3  # at which accelerations are compared before anything is derived
@@ -123,22 +123,22 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     put = dict(zip(old.q, places, strict=True))
     put |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
 
-    def put_in(e: sp.Expr) -> sp.Expr:
-        return sp.sympify(e).xreplace(put)
+    def rewritten(e: sp.Expr) -> sp.Expr:
+        return put_in(sp.sympify(e), put)
 
     slope = jacobian(places, c.q)
-    forces = tuple(slope.T * sp.Matrix([put_in(f) for f in system.forces])) if system.forces else ()
+    forces = tuple(slope.T * sp.Matrix([rewritten(f) for f in system.forces])) if system.forces else ()
 
     def left(expressions: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
-        moved = [put_in(e) for e in expressions]
+        moved = [rewritten(e) for e in expressions]
         return tuple(e for e in moved if decide_equal(e, sp.S.Zero).answer != "zero")
 
     return replace(
         system,
         c=c,
-        lagrangian=put_in(system.L),
+        lagrangian=rewritten(system.L),
         constraints=left(system.constraints),
         rolling=left(system.rolling),
-        dissipation=put_in(system.dissipation),
+        dissipation=rewritten(system.dissipation),
         forces=forces,
     )

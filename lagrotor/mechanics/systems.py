@@ -85,15 +85,17 @@ class System(Equations):
             if inputs or outputs:
                 raise InputError("linearise: inputs and outputs are of numbers: give values={symbol: number, …}")
             return linear_modes.linearise(self, at)
-        from lagrotor.mechanics.running import state_space
+        from lagrotor.mechanics.running import function_values, state_space
 
+        self, values = function_values.put_functions("linearise", self, values)
         point = at.at if isinstance(at, Equilibrium) else at
         return state_space.state_space(self, point, values, inputs, outputs)
 
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
         """The monodromy matrix of the periodic motion through `at`, and its multipliers: see `running.monodromy`."""
-        from lagrotor.mechanics.running import monodromy
+        from lagrotor.mechanics.running import function_values, monodromy
 
+        self, values = function_values.put_functions("floquet", self, values)
         return monodromy.monodromy_matrix(self, at, values, period)
 
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
@@ -101,14 +103,16 @@ class System(Equations):
 
         Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
         """
-        from lagrotor.mechanics.running import starts
+        from lagrotor.mechanics.running import function_values, starts
 
+        self, values = function_values.put_functions("consistent", self, values)
         return starts.consistent(self, values, q0, v0, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
-        from lagrotor.mechanics.running import admission, flow
+        from lagrotor.mechanics.running import admission, flow, function_values
 
+        self, values = function_values.put_functions("rhs", self, values)
         admission.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
 

@@ -36,6 +36,10 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.names.get(expr) or super()._print_Symbol(expr)
 
+    def _print_AppliedUndef(self, expr: sp.Expr) -> str:
+        """A function that is an argument of the program."""
+        return f"{expr.func}({', '.join(map(self._print, expr.args))})"
+
     def _print_not_supported(self, expr: sp.Expr) -> str:
         raise InputError(f"{expr} has no code in Python's {self.module} module: write it with elementary functions")
 

@@ -65,7 +65,6 @@ def test_what_is_none_of_these_is_refused() -> None:
         (DOUBLE, (), "with its coordinates"),
         (KanesMethod(N, [q1], [u2], [u1 - u2]), (), "has no Lagrangian"),
         (DOUBLE, (sp.Symbol("q1"),), "dynamicsymbols"),
-        (DOUBLE, (q1,), "plain"),
         (DOUBLE, q1, "must be a tuple"),
         (DOUBLE, "q1 q2", "dynamicsymbols"),
     ):

@@ -251,7 +251,7 @@ F = sp.Function("f")
     ("arguments", "message"),
     [
         ({"L": C.a[0]}, "L contains x_ddot"),
-        ({"L": F(t)}, r"plain symbols here; use those of coordinates"),
+        ({"L": sp.Function("x")(t)}, r"plain symbols here; use those of coordinates"),
         ({"L": "nonsense("}, "is no expression"),
         ({"L": sp.nan}, "not finite"),
         ({"L": C.q[0] - sp.oo}, "not finite"),

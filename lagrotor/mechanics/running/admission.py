@@ -11,9 +11,10 @@ import sympy as sp
 from lagrotor.errors import InputError, LagrotorWarning, SingularError, near
 from lagrotor.mechanics.bodies.rigid_bodies import check_body
 from lagrotor.mechanics.equations import Equations, check_friction
-from lagrotor.mechanics.expressions import by_symbol
+from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.function_values import FunctionValue
 from lagrotor.mechanics.running.programs import tree_motion
 from lagrotor.mechanics.running.singular import mass_at, rows_at
 
@@ -29,6 +30,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     moving = {*system.c.q, *system.c.v, *system.c.a, t}
     acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces, *others)
     letters = {str(s): s for e in acting for s in getattr(e, "free_symbols", ()) if s not in moving}
+    values = {name: value for name, value in values.items() if not isinstance(value, FunctionValue | sp.Lambda)}
     for name, value in values.items():
         letter = letters.get(str(name))
         if letter is None and not isinstance(name, str):
@@ -46,7 +48,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     put = {s: sp.sympify(float(value)) for s, value in by_symbol(values, letters.values()).items()}
     for body in system.bodies:
         check_body(where, body, put)
-    check_friction(where, system.dissipation.xreplace(put), system.c)
+    check_friction(where, put_in(system.dissipation, put), system.c)
 
 
 def _check_sign(where: str, letter: sp.Symbol, value: Any) -> None:

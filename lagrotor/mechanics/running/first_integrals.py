@@ -12,6 +12,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import put_in
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -32,7 +33,7 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
     kept = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
         at_rest = dict.fromkeys(system.c.v, sp.S.Zero)
-        if all(decide_zero(e.xreplace(at_rest)).answer == "zero" for e in system.rolling):
+        if all(decide_zero(put_in(e, at_rest)).answer == "zero" for e in system.rolling):
             kept.append(energy_program(system))
     if written and sp.count_ops(system.L) <= _WRITTEN:
         for q in cyclic_coordinates(system):

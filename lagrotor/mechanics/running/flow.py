@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
@@ -34,7 +35,9 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
     """
     check_engine(engine)
     program = motion_program(system)
-    parameters = parameter_values(program, values)
+    parameters = parameter_values(program, values, "rhs")
+    if engine == "fast" and any(map(callable, parameters)):
+        raise InputError("rhs: engine='fast' takes no callable and no table for a function: use engine='core'")
     fast = engine == "fast"
     function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
     if not depends_on_time(system):

@@ -13,6 +13,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Integrate, Values, smooth_motion
+from lagrotor.mechanics.running.function_values import FunctionValue, with_values
 from lagrotor.mechanics.running.phases import Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program
@@ -65,7 +66,7 @@ class SampledMotion(Run):
         Where dry friction sticks, sign(w) is what holds it, between −1 and 1.
         Raises InputError when it contains anything else.
         """
-        e = checked("evaluate: expression", expression)
+        e = with_values(checked("evaluate: expression", expression), self.values)
         if self.switched.smooth:
             return self._values(e)[0]
         return evaluate_in_phases(self.switched, e, self.t, self.states)
@@ -110,7 +111,11 @@ class SampledMotion(Run):
         return {
             "coordinates": [str(q) for q in self.system.c.q],
             "equations": digest_of(self.system),
-            "values": {str(name): float(value) for name, value in self.values.items()},
+            "values": {
+                str(name): float(value)
+                for name, value in self.values.items()
+                if not isinstance(value, FunctionValue | sp.Lambda)
+            },
             "tol": self.tol,
             "engine": self.engine,
             "local": self.local,

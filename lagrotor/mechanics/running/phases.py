@@ -13,9 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import sympy as sp
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
 from lagrotor.mechanics.running.flow import Array, projection_of, scaled_projection, scaled_rhs
+from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -40,11 +42,12 @@ SAFETY = 20.0  # local error of a run over that of the steps on which its events
 
 
 class ContactMode(NamedTuple):
-    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
-    motion, counted from 1. Components of the state of a run, after q, v and t."""
+    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; the piece that each spline is on; ended:
+    0, or which ending froze the motion, counted from 1. Components of the state of a run, after q, v and t."""
 
     signs: tuple[int, ...]
     closed: tuple[int, ...]
+    pieces: tuple[int, ...] = ()
     ended: int = 0
 
     def with_sign(self, i: int, sign: int) -> "ContactMode":
@@ -54,6 +57,10 @@ class ContactMode(NamedTuple):
     def with_gap(self, i: int, closed: bool) -> "ContactMode":
         """The mode with the gap of impact i closed or open."""
         return self._replace(closed=(*self.closed[:i], int(closed), *self.closed[i + 1 :]))
+
+    def with_piece(self, i: int, piece: int) -> "ContactMode":
+        """The mode with spline i on another piece."""
+        return self._replace(pieces=(*self.pieces[:i], piece, *self.pieces[i + 1 :]))
 
 
 class Moment(NamedTuple):
@@ -93,7 +100,8 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events: its smooth part, the surfaces of its jumps, the events, and the values of the parameters.
+    """A system with events: its smooth part, the surfaces of its jumps, the events, the values of the parameters, the splines
+    among them, and the events as they were given.
 
     scale (2 N,): of each component, for the solver. While it is run: the phases that it was in, the endings of its runs, and the
     times between which a step may hide an event.
@@ -104,6 +112,8 @@ class Switched:
     surfaces: tuple[Surface, ...]
     events: tuple[Event | Impact, ...]
     scale: Array
+    splines: tuple[Piece, ...] = ()
+    shown: tuple[Event | Impact, ...] = ()
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
     endings: list[Ending] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
@@ -116,12 +126,12 @@ class Switched:
     @property
     def smooth(self) -> bool:
         """Whether nothing switches."""
-        return not (self.surfaces or self.events)
+        return not (self.surfaces or self.events or self.splines)
 
     @property
     def slipping(self) -> ContactMode:
-        """The mode in which nothing sticks and no gap is closed."""
-        return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
+        """The mode in which nothing sticks, no gap is closed, and splines are on their first pieces."""
+        return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts), (0,) * len(self.splines))
 
     @property
     def impacts(self) -> tuple[Impact, ...]:
@@ -129,11 +139,12 @@ class Switched:
 
     def mode(self, state: Array) -> ContactMode:
         parts = tuple(int(x) for x in np.rint(state[2 * self.n + 1 :]))
-        return ContactMode(parts[: len(self.surfaces)], parts[len(self.surfaces) : -1], parts[-1])
+        signs, closed = len(self.surfaces), len(self.surfaces) + len(self.impacts)
+        return ContactMode(parts[:signs], parts[signs:closed], parts[closed:-1], parts[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
         """(q, v, t, mode): what a run carries from stage to stage."""
-        return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, [mode.ended]])
+        return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, mode.pieces, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
         """Expressions at one moment, of the motion of `system`."""
@@ -141,11 +152,14 @@ class Switched:
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
-        """The values of the parameters, and of the signs in this mode."""
+        """The values of the parameters, of the signs in this mode, and of the polynomials of its pieces."""
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
         signs = {str(s.sign): float(k) for s, k in zip(self.surfaces, mode.signs, strict=True)}
-        return {str(k): v for k, v in self.values.items()} | signs
+        found = {str(k): v for k, v in self.values.items()} | signs
+        for spline, i in zip(self.splines, mode.pieces, strict=True):
+            found |= spline.numbers(i)
+        return found
 
     def phase(self, mode: ContactMode) -> Phase:
         """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
@@ -182,24 +196,53 @@ class Switched:
                 conditions.append(("gap", i, impact.gap))
             elif not impact.latched:
                 conditions.append(("reaction", i, lam[first + gaps.index(i)]))
+        for i, spline in enumerate(self.splines):
+            conditions += [
+                ("knot below", i, spline.argument - spline.low),
+                ("knot above", i, spline.high - spline.argument),
+            ]
         conditions += [("event", i, e.section) for i, e in enumerate(self.events) if isinstance(e, Event)]
         return Phase(system, tuple(conditions))
 
 
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
     """The system with its events and the surfaces of its jumps."""
-    smooth, surfaces = without_jumps(system)
-    return Switched(smooth, values, surfaces, events, np.ones(2 * len(system.c.q)))
+    whole, followed, splines = (
+        in_pieces(system, events, values) if isinstance(values, Mapping) else (system, events, ())
+    )
+    smooth, surfaces = without_jumps(whole)
+    return Switched(smooth, values, surfaces, followed, np.ones(2 * len(system.c.q)), splines, events)
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
     """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
+    start = start._replace(mode=start.mode._replace(pieces=_pieces(h, start)))
     try:
         mode = _settle(h, start)
     except StopError as stop:
-        mode = _end(h, h.slipping, Ending(stop.cause, time, stop.reason))
+        mode = _end(h, start.mode, Ending(stop.cause, time, stop.reason))
     return h.state(start.y, time, mode)
+
+
+def _pieces(h: Switched, at: Moment) -> tuple[int, ...]:
+    """The pieces that the splines are on at a start. Raises InputError where it is outside a table."""
+    if not h.splines:
+        return ()
+    places = h.evaluate(h.system, [s.argument for s in h.splines], at)
+    found = [spline.value.piece(float(w)) for spline, w in zip(h.splines, places, strict=True)]
+    for spline, w, piece in zip(h.splines, places, found, strict=True):
+        if piece is None:
+            raise InputError(
+                f"simulate: the start is outside the table of {spline.value.name}: {_outside(spline, float(w))}"
+            )
+    return tuple(i for i in found if i is not None)
+
+
+def _outside(spline: Piece, w: float) -> str:
+    knots = spline.value.knots
+    assert knots is not None
+    return f"{spline.argument} = {w:.6g}, and it is known from {knots[0]:.6g} to {knots[-1]:.6g}"
 
 
 def march(
@@ -370,6 +413,13 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         mode = mode.with_sign(i, -1 if kind == "above" else 1)
     elif kind == "reaction":
         mode = mode.with_gap(i, False)
+    elif kind in ("knot below", "knot above"):
+        spline, piece = h.splines[i], mode.pieces[i] + (1 if kind == "knot above" else -1)
+        assert spline.value.knots is not None
+        if not 0 <= piece < len(spline.value.knots) - 1:
+            w = float(h.evaluate(h.system, [spline.argument], at)[0])
+            raise StopError(at.t, f"the end of the table of {spline.value.name}: {_outside(spline, w)}")
+        return at._replace(mode=mode.with_piece(i, piece))
     elif kind == "gap":
         e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
@@ -383,7 +433,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         if gone is not None:
             raise StopError(at.t + gone, "infinitely many events accumulate there", cause="event")
         if event.velocities is None:
-            raise StopError(at.t, f"{event.section} = 0", cause="event")
+            raise StopError(at.t, f"{h.shown[i].expressions[0]} = 0", cause="event")
         v = h.evaluate(h.system, event.velocities, at)
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")

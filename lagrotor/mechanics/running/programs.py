@@ -6,9 +6,10 @@ constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by elem
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from keyword import iskeyword
+from operator import add
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,9 @@ from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t
+from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
 from lagrotor.numerics.printers import compile_program, make_rhs
 
@@ -35,16 +38,28 @@ _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
+@dataclass(frozen=True)
+class Jet:
+    """An unknown function in a program, or a derivative of one: how often by each argument."""
+
+    name: str
+    orders: tuple[int, ...]
+
+    def __str__(self) -> str:
+        return jet_name(self.name, self.orders)
+
+
 @dataclass(frozen=True, eq=False)
 class Generated:
     """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language takes.
 
-    states: the symbols q, v and, where time enters, t; parameters: the other symbols, sorted by name.
+    states: the symbols q, v and, where time enters, t; parameters: the other symbols, sorted by name, and after them the
+    functions and derivatives of functions that are called.
     """
 
     program: Program
     states: tuple[sp.Symbol, ...]
-    parameters: tuple[sp.Symbol, ...]
+    parameters: tuple["sp.Symbol | Jet", ...]
 
     @cached_property
     def rhs(self) -> Callable[..., Any]:
@@ -93,6 +108,7 @@ def _program(
 
     moving: it is evaluated so often that common parts are worth the search.
     """
+    stages, outputs, functions = _with_calls(stages, outputs)
     own = {name for name, _ in stages}
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
     parameters = tuple(sorted(used - {*states}, key=str))
@@ -105,12 +121,31 @@ def _program(
         return e.xreplace(rename) if rename else e
 
     program = Program(
-        tuple(rename.get(s, s) for s in (*states, *parameters)),
+        (*(rename.get(s, s) for s in (*states, *parameters)), *functions),
         tuple((name, put_in(e)) for name, e in stages),
         tuple(put_in(e) for e in outputs),
         shared=not moving or len(stages) > MANY,
     )
-    return Generated(program, states, parameters)
+    return Generated(program, states, (*parameters, *functions.values()))
+
+
+def _with_calls(
+    stages: Sequence[Stage], outputs: Sequence[sp.Expr], known: Mapping[sp.Symbol, Jet] | None = None
+) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
+    """Stages and outputs that call what stands for unknown functions and their derivatives, and these, by the names of which
+    they are arguments of the program. known: those that are called already."""
+    jets = {str(name): jet for name, jet in (known or {}).items()}
+    made = {jet: name for name, jet in (known or {}).items()}
+
+    def called(name: str, orders: tuple[int, ...], arguments: tuple[sp.Expr, ...]) -> sp.Expr:
+        before = jets.get(name)
+        jet = Jet(before.name, tuple(map(add, before.orders, orders))) if before else Jet(name, orders)
+        symbol = made.setdefault(jet, sp.Symbol(f"call{len(made)}_", real=True))
+        return sp.Function(str(symbol))(*arguments)
+
+    stages = [(name, with_jets(e, called)) for name, e in stages]
+    outputs = [with_jets(e, called) for e in outputs]
+    return stages, outputs, {symbol: jet for jet, symbol in made.items()}
 
 
 @lru_cache(maxsize=64)
@@ -219,14 +254,18 @@ def _regular(system: Equations, matrix: sp.Matrix) -> bool:
     """Whether a symmetric matrix has full rank at one of some random states on the constraints; where it has no value, it is
     taken to."""
     program = function_program(system, *matrix, *system.constraints, *jacobian(system.constraints, system.c.q))
-    letters = (*system.c.q, *system.c.v, t, *program.parameters)
+    letters = (*system.c.q, *system.c.v, t, *(p for p in program.parameters if not isinstance(p, Jet)))
+    calls = [
+        lambda *at, k=k: np.cos(sum(at) + k)
+        for k in range(len(program.parameters) + 1 + 2 * len(system.c.q) - len(letters))
+    ]
     n, h = len(system.c.q), len(system.constraints)
     ranks = []
     for point in points(letters, _STATES):
         at = np.array([float(point[s]) for s in letters])
         for _ in range(_NEWTON if h else 1):
             with np.errstate(all="ignore"):
-                found = np.array(program.function(*at), float)
+                found = np.array(program.function(*at, *calls), float)
             M, g, slope = np.split(found, [n * n, n * n + h])
             if np.isfinite(found).all():
                 at[:n] -= np.linalg.pinv(slope.reshape(h, n)) @ g
@@ -286,11 +325,15 @@ def tangent_motion(given: Generated) -> Generated:
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
     slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
     both = tangent_program(given.program, slopes, (*arguments[:d], *names, *arguments[d:]))
-    return Generated(both, (*given.states, *names), given.parameters)
+    known = {s: p for s, p in zip(arguments[d:], given.parameters, strict=True) if isinstance(p, Jet)}
+    stages, outputs, functions = _with_calls(both.stages, both.outputs, known)
+    more = list(functions)[len(known) :]
+    both = replace(both, arguments=(*both.arguments, *more), stages=tuple(stages), outputs=tuple(outputs))
+    return Generated(both, (*given.states, *names), (*given.parameters, *(functions[s] for s in more)))
 
 
-def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[float, ...]:
-    """The parameters' values in the program's order; keys are symbols or their names.
+def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
+    """The parameters' values in the program's order, numbers and callables; keys are symbols or their names.
 
     Raises InputError, on behalf of the function `where`, when one is missing or is not a finite number.
     """
@@ -305,13 +348,14 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         raise InputError(
             f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
         )
-    if missing := [str(p) for p in given.parameters if str(p) not in by_name]:
+    letters = [p for p in given.parameters if not isinstance(p, Jet)]
+    if missing := [str(p) for p in letters if str(p) not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in given.parameters})
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
         )
-    numbers = []
-    for p in given.parameters:
+    numbers: list[Any] = []
+    for p in letters:
         try:
             if isinstance(by_name[str(p)], str | bool):
                 raise TypeError
@@ -320,4 +364,12 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
             raise InputError(f"{where}: {p} = {by_name[str(p)]!r} must be a number") from None
         if not abs(numbers[-1]) < float("inf"):
             raise InputError(f"{where}: {p} = {numbers[-1]} must be finite")
+    for jet in given.parameters[len(letters) :]:
+        assert isinstance(jet, Jet)
+        value = by_name.get(jet.name)
+        if not isinstance(value, FunctionValue):
+            raise InputError(
+                f"{where}: {jet.name} without a value: values = {{{jet.name}: an expression, a callable, a table (x, y)}}"
+            )
+        numbers.append(value.jet(where, jet.orders))
     return tuple(numbers)

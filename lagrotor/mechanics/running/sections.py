@@ -13,6 +13,7 @@ from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.running.flow import Array
+from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.phases import march, polish
 from lagrotor.mechanics.running.programs import function_program
@@ -34,7 +35,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     if len(run.t) < 2:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
-    section, n = expression("crossings: section", section), run.q.shape[1]
+    section, n = with_values(expression("crossings: section", section), run.values), run.q.shape[1]
     value = function_program(run.system, section).along(run.values)
     touch = max(run.tol, _LEAST) * _change(run, section)
     passages: list[tuple[float, int, Array]] = []

@@ -16,6 +16,7 @@ from lagrotor.mechanics.running import run_pictures, sections
 from lagrotor.mechanics.running.admission import check_inertia, check_values
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
+from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import begin, with_events
@@ -48,12 +49,15 @@ class SystemRun(SampledMotion):
     animate = run_pictures.animate
 
     @staticmethod
-    def load(path: str | Path, system: Equations, events: Any = ()) -> "SystemRun":
-        """The run of `system`, with the events it was run with, that `save` wrote as .npz: a file holds no equations.
+    def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":
+        """The run of `system`, with the events and the values of functions it was run with, that `save` wrote as .npz: a file
+        holds no equations.
 
         Raises InputError where it is no such file, or one of another system.
         """
-        saved = read_run(path)
+        given = check_events(system, events)
+        system, more = put_functions("load", system, functions or {}, [e for event in given for e in event.expressions])
+        given, saved = tuple(event_with(event, lambda e: with_values(e, more)) for event in given), read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
@@ -63,7 +67,7 @@ class SystemRun(SampledMotion):
             q, v = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, c.v))
             states = np.hstack([q, v, np.array(about["modes"], float).reshape(len(q), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
-            values = {str(name): float(value) for name, value in about["values"].items()}
+            values = {str(name): float(value) for name, value in about["values"].items()} | more
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
         except (KeyError, TypeError, ValueError, AttributeError) as refusal:
             if isinstance(refusal, InputError):
@@ -76,7 +80,7 @@ class SystemRun(SampledMotion):
         ):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
-        h = replace(with_events(system, values, check_events(system, events)), scale=powers_of_two(scales.sizes))
+        h = replace(with_events(system, values, given), scale=powers_of_two(scales.sizes))
         return SystemRun(
             **saved.fields, system=system, values=values, q=q, v=v, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -95,10 +99,12 @@ def simulate_system(
 ) -> SystemRun:
     """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s.
 
-    values: {symbol or name: number} for every parameter. tol: the largest error of the whole run, relative to the sizes of
-    coordinates and velocities. It is estimated; where it is not kept, a LagrotorWarning says up to which time it is, and what
-    the error is: as `run.error`, `run.errors` and `run.horizon`. engine: "core", or "fast" with heyoka. events: what changes
-    the velocities or ends the run (`Event`, `Impact`). Forces that jump with sign(w) or |w| stick and slip.
+    values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable, callables
+    (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: no step passes one of its knots,
+    and outside it the run ends. tol: the largest error of the whole run, relative to the sizes of coordinates and velocities.
+    It is estimated; where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as
+    `run.error`, `run.errors` and `run.horizon`. engine: "core", or "fast" with heyoka. events: what changes the velocities or
+    ends the run (`Event`, `Impact`). Forces that jump with sign(w) or |w| stick and slip.
 
     A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
 
@@ -108,7 +114,12 @@ def simulate_system(
     """
     times, tol = increasing("simulate", t), check_tolerance(tol)
     check_engine(engine)
-    h, n = with_events(system, values, check_events(system, events)), len(system.c.q)
+    given = check_events(system, events)
+    system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])
+    given = tuple(event_with(event, lambda e: with_values(e, values)) for event in given)
+    if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
+        raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
+    h, n = with_events(system, values, given), len(system.c.q)
     q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
@@ -177,7 +188,7 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
     ended = np.rint(run.states[:, -1]).astype(int)
     if not ended[-1]:
         rest = [
-            f"impacts on {h.impacts[i].gap} accumulate at t = {at:.9g} s"
+            f"impacts on {[e for e in h.shown if isinstance(e, Impact)][i].gap} accumulate at t = {at:.9g} s"
             for i, at in h.accumulations.items()
             if at < run.t[-1]
         ]

@@ -114,7 +114,8 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
             f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities; others are values"
         )
     given = [point.get(s, 0) for s in (*c.q, *c.v)]
-    letters = by_symbol(values, {s for e in map(sp.sympify, given) for s in e.free_symbols})
+    inside = {s for e in map(sp.sympify, given) for s in e.free_symbols}
+    letters = {s: x for s, x in by_symbol(values, inside).items() if s in inside}
     try:
         start = np.array([float(sp.sympify(e).subs(letters)) for e in given])
     except (TypeError, ValueError):
@@ -150,14 +151,16 @@ def motion_slope(
         raise InputError(
             f"{where}: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
         )
-    numbers, d = np.array(parameter_values(given, values, where)), len(given.states)
+    numbers, d = parameter_values(given, values, where), len(given.states)
+    calls = [f for f in numbers if callable(f)]
+    numbers = numbers[: len(numbers) - len(calls)]
     names = [str(s) for s in (*given.states, *given.parameters)]
 
     def slope(state: Array) -> tuple[Array, Array, Array]:
         at = np.concatenate([state, numbers]).astype(complex)
         moved = at[:, None] + 1j * _STEP * np.eye(len(at))
         with np.errstate(all="ignore"):
-            rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved)]
+            rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved, *calls)]
         found = np.array(rows, complex).reshape(len(rows), len(at))
         by = found.imag / _STEP
         own = [names.index(str(s)) if str(s) in names else None for s in inputs]

@@ -1,0 +1,161 @@
+"""Functions as ingredients: in the equations as what they are, in a run as an expression, callables, a table or a spline."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
+
+from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
+from lagrotor.mechanics import Event, Frame, System, SystemRun, coordinates, t
+
+U, y, u, F = (sp.Function(name) for name in ("U", "y_s", "u", "F"))
+m, k, d, g, l = sp.symbols("m k d g l", positive=True)
+C, PLANE = coordinates("x"), coordinates("r phi")
+(x,), (v,) = C.q, C.v
+r, r_dot, phi_dot = PLANE.q[0], *PLANE.v
+CENTRAL = System(PLANE, m * (r_dot**2 + r**2 * phi_dot**2) / 2 - U(r))
+SUPPORTED = System(C, m * (v + y(t).diff(t)) ** 2 / 2 - k * x**2 / 2, dissipation=d * v**2 / 2, forces=(u(t),))
+WELL = System(C, m * v**2 / 2 - U(x))
+NUMBERS = {m: 1, k: 4, d: 0.1}
+T, FINE = np.linspace(0, 6, 25), np.linspace(0.3, 1.2, 2000)
+
+
+def test_derivatives_stand_in_the_equations_as_what_they_are() -> None:
+    assert CENTRAL.motion[0] - (m * PLANE.a[0] - m * r * phi_dot**2 + U(r).diff(r)) == 0
+    assert (SUPPORTED.motion[0] - (m * (C.a[0] + y(t).diff(t, 2)) + k * x + d * v - u(t))).expand() == 0
+
+
+def test_what_is_conserved_is_so_for_every_function() -> None:
+    assert CENTRAL.cyclic == (PLANE.q[1],)
+    assert CENTRAL.energy == (m * (r_dot**2 + r**2 * phi_dot**2) / 2 + U(r)).expand()
+    assert CENTRAL.conserved(CENTRAL.energy).answer == "zero" and CENTRAL.conserved(U(r)).answer == "nonzero"
+    p = sp.Symbol("p_phi", real=True)
+    assert CENTRAL.routh("phi").motion[0] - (m * PLANE.a[0] - p**2 / (m * r**3) + U(r).diff(r)) == 0
+    driven = System(C, m * v**2 / 2 - y(t) * x)
+    assert driven.cyclic == () and driven.conserved(driven.energy).answer == "nonzero"
+    held = System(coordinates("x z"), v**2, constraints=(sp.Symbol("z", real=True) - F(x),))
+    assert held.residual[0] == sp.Symbol("z_dot", real=True) - F(x).diff(x) * v
+
+
+@pytest.mark.parametrize(
+    "value",
+    [sp.Lambda(x, -1 / x), (lambda r: -1 / r, lambda r: 1 / r**2), CubicSpline(FINE, -1 / FINE)],
+    ids=["Lambda", "callables", "spline"],
+)  # fmt: skip
+def test_each_kind_of_value_gives_the_motion_of_the_expression(value: object) -> None:
+    times = np.linspace(0, 1.5, 6)  # some hundred knots
+    exact = CENTRAL.simulate({m: 1, U: -1 / r}, (1, 0), (0, 0.8), times, 1e-9)
+    run = CENTRAL.simulate({m: 1, U: value}, (1, 0), (0, 0.8), times, 1e-9)
+    assert run.q == pytest.approx(exact.q, abs=1e-8)
+    assert run.evaluate(U(r) + r * U(r).diff(r)) == pytest.approx(np.zeros(6), abs=1e-6)
+    assert run.energy == pytest.approx(exact.energy, abs=1e-9)
+
+
+def test_a_support_and_a_control_are_functions_of_time() -> None:
+    exact = SUPPORTED.simulate(NUMBERS | {y: sp.sin(t) / 10, u: 0}, (0.1,), (0,), T, 1e-9)
+    sines = (lambda s: np.sin(s) / 10, lambda s: np.cos(s) / 10, lambda s: -np.sin(s) / 10)
+    run = SUPPORTED.simulate(NUMBERS | {y: sines, "u": lambda s: 0.0}, (0.1,), (0,), T, 1e-9)
+    assert run.q == pytest.approx(exact.q, abs=1e-9) and run.evaluations == exact.evaluations
+
+
+def test_corners_of_a_table_do_not_spoil_what_is_promised() -> None:
+    """A control in straight pieces: its knots end steps, so that the error is that of polynomials."""
+    knots, heights = np.array([0, 1.3, 2.1, 6.0]), np.array([0, 1.0, -1.0, 0.5])
+    run = System(C, v**2 / 2 - x**2 / 2, forces=(u(t),)).simulate(
+        {u: make_interp_spline(knots, heights, k=1)}, (0.2,), (0,), T, 1e-11
+    )
+    slopes = np.diff(heights) / np.diff(knots)
+    bends = np.diff(slopes, prepend=0.0)
+    exact = 0.2 * np.cos(T)
+    for at, bend in zip(knots[:-1], bends, strict=True):  # x'' + x = s H(s) gives s − sin s
+        since = np.maximum(T - at, 0)
+        exact += bend * (since - np.sin(since))
+    assert np.abs(run.q[:, 0] - exact).max() < 1e-11 and run.error < 1e-11
+
+
+def test_knots_of_a_potential_are_passed_and_stood_on() -> None:
+    places = np.linspace(-1, 1, 5)
+    table = (places, 2 * places**2)
+    swung = WELL.simulate({m: 1, U: table}, (0.5,), (0,), T, 1e-11)
+    assert swung.q[:, 0] == pytest.approx(0.5 * np.cos(2 * T), abs=1e-11)
+    assert WELL.simulate({m: 1, U: table}, (0,), (0,), T).q[-1] == pytest.approx(0, abs=1e-15)
+    notch = PPoly(np.array([[-1.0, 1.0], [1.0, 0.0]]), np.array([-1.0, 0, 1]))  # U = |x|
+    bounced = WELL.simulate({m: 1, U: notch}, (0.5,), (0,), np.array([0, 1.0, 4.0]), 1e-11)
+    assert bounced.q[:, 0] == pytest.approx([0.5, 0, 0.5], abs=1e-11)
+
+
+def test_a_callable_that_jumps_is_within_its_estimate() -> None:
+    spring = System(C, v**2 / 2 - x**2 / 2, forces=(u(t),))
+    run = spring.simulate({u: lambda s: float(s > np.pi)}, (0.2,), (0,), T, 1e-9)
+    exact = 0.2 * np.cos(T) + (1 + np.cos(T)) * np.heaviside(T - np.pi, 0)
+    assert np.abs(run.q[:, 0] - exact).max() <= max(run.error, 1e-9)
+
+
+def test_a_run_ends_where_its_table_does() -> None:
+    with pytest.warns(LagrotorWarning, match="the end of the table of U: x = 1, and it is known from -1 to 1"):
+        run = WELL.simulate({m: 1, U: ([-1, 0, 1], [0, 0, 0])}, (0.5,), (1,), T)
+    assert run.ending.at == pytest.approx(0.5) and run.q[-1, 0] == pytest.approx(1)
+
+
+def test_bodies_move_with_a_support_and_runs_are_kept(tmp_path: object) -> None:
+    c = coordinates("a b")
+    first = Frame(c).moved(0, 0, y(t)).turned("y", c.q[0])
+    bodies = [frame.body(mass=m, centre=(0, 0, -l)) for frame in (first, first.moved(0, 0, -2 * l).turned("y", c.q[1]))]
+    system = System(c, sum(b.kinetic - b.potential((0, 0, -g)) for b in bodies) - U(c.q[0] - c.q[1]))
+    written, times = System(c, system.L), np.linspace(0, 2, 9)
+    functions = {y: (np.linspace(0, 2, 9), np.sin(np.linspace(0, 2, 9))), U: (lambda s: s**2, lambda s: 2 * s)}
+    start = (0.3, 0.1), (0, 0), times, 1e-9
+    run, other = (s.simulate({m: 1, g: 9.81, l: 0.5} | functions, *start) for s in (system, written))
+    assert run.q == pytest.approx(other.q, abs=1e-8)
+    run.save(f"{tmp_path}/run.npz")
+    again = SystemRun.load(f"{tmp_path}/run.npz", system, (), functions)
+    assert again.at([0.77]).q == pytest.approx(run.at([0.77]).q, abs=1e-12)
+    ended = system.simulate({m: 1, g: 9.81, l: 0.5} | functions, *start, events=Event(y(t) - c.q[0]))
+    assert "y_s(t)" in ended.ending.reason and ended.evaluate(y(t) - c.q[0])[-1] == pytest.approx(0, abs=1e-12)
+
+
+def test_small_motion_and_neighbours_have_the_second_derivative() -> None:
+    values = ([lambda s: s**2, lambda s: 2 * s, lambda s: 2.0], x**2, ([-1, 0, 1, 2], [1, 0, 1, 4]))
+    for value in values:
+        assert WELL.linearise({x: 0}, {m: 1, U: value}).rates.imag == pytest.approx([-(2**0.5), 2**0.5])
+    with pytest.raises(InputError, match="contain U'', which a callable for U alone does not give"):
+        WELL.linearise({x: 0}, {m: 1, U: values[0][:2]})
+    three = WELL.simulate({m: 1, U: values[0]}, (1,), (0,), np.linspace(0, 20, 5))
+    assert abs(three.lyapunov().exponent) < 0.1
+
+
+def test_what_is_no_function_is_refused_in_words() -> None:
+    for value, words in (
+        ("x**2", "is no function of 1 argument"),
+        ((1, 2), "is no function"),
+        (None, "is no function"),
+        (True, "is no function"),
+        (([1, 1], [2, 3]), "increase"),
+        (([1, 2], [2, np.nan]), "finite"),
+        (([1, 2, 3], [2, 3]), "3 and 2"),
+        (sp.Function("W")(x), "without a value"),
+        (v, "no function"),
+        (sp.Symbol("zz") * x, "zz without a value"),
+        (sp.Lambda((x, v), x), "has 2 arguments"),
+        (lambda s: s**2, r"U', which a callable for U alone does not give: give values={U: \(U, U'\)}"),
+        (([2, 3], [1, 1]), "outside the table of U: x = 0.5"),
+    ):
+        with pytest.raises(InputError, match=words):
+            WELL.simulate({m: 1, U: value}, (0.5,), (0,), T)
+    with pytest.raises(IntegrationError, match="no number"):
+        WELL.simulate({m: 1, U: [abs, lambda s: None]}, (0.5,), (0,), T)
+    for values, words in (
+        ({m: 1}, "U without a value"),
+        ({m: 1, U: x**2, F: x}, "function F, which the system does not"),
+    ):
+        with pytest.raises(InputError, match=words):
+            WELL.simulate(values, (0.5,), (0,), T)
+    with pytest.raises(InputError, match="engine='core'"):
+        WELL.simulate({m: 1, U: ([0, 1], [0, 1])}, (0.5,), (0,), T, engine="fast")
+    for potential, words in (
+        (sp.Function("x")(t), "plain"),
+        (sp.Derivative(x, t), "plain"),
+        (U(sp.Symbol("t")), "'t'"),
+    ):
+        with pytest.raises(InputError, match=words):
+            System(C, v**2 / 2 - potential)
