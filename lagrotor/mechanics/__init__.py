@@ -6,6 +6,10 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
+    from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian
+    from lagrotor.mechanics.canonical.hamiltonians import rotational_bracket as rotational_bracket
+    from lagrotor.mechanics.canonical.normal_forms import NormalForm as NormalForm
+    from lagrotor.mechanics.canonical.normal_forms import birkhoff as birkhoff
     from lagrotor.mechanics.constraints import project_position as project_position
     from lagrotor.mechanics.constraints import project_velocity as project_velocity
     from lagrotor.mechanics.constraints import solve_constrained as solve_constrained

@@ -8,6 +8,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
+from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.from_sympy import parts_from_sympy
@@ -49,6 +50,7 @@ class System(Equations):
     noether_rate = symmetry.noether_rate
     conserved = symmetry.conserved
     routh = symmetry.routh
+    hamiltonian = hamiltonians.hamiltonian
     equilibria = equilibria.equilibria
     same_as = sameness.same_as
     in_coordinates = sameness.in_coordinates

@@ -1,0 +1,1 @@
+"""The Hamiltonian side: brackets, canonical transformations, normal forms."""

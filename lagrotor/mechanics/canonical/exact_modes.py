@@ -1,0 +1,126 @@
+"""Normal coordinates of a quadratic Hamiltonian without rounding, where its frequencies are rational, algebraic or rational in
+parameters.
+
+The vector w of each mode is scaled by ω/(v†A v) and no root is taken: w = k z̄ with k > 0, and the action is z w.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy import QQ, QQ_I
+from sympy.polys.matrices import DomainMatrix
+from sympy.polys.polyerrors import CoercionFailed
+
+from lagrotor.errors import NotExactError
+
+_MOST_ROOTS = 2  # square roots of rational numbers that make the field, beside i
+
+
+@dataclass(frozen=True)
+class ExactCoordinates:
+    """As `NormalCoordinates`, of oscillations alone, as expressions; and the field that holds them."""
+
+    vectors: sp.Matrix
+    frequencies: tuple[sp.Expr, ...]
+    field: Any
+
+
+def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, letters: set[sp.Symbol], H: sp.Expr) -> ExactCoordinates:
+    """Normal coordinates of ½ x·A x, the quadratic part of H; letters: the parameters.
+
+    Raises NotExactError where a frequency is not in closed form, not real, or zero.
+    """
+    rates = _frequencies(bracket * A)
+    field = _field(letters, sp.Tuple(H, A, *rates))
+    modes: list[tuple[sp.Expr, sp.Matrix, sp.Matrix]] = []
+    for omega in rates:
+        if any(_same(omega, abs_omega) for abs_omega in (abs(mode[0]) for mode in modes)):
+            continue
+        for v in _orthogonal(_null_vectors(bracket * A + sp.I * omega * sp.eye(A.rows), field), A, field):
+            modes.append(_signed(omega, v, A, field))
+    modes.sort(key=lambda mode: sp.default_sort_key(abs(mode[0])) if A.free_symbols else float(abs(mode[0])))
+    if 2 * len(modes) != A.rows:
+        raise NotExactError("normal_form: a frequency is double and not diagonal")
+    vectors = sp.Matrix.hstack(*(mode[1] for mode in modes), *(mode[2] for mode in modes))
+    return ExactCoordinates(vectors, tuple(mode[0] for mode in modes), field)
+
+
+def _frequencies(W: sp.Matrix) -> list[sp.Expr]:
+    """The positive ω of det(W + i ω) = 0, which is even in ω."""
+    s, found = sp.Dummy("s"), []
+    squares = sp.Poly(W.charpoly().all_coeffs()[::2], s)
+    for factor, _ in sp.factor_list(squares.as_expr(), s, extension=sorted(_roots_in(W), key=str) or None)[1]:
+        if not factor.has(s):
+            continue
+        roots = sp.roots(sp.Poly(factor, s), multiple=True) if sp.degree(factor, s) <= 2 else []
+        for root in roots:
+            omega = sp.sqrtdenest(sp.sqrt(sp.factor(-root)))
+            _roots_in(omega)
+            if not omega.is_positive or (W.free_symbols and not omega.is_rational_function(*W.free_symbols)):
+                raise NotExactError(f"normal_form: the frequency {omega} is not one in closed form")
+            found.append(omega)
+        if not roots:
+            raise NotExactError(f"normal_form: {factor} = 0 is not solved in closed form")
+    return found
+
+
+def _roots_in(e: Any) -> set[sp.Expr]:
+    """The radicals of numbers in an expression. Raises NotExactError where they are more than a small field holds."""
+    roots = {power for power in e.atoms(sp.Pow) if not power.exp.is_Integer and not power.free_symbols}
+    squares = {power.base for power in roots}
+    if len(squares) > _MOST_ROOTS or not all(r.base.is_Rational and (2 * r.exp).is_Integer for r in roots):
+        raise NotExactError(f"normal_form: {', '.join(sorted(map(str, roots)))} make no small field of numbers")
+    return {sp.sqrt(square) for square in squares}
+
+
+def _field(letters: set[sp.Symbol], numbers: sp.Tuple) -> Any:
+    roots = _roots_in(numbers)
+    if letters and roots:
+        raise NotExactError(f"normal_form: {roots} beside {letters}")
+    if letters:
+        return QQ_I.frac_field(*sorted(letters, key=str))
+    return QQ.algebraic_field(sp.I, *sorted(roots, key=str)) if roots else QQ_I
+
+
+def _null_vectors(M: sp.Matrix, field: Any) -> list[sp.Matrix]:
+    try:
+        rows = DomainMatrix.from_Matrix(M).convert_to(field).nullspace().to_Matrix()
+    except CoercionFailed as error:
+        raise NotExactError(f"normal_form: {error}") from None
+    return [rows[k, :].T for k in range(rows.rows)]
+
+
+def _reduce(e: sp.Expr, field: Any) -> sp.Expr:
+    return field.to_sympy(field.from_sympy(e))
+
+
+def _orthogonal(vectors: list[sp.Matrix], A: sp.Matrix, field: Any) -> list[sp.Matrix]:
+    """Vectors of the same span with v†A u = 0, none with v†A v = 0."""
+    left, found = list(vectors), list[sp.Matrix]()
+    while left:
+        energies = [_reduce((v.H * A * v)[0].expand(), field) for v in left]
+        best = next((k for k, energy in enumerate(energies) if energy != 0), None)
+        if best is None:
+            raise NotExactError("normal_form: modes of equal frequency whose energies vanish")
+        v = left.pop(best)
+        left = [
+            (u - v * ((v.H * A * u)[0] / energies[best])).applyfunc(lambda e: _reduce(e.expand(), field)) for u in left
+        ]
+        found.append(v)
+    return found
+
+
+def _signed(omega: sp.Expr, v: sp.Matrix, A: sp.Matrix, field: Any) -> tuple[sp.Expr, sp.Matrix, sp.Matrix]:
+    """(ω with the sign of the energy, the vector of z, that of w)."""
+    energy, bar = _reduce((v.H * A * v)[0].expand(), field), v.conjugate()
+    factor = sp.factor(energy) if energy.free_symbols else energy
+    if not factor.is_positive and not factor.is_negative:
+        raise NotExactError(f"normal_form: the sign of the energy {factor} is not known: give the letters values")
+    scale = omega / energy if factor.is_positive else -omega / energy
+    scaled = [(x * scale).applyfunc(lambda e: _reduce(e.expand(), field)) for x in (bar, v)]
+    return (omega, v, scaled[0]) if factor.is_positive else (-omega, bar, scaled[1])
+
+
+def _same(a: sp.Expr, b: sp.Expr) -> bool:
+    return bool((a - b).equals(0))

@@ -1,0 +1,178 @@
+"""The Hamiltonian of a system: momenta, Poisson brackets, what is conserved, canonical transformations.
+
+    q' = ∂H/∂p,   p' = −∂H/∂q,       {f, g} = ∂f/∂q·∂g/∂p − ∂f/∂p·∂g/∂q + ∂f/∂p·F ∂g/∂p.
+
+F = 0 for canonical momenta p = ∂L/∂v. For kinetic ones, p = M v, what is linear in the velocities, L = … + b·v, is left in the
+bracket: F_ij = ∂b_j/∂q_i − ∂b_i/∂q_j, of a charge the magnetic field. Holonomic constraints φ = (g, g') are put into Dirac's
+bracket,
+
+    {f, g}* = {f, g} − {f, φ_a} (C⁻¹)_ab {φ_b, g},     C_ab = {φ_a, φ_b},
+
+for which they commute with everything. Dirac, Lectures on Quantum Mechanics (1964); Arnold, Mathematical Methods of Classical
+Mechanics, §§ 38–45; Marsden & Ratiu, Introduction to Mechanics and Symmetry, chs. 6, 10, 15.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
+from lagrotor.errors import DomainError, InputError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import by_symbol, expression, shortest, vector_of
+from lagrotor.mechanics.lagrangian import gradient, jacobian, linear_solve, t
+from lagrotor.mechanics.symmetry import legendre
+
+if TYPE_CHECKING:
+    from lagrotor.mechanics.canonical.normal_forms import NormalForm
+
+
+@dataclass(frozen=True)
+class Hamiltonian:
+    """H(q, p, t) with the bracket of its variables; p_dot F as in the module. constraints: g(q) = 0."""
+
+    H: sp.Expr
+    q: tuple[sp.Symbol, ...]
+    p: tuple[sp.Symbol, ...]
+    field: sp.Matrix
+    constraints: tuple[sp.Expr, ...] = ()
+
+    def bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
+        """{f, g}; under constraints Dirac's, which is that of functions on them."""
+        f, g = (expression("bracket", e) for e in (f, g))
+        plain = self._bracket(f, g)
+        if not self.constraints:
+            return shortest(plain)
+        left = sp.Matrix([[self._bracket(f, phi) for phi in self._bound]])
+        right = sp.Matrix([self._bracket(phi, g) for phi in self._bound])
+        return shortest(plain - (left * self._dirac * right)[0])
+
+    def _bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
+        fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
+        return fq.dot(gp) - fp.dot(gq) + (fp.T * self.field * gp)[0]
+
+    @cached_property
+    def _bound(self) -> tuple[sp.Expr, ...]:
+        """The constraints and their rates."""
+        return (*self.constraints, *(self._bracket(g, self.H) for g in self.constraints))
+
+    @cached_property
+    def _dirac(self) -> sp.Matrix:
+        n = len(self._bound)
+        C = sp.Matrix(n, n, lambda a, b: self._bracket(self._bound[a], self._bound[b]))
+        return linear_solve(
+            C, sp.eye(n), "bracket: the constraints are dependent: leave out what follows from the others"
+        )
+
+    def rate(self, f: sp.Expr) -> sp.Expr:
+        """df/dt = {f, H} + ∂f/∂t along a motion."""
+        return shortest(self.bracket(f, self.H) + derivative(f, t))
+
+    def conserved(self, f: sp.Expr) -> Decision:
+        """Whether f(q, p, t) is a first integral, decided; under constraints what vanishes only on them is "undecided"."""
+        return self._on_constraints(self.bracket(f, self.H) + derivative(f, t))
+
+    def in_involution(self, *integrals: sp.Expr) -> Decision:
+        """Whether each is a first integral and every bracket of two of them vanishes, decided.
+
+        n of them that are independent make the system integrable (Liouville; Arnold § 49).
+        """
+        pairs = [(f, g) for i, f in enumerate(integrals) for g in integrals[:i]]
+        decisions = [*map(self.conserved, integrals), *(self._on_constraints(self.bracket(f, g)) for f, g in pairs)]
+        if not decisions:
+            raise InputError("in_involution: give the first integrals")
+        worst = {answer: d for d in decisions for answer in [d.answer]}
+        decision = worst.get("nonzero") or worst.get("undecided") or decisions[0]
+        return replace(decision, domain=tuple(dict.fromkeys(factor for d in decisions for factor in d.domain)))
+
+    def _on_constraints(self, e: sp.Expr) -> Decision:
+        decision = decide_zero(e)
+        if decision.answer == "nonzero" and self.constraints:
+            return replace(
+                decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}"
+            )
+        return decision
+
+    def canonical(self, Q: Sequence[sp.Expr], P: Sequence[sp.Expr]) -> Decision:
+        """Whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
+        n = len(self.q)
+        new = sp.Matrix([*vector_of("canonical: Q", Q, n), *vector_of("canonical: P", P, n)])
+        brackets = sp.Matrix(2 * n, 2 * n, lambda a, b: self.bracket(new[a], new[b]))
+        return decide_equal(brackets, _canonical(n))
+
+    def normal_form(
+        self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any] | None = None, detuning: float = 0.0
+    ) -> "NormalForm":
+        """Birkhoff's normal form through an order about the equilibrium `at`: see `normal_forms.NormalForm`.
+
+        at: {coordinate or momentum: value}; where no momentum is named they are those of rest. values: of the parameters;
+        without them the coefficients are exact where the frequencies are rational, algebraic or rational in the parameters.
+        detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
+
+        Raises InputError where `at` is no equilibrium, a coordinate is not named or a letter needs a value, DomainError
+        where there are constraints, or H depends on time or is not analytic there.
+        """
+        from lagrotor.mechanics.canonical.normal_forms import normal_form_at
+
+        x = (*self.q, *self.p)
+        if self.constraints or self.H.has(t) or not self.field.is_zero_matrix:
+            raise DomainError(
+                "normal_form: H must have canonical momenta, no constraints and no time: use independent coordinates"
+            )
+        letters = by_symbol(values or {}, self.H.free_symbols)
+        H = self.H.xreplace({s: sp.sympify(v) for s, v in letters.items()})
+        point = {s: sp.sympify(v) for s, v in by_symbol(at, x).items()}
+        if strange := [str(s) for s in point if s not in x]:
+            raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
+        if missing := [str(q) for q in self.q if q not in point and H.has(q)]:
+            raise InputError(f"normal_form: {', '.join(missing)} without a value: the point needs each coordinate's")
+        at_rest = dict.fromkeys(x, sp.S.Zero) | point
+        if not point.keys() & {*self.p}:
+            slopes = gradient(H, self.p).xreplace({q: at_rest[q] for q in self.q})
+            still = -slopes.xreplace(dict.fromkeys(self.p, sp.S.Zero))
+            refusal = "normal_form: det ∂²H/∂p∂p = 0 there: name the momenta"
+            at_rest |= dict(zip(self.p, linear_solve(jacobian(slopes, self.p), still, refusal), strict=True))
+        return normal_form_at(H, x, at_rest, order, detuning)
+
+
+def _canonical(n: int) -> sp.Matrix:
+    return sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
+
+
+def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, kinetic: bool = False) -> Hamiltonian:
+    """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given; kinetic: with p = M v and magnetic terms in the bracket.
+
+    Raises DomainError for what no Hamiltonian has: forces, friction, rolling constraints, constraints that move, or an L that is
+    not quadratic in the velocities; SingularError where det M vanishes.
+    """
+    if system.forces or system.dissipation != 0 or system.rolling or any(g.has(t) for g in system.constraints):
+        raise DomainError(
+            "hamiltonian: forces, friction, rolling and moving constraints have no Hamiltonian: write what has a potential "
+            "into L, and leave the others out"
+        )
+    c, L = system.c, system.L
+    p = tuple(momenta) if momenta is not None else tuple(sp.Symbol(f"p_{q}", real=True) for q in c.q)
+    b = gradient(L, c.v).subs(dict.fromkeys(c.v, 0))
+    curl = jacobian(b, c.q)
+    field = (curl.T - curl).applyfunc(shortest) if kinetic else sp.zeros(len(c.q))
+    return Hamiltonian(
+        shortest(legendre(L - b.dot(sp.Matrix(c.v)) if kinetic else L, c, p)), c.q, p, field, system.constraints
+    )
+
+
+def rotational_bracket(f: sp.Expr, g: sp.Expr, momentum: Sequence[sp.Symbol], *vectors: Sequence[sp.Symbol]) -> sp.Expr:
+    """The Lie–Poisson bracket of a body's angular momentum M and of vectors γ fixed in space, all in the body's frame:
+
+        {M_i, M_j} = −ε_ijk M_k,   {M_i, γ_j} = −ε_ijk γ_k,   {γ_i, γ_j} = 0,
+
+    so that M' = {M, H} = M × ∂H/∂M + γ × ∂H/∂γ are Euler's equations. Marsden & Ratiu, ch. 15.
+    """
+    by_M = [gradient(e, momentum) for e in (f, g)]
+    result = -sp.Matrix(momentum).dot(by_M[0].cross(by_M[1]))
+    for gamma in vectors:
+        first, second = (gradient(e, gamma) for e in (f, g))
+        result -= sp.Matrix(gamma).dot(by_M[0].cross(second) + first.cross(by_M[1]))
+    return shortest(result)

@@ -1,0 +1,314 @@
+"""Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series.
+
+In normal coordinates (see `symplectic`) the quadratic part is H₂ = sum_j ω_j z_j w_j + N and
+
+    {H₂, z^a w^b} = D z^a w^b + {N, z^a w^b},     D = i sum_j ω_j (a_j − b_j)   for oscillations.
+
+Degree by degree the terms with D ≠ 0 are removed by exp(L_χ) with {H₂, χ} = what is to go; it is a canonical transformation,
+exact whatever the order at which its series is cut. What is left is a series in the actions I_j = z_j w_j and the resonances,
+D = 0 or |D| at most the `detuning`. N is what is left of the quadratic part where modes have the rate zero: the normal form
+is then the Hamiltonian averaged over all oscillations. Arnold, Mathematical Methods of Classical Mechanics, app. 7;
+Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969) 12.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import prod
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from lagrotor.errors import InputError, NotExactError
+from lagrotor.mechanics.canonical.exact_modes import exact_coordinates
+from lagrotor.mechanics.canonical.local_series import LocalSeries
+from lagrotor.mechanics.canonical.polynomials import (
+    Coefficients,
+    Exponents,
+    Polynomial,
+    lie_transform,
+    poisson_bracket,
+    polynomial,
+    total,
+)
+from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.shown import Shown, scientific
+
+_EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
+_SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NormalForm(Shown):
+    """H(z, w) in normal form through order `known_through`, and how one comes to it.
+
+    frequencies: ω_j, negative for modes of negative energy (λ of a saddle's, 0 of what stands still), as numbers or
+    expressions. series: H as a polynomial in z_1 … z_n, w_1 … w_n, {z_j, w_j} = weights_j, w_j = z̄_j where floating-point
+    numbers are (k z̄_j, k > 0, where they are exact). generators: χ of degree 3, 4, … in the order in which exp(L_χ) are
+    applied. vectors: x − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂. error: how far the inverse transformation
+    of the series is from the Hamiltonian, the largest difference of coefficients of a degree over the largest one; 0 where
+    it is exact. field: that of the coefficients, None for numbers.
+    """
+
+    frequencies: tuple[Any, ...]
+    series: Polynomial
+    weights: Coefficients
+    generators: tuple[Polynomial, ...]
+    vectors: Any
+    known_through: int
+    error: float
+    field: Any = None
+
+    @property
+    def energy_signs(self) -> tuple[int, ...]:
+        """+1 or −1, the sign of each oscillation's energy; 0 of a saddle and of what has the rate zero."""
+        negative = [w.could_extract_minus_sign() if isinstance(w, sp.Expr) else w.real < 0 for w in self.frequencies]
+        return tuple(
+            0 if self._plain(c) == 1 else -1 if below else 1 for c, below in zip(self.weights, negative, strict=True)
+        )
+
+    @cached_property
+    def actions(self) -> dict[Exponents, Any]:
+        """H = sum of coefficient × prod_j I_j^exponents_j, of the modes with a frequency; without the resonances."""
+        n = len(self.frequencies)
+        return {e[:n]: self._real(c) for e, c in self.series.terms.items() if self._is_of_actions(e)}
+
+    @cached_property
+    def resonances(self) -> dict[Exponents, Any]:
+        """The terms z^a w^b that were kept besides: {(a_1 … a_n, b_1 … b_n): coefficient}."""
+        return {e: self._plain(c) for e, c in self.series.terms.items() if not self._is_of_actions(e)}
+
+    def _is_of_actions(self, e: Exponents) -> bool:
+        n = len(self.frequencies)
+        return e[:n] == e[n:] and not any(m and w == 0 for m, w in zip(e[:n], self.frequencies, strict=True))
+
+    def frequencies_at(self, actions: Sequence[Any]) -> tuple[Any, ...]:
+        """∂H/∂I_j of the series in the actions, resonances left out."""
+        slopes = []
+        for j in range(len(self.frequencies)):
+            lower = {e: tuple(m - (i == j) for i, m in enumerate(e)) for e in self.actions if e[j]}
+            slopes.append(sum(e[j] * self.actions[e] * prod(map(pow, actions, less)) for e, less in lower.items()))
+        return tuple(slopes)
+
+    def original(self, f: Polynomial) -> Polynomial:
+        """A function of the coordinates of H₂ in the new ones, through the order: exp(L_χ) of each generator applied."""
+        for generator in self.generators:
+            f = lie_transform(f, generator, self.weights, self.known_through)
+        return f
+
+    def in_numbers(self) -> "NormalForm":
+        """The same with floating-point coefficients, and w_j = z̄_j. Raises InputError where letters have no values."""
+        if self.field is None:
+            return self
+        n = len(self.frequencies)
+        if letters := set().union(*(w.free_symbols for w in self.frequencies)):
+            raise InputError(f"in_numbers: {', '.join(map(str, letters))} without a value: give values to normal_form")
+        vectors = np.array(self.vectors.evalf().tolist(), dtype=complex)
+        lead = np.abs(vectors[:, :n]).argmax(0), np.arange(n)
+        scale = np.sqrt((vectors[:, n:][lead] / vectors[:, :n].conj()[lead]).real)
+        scales = np.concatenate([scale, 1 / scale])
+
+        def numbers(f: Polynomial) -> Polynomial:
+            plain = np.array([complex(self._plain(c)) for c in f.coefficients], dtype=complex)
+            return Polynomial(f.exponents, plain * np.prod(scales**f.exponents, axis=1))
+
+        return NormalForm(
+            tuple(map(float, self.frequencies)), numbers(self.series), np.full(n, -1j),
+            tuple(map(numbers, self.generators)), vectors * scales, self.known_through, 0.0,
+        )  # fmt: skip
+
+    def summary(self) -> dict[str, str]:
+        """Frequencies, the series in the actions, resonances and what is known of the error, name → words."""
+        rows = {
+            f"frequency {j + 1}": f"{w}" if self.field is not None else f"{w:.8g}"
+            for j, w in enumerate(self.frequencies)
+        }
+        rows |= {f"I^{e}": f"{c}" if self.field is not None else f"{c:.8g}" for e, c in list(self.actions.items())[:12]}
+        kept = {"resonances": ", ".join(map(str, self.resonances)) or "none"}
+        return rows | kept | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
+
+    def _plain(self, c: Any) -> Any:
+        return c if self.field is None else self.field.to_sympy(c)
+
+    def _real(self, c: Any) -> Any:
+        return float(c.real) if self.field is None else self._plain(c)
+
+
+def birkhoff(
+    H: Polynomial, weights: Coefficients, order: int, detuning: float = 0.0, vectors: Any = None, field: Any = None
+) -> NormalForm:
+    """The normal form of H(z, w), a polynomial that begins with sum_j ω_j z_j w_j + N, through an order.
+
+    weights: {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero; detuning: |D| up to which
+    terms are kept, in rad/s. Floating-point coefficients are complex; those of a `field` are its elements.
+    """
+    n = len(weights)
+    pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]
+    zero = 0 * weights[0]
+    frequencies = np.array([H.terms.get(e, zero) for e in pair], dtype=weights.dtype)
+    rates = weights * frequencies
+    plain = [w * frequencies[j] for j, w in enumerate(weights)] if field is None else [field.to_sympy(r) for r in rates]
+    letters = field is not None and any(r.free_symbols for r in plain)
+    least = 0.0 if letters else max(detuning, _EQUAL * max((abs(complex(r)) for r in plain), default=0.0))
+
+    def split(f: Polynomial) -> tuple[Polynomial, Polynomial, Coefficients]:
+        """What of f is kept, what can be removed, and its divisors D."""
+        steps = f.exponents[:, n:] - f.exponents[:, :n]
+        D = (steps.astype(weights.dtype) * rates).sum(1)
+        if field is None:
+            kept = np.abs(D) <= least
+        elif letters or not detuning:
+            kept = ~D.astype(bool)
+        else:
+            kept = np.array([abs(complex(field.to_sympy(d))) <= least for d in D], dtype=bool)
+        return f.where(kept), f.where(~kept), D[~kept]
+
+    quadratic = H.part(2)
+    steady, _, _ = split(quadratic)
+    diagonal = np.array([e in set(pair) for e in map(tuple, steady.exponents.tolist())], dtype=bool)
+    nilpotent = steady.where(~diagonal)
+    K, generators = total([H.part(0), steady, *(H.part(d) for d in range(3, order + 1))]), list[Polynomial]()
+    for degree in range(3, order + 1):
+        _, rest, D = split(K.part(degree))
+        term = generator = rest.over(-D) if len(rest.coefficients) else rest
+        while len(nilpotent.coefficients) and len(term.coefficients):
+            _, rest, D = split(poisson_bracket(nilpotent, term, weights, degree))
+            term = rest.over(-D) if len(rest.coefficients) else rest
+            if field is None:
+                term = term.where(np.abs(term.coefficients) > _SMALL * np.abs(generator.coefficients).max())
+            generator = generator + term
+        generators.append(generator)
+        K = lie_transform(K, generator, weights, order)
+        kept, _, _ = split(K.part(degree))  # what was removed leaves rounding behind
+        K = total([*(part for d, part in K.parts.items() if d != degree), kept])
+    error = 0.0 if field is not None else _error(H.through(order) - H.part(1), K, generators, weights, order)
+    values = (
+        tuple(field.to_sympy(f) for f in frequencies)
+        if field is not None
+        else tuple(complex(f) if abs(f.imag) > 0 else float(f.real) for f in frequencies)
+    )
+    return NormalForm(values, K, weights, tuple(generators), vectors, order, error, field)
+
+
+def _error(H: Polynomial, K: Polynomial, generators: Sequence[Polynomial], weights: Coefficients, order: int) -> float:
+    for generator in reversed(generators):
+        K = lie_transform(K, generator.times(-1), weights, order) if len(generator.coefficients) else K
+    sizes = {d: np.abs(H.part(d).coefficients).max(initial=0.0) for d in range(order + 1)}
+    left = {d: float(np.abs(part.coefficients).max()) for d, part in (H - K).parts.items()}
+    return max((size / max(sizes[d], sizes[2]) for d, size in left.items()), default=0.0)
+
+
+def normal_form_at(
+    H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[sp.Symbol, sp.Expr], order: int, detuning: float = 0.0
+) -> NormalForm:
+    """The normal form of H(x), x = (q_1 … q_n, p_1 … p_n) with canonical brackets, about the equilibrium `at`.
+
+    Exact where no number of H is a floating-point one and the frequencies are rational, algebraic or rational in H's letters;
+    numbers otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
+    where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
+    """
+    if not isinstance(order, int) or order < 2:
+        raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
+    letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v).free_symbols for v in at.values()))
+    try:
+        return _exact(H, x, at, order, detuning)
+    except NotExactError as error:
+        if letters:
+            names = ", ".join(sorted(map(str, letters)))
+            raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
+    A = np.zeros((len(x), len(x)), dtype=complex)
+    plain = _expanded(H, x, at, sp.eye(len(x)), 2, _number, complex)
+    _check_equilibrium(plain.part(1).coefficients, plain.part(2).coefficients)
+    for e, c in plain.part(2).terms.items():
+        i, j = [k for k, m in enumerate(e) for _ in range(m)]
+        A[i, j] += c
+        A[j, i] += c
+    n = len(x) // 2
+    bracket = np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
+    normal = normal_coordinates(A.real, bracket)
+    full = _expanded(H, x, at, normal.vectors, order, _number, complex)
+    quadratic = normal_quadratic(A.real, normal.vectors, normal.weights, normal.frequencies)
+    series = total([quadratic, *(full.part(d) for d in (0, *range(3, order + 1)))])
+    return birkhoff(series, normal.weights, order, detuning, normal.vectors)
+
+
+def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: Coefficients) -> Polynomial:
+    """½ x·A x in normal coordinates: the frequencies, and the whole of what has the rate zero, without rounding's rest."""
+    n, terms = len(weights), dict[Exponents, complex]()
+    B = vectors.T @ A @ vectors / 2
+    still = [j for j in range(n) if frequencies[j] == 0]
+    for i in (*still, *(n + j for j in still)):
+        for j in (*still, *(n + j for j in still)):
+            e = tuple(int(k == i) + int(k == j) for k in range(2 * n))
+            terms[e] = terms.get(e, 0) + B[i, j]
+    largest = max(np.abs(B).max(), 1e-300)
+    terms = {e: c for e, c in terms.items() if abs(c) > 1e-11 * largest}
+    for j, frequency in enumerate(frequencies):
+        if frequency:
+            terms[tuple(int(k in (j, n + j)) for k in range(2 * n))] = frequency
+    return polynomial(terms, 2 * n)
+
+
+def _exact(
+    H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[sp.Symbol, sp.Expr], order: int, detuning: float
+) -> NormalForm:
+    if H.has(sp.Float) or any(sp.sympify(v).has(sp.Float) for v in at.values()):
+        raise NotExactError("normal_form: the Hamiltonian has floating-point numbers")
+    n = len(x) // 2
+    slope, A = sp.zeros(len(x), 1), sp.zeros(len(x), len(x))
+    for e, c in _expanded(H, x, at, sp.eye(len(x)), 2, sp.expand, object).terms.items():
+        where = [k for k, m in enumerate(e) for _ in range(m)]
+        if len(where) == 1:
+            slope[where[0]] += c
+        elif where:
+            A[where[0], where[1]] += c
+            A[where[1], where[0]] += c
+    if any(not e.equals(0) for e in slope):
+        raise InputError(f"normal_form: {dict(at)} is no equilibrium: ∂H/∂x = {list(slope)} there")
+    bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
+    letters = H.free_symbols - {*x} | A.free_symbols
+    normal = exact_coordinates(A, bracket, letters, H)
+    field = normal.field
+
+    def value(e: sp.Expr) -> Any:
+        try:
+            return field.from_sympy(sp.sympify(e))
+        except Exception:
+            raise NotExactError(f"normal_form: {e} is not in the field of the frequencies") from None
+
+    full = _expanded(H, x, at, normal.vectors, order, value, object)
+    pair = [tuple(int(k in (j, n + j)) for k in range(2 * n)) for j in range(n)]
+    if set(full.part(2).terms) != set(pair):
+        raise NotExactError("normal_form: the quadratic part is not diagonal")
+    weights = np.empty(n, dtype=object)
+    weights[:] = [value(-sp.I)] * n
+    return birkhoff(full, weights, order, detuning, normal.vectors, field)
+
+
+def _expanded(
+    H: sp.Expr,
+    x: Sequence[sp.Symbol],
+    at: Mapping[sp.Symbol, sp.Expr],
+    vectors: Any,
+    order: int,
+    value: Callable[[sp.Expr], Any],
+    kind: Any,
+) -> Polynomial:
+    """H at x = at + vectors y, a polynomial in y."""
+    m = len(x)
+    convert = value if kind is object else complex
+    moved = {
+        s: polynomial({tuple(int(i == j) for i in range(m)): convert(vectors[k, j]) for j in range(m)}, m, kind)
+        for k, s in enumerate(x)
+    }
+    return LocalSeries(at, moved, order, value).of(H)
+
+
+def _number(e: sp.Expr) -> complex:
+    return complex(sp.N(e, 20))
+
+
+def _check_equilibrium(slope: Coefficients, curvature: Coefficients) -> None:
+    if np.abs(slope).max(initial=0.0) > 1e-9 * max(np.abs(curvature).max(initial=0.0), 1e-300):
+        raise InputError("normal_form: the point is no equilibrium: ∂H/∂x is not zero there; start from one")

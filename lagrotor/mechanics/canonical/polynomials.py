@@ -1,0 +1,186 @@
+"""Polynomials in many variables as arrays, cut off at an order: products, Poisson brackets, Lie transforms.
+
+Coefficients are floating-point numbers, or elements of a field in arrays of objects: rational, algebraic, or rational in
+parameters. Variables come in canonical pairs, z_1 … z_n and then w_1 … w_n, with {z_j, w_j} = c_j:
+
+    {f, g} = sum_j c_j (∂f/∂z_j ∂g/∂w_j − ∂f/∂w_j ∂g/∂z_j),       exp(L_g) f = f + {f, g} + {{f, g}, g}/2! + …
+
+Equal exponents are found by a key that adds as exponents do, sum_j e_j r_j modulo 2⁶⁴ with r_j drawn once.
+Dragt & Finn, J. Math. Phys. 17 (1976) 2215; Hori, Publ. Astron. Soc. Japan 18 (1966) 287.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Coefficients = NDArray[Any]
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Polynomial:
+    """sum_k coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), each row once, coefficients (m,), none of them 0."""
+
+    exponents: NDArray[np.int64]
+    coefficients: Coefficients
+
+    @property
+    def variables(self) -> int:
+        """How many variables there are."""
+        return int(self.exponents.shape[1])
+
+    @cached_property
+    def terms(self) -> dict[Exponents, Any]:
+        """{exponents: coefficient}."""
+        return {tuple(e): c for e, c in zip(self.exponents.tolist(), self.coefficients.tolist(), strict=True)}
+
+    @cached_property
+    def parts(self) -> dict[int, Polynomial]:
+        """{degree: the homogeneous part of that degree}."""
+        degrees = self.exponents.sum(1)
+        return {int(d): self.where(degrees == d) for d in np.unique(degrees)}
+
+    @cached_property
+    def _keys(self) -> NDArray[np.uint64]:
+        return self.exponents.astype(np.uint64) @ _multipliers(self.variables)
+
+    def where(self, chosen: NDArray[np.bool_]) -> Polynomial:
+        """The terms of a mask (m,)."""
+        return Polynomial(self.exponents[chosen], self.coefficients[chosen])
+
+    def part(self, degree: int) -> Polynomial:
+        """The homogeneous part of a degree."""
+        return self.parts.get(degree, self.where(np.zeros(len(self.coefficients), dtype=bool)))
+
+    def through(self, order: int) -> Polynomial:
+        """The terms up to a degree."""
+        return self.where(self.exponents.sum(1) <= order)
+
+    def __add__(self, other: Polynomial) -> Polynomial:
+        return total([self, other])
+
+    def __sub__(self, other: Polynomial) -> Polynomial:
+        return total([self, other.times(-1)])
+
+    def times(self, factor: Any) -> Polynomial:
+        """The polynomial multiplied by a number, which is not zero, or by one for each term (m,)."""
+        return Polynomial(self.exponents, self.coefficients * factor)
+
+    def over(self, divisor: Any) -> Polynomial:
+        """The polynomial divided by a number, or by one for each term (m,)."""
+        return Polynomial(self.exponents, self.coefficients / divisor)
+
+    def product(self, other: Polynomial, order: int) -> Polynomial:
+        """The product through an order."""
+        pairs = [(a, b) for d, a in self.parts.items() for e, b in other.parts.items() if d + e <= order]
+        return total([_product(a, b) for a, b in pairs] or [self.part(-1)])
+
+    def power(self, n: int, order: int) -> Polynomial:
+        """The n-th power through an order, n ≥ 1."""
+        half = self.power(n // 2, order) if n > 1 else self
+        square = half.product(half, order) if n > 1 else self
+        return square.product(self, order) if n > 1 and n % 2 else square
+
+    def derivative(self, k: int) -> Polynomial:
+        """∂/∂x_k."""
+        by = self.where(self.exponents[:, k] > 0)
+        lower = by.exponents.copy()
+        lower[:, k] -= 1
+        return Polynomial(lower, by.coefficients * by.exponents[:, k].astype(by.coefficients.dtype))
+
+    def substitute(self, values: Sequence[Polynomial], order: int, first: int = 0) -> Polynomial:
+        """The polynomial at x_k = values[k], polynomials themselves, through an order: Horner's rule, variable by variable."""
+        if first == self.variables:
+            return Polynomial(
+                np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64), self.coefficients
+            )
+        powers, result = self.exponents[:, first], None
+        for power in range(int(powers.max(initial=0)), -1, -1):
+            part = self.where(powers == power).substitute(values, order, first + 1)
+            result = part if result is None else result.product(values[first], order) + part
+        return result if result is not None else self
+
+    def at(self, point: Coefficients) -> Any:
+        """Its values at points (…, n)."""
+        return (np.prod(np.asarray(point)[..., None, :] ** self.exponents, axis=-1) * self.coefficients).sum(-1)
+
+
+@lru_cache(maxsize=64)
+def _multipliers(n: int) -> NDArray[np.uint64]:
+    return np.random.default_rng(0).integers(0, 2**64, size=n, dtype=np.uint64)
+
+
+def polynomial(terms: Mapping[Exponents, Any], variables: int, kind: Any = complex) -> Polynomial:
+    """The polynomial of {exponents: coefficient}; kind: of its coefficients, complex or object."""
+    kept = {e: c for e, c in terms.items() if c}
+    values = np.empty(len(kept), dtype=kind)
+    values[:] = list(kept.values())
+    return Polynomial(np.array(list(kept), dtype=np.int64).reshape(-1, variables), values)
+
+
+def variable(k: int, variables: int, one: Any = 1.0, kind: Any = complex) -> Polynomial:
+    """x_k."""
+    return polynomial({tuple(int(j == k) for j in range(variables)): one}, variables, kind)
+
+
+def constant(value: Any, variables: int, kind: Any = complex) -> Polynomial:
+    """A number as a polynomial."""
+    return polynomial({(0,) * variables: value}, variables, kind)
+
+
+def total(parts: Sequence[Polynomial]) -> Polynomial:
+    """The sum of polynomials."""
+    return _collect(
+        *(np.concatenate(rows) for rows in zip(*((p._keys, p.exponents, p.coefficients) for p in parts), strict=True))
+    )
+
+
+def _product(a: Polynomial, b: Polynomial) -> Polynomial:
+    """All products of a term of each."""
+    if not len(a.coefficients) or not len(b.coefficients):
+        return a.part(-1)
+    keys = (a._keys[:, None] + b._keys).ravel()
+    exponents = (a.exponents[:, None] + b.exponents).reshape(len(keys), -1)
+    return _collect(keys, exponents, np.multiply.outer(a.coefficients, b.coefficients).ravel())
+
+
+def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficients: Coefficients) -> Polynomial:
+    """Terms of equal exponents added, and what is zero left out."""
+    if not len(keys):
+        return Polynomial(exponents, coefficients)
+    order = np.argsort(keys, kind="stable")
+    ascending = keys[order]
+    first = np.flatnonzero(np.append(True, ascending[1:] != ascending[:-1]))
+    sums = np.add.reduceat(coefficients[order], first)
+    nonzero = sums.astype(bool)
+    return Polynomial(exponents[order[first[nonzero]]], sums[nonzero])
+
+
+def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
+    """{f, g} through an order, weights c (n,) of the n canonical pairs."""
+    n = len(weights)
+    parts = [f.part(-1)]
+    for j in range(n):
+        up, down = (
+            f.derivative(j).product(g.derivative(n + j), order),
+            f.derivative(n + j).product(g.derivative(j), order),
+        )
+        parts += [(up - down).times(weights[j])]
+    return total(parts)
+
+
+def lie_transform(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
+    """exp(L_g) f through an order: f where the flow of g arrives in unit time. g has no terms below degree 3."""
+    result = term = f
+    k = 0
+    while len(term.coefficients):
+        k += 1
+        term = poisson_bracket(term, g, weights, order).over(k)
+        result = result + term
+    return result

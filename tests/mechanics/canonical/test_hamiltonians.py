@@ -1,0 +1,119 @@
+"""Brackets, first integrals in involution, canonical transformations, against textbooks and against the motion itself."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.errors import DomainError
+from lagrotor.mechanics import System, coordinates, rotational_bracket, t
+
+m, g, k, B = sp.symbols("m g k B", positive=True)
+
+
+def kepler():
+    c = coordinates("x y z")
+    r = sp.sqrt(sum(q**2 for q in c.q))
+    return System(c, m * sum(v**2 for v in c.v) / 2 + k / r)
+
+
+def angular_momentum(h):
+    return sp.Matrix(h.q).cross(sp.Matrix(h.p))
+
+
+def test_kepler_has_its_brackets_and_integrals():
+    h = kepler().hamiltonian()
+    L, r = angular_momentum(h), sp.sqrt(sum(q**2 for q in h.q))
+    assert h.bracket(h.q[0], h.p[0]) == 1 and h.bracket(h.q[0], h.p[1]) == 0
+    assert sp.expand(h.bracket(L[0], L[1]) - L[2]) == 0
+    A = sp.Matrix(h.p).cross(L) - m * k * sp.Matrix(h.q) / r  # Laplace, Runge & Lenz
+    assert all(h.conserved(a).answer == "zero" for a in A)
+    assert h.in_involution(h.H, L.dot(L), L[2]).answer == "zero"
+    assert h.in_involution(h.H, L[0], L[2]).answer == "nonzero"  # conserved both, but not in involution
+    assert h.in_involution(h.H, h.p[0]).answer == "nonzero"
+
+
+def test_the_rate_of_what_depends_on_time_has_its_derivative():
+    c = coordinates("x")
+    h = System(c, m * c.v[0] ** 2 / 2 - m * g * c.q[0]).hamiltonian()
+    assert h.conserved(h.q[0] - h.p[0] * t / m - g * t**2 / 2).answer == "zero"
+    assert h.rate(h.p[0]) == -m * g
+
+
+def test_a_charge_by_canonical_and_by_kinetic_momenta_moves_alike():
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    charge = System(c, m * (u**2 + w**2) / 2 + B * (x * w - y * u) / 2 - k * x**2)
+    plain, kinetic = charge.hamiltonian(), charge.hamiltonian(kinetic=True)
+    px, py = kinetic.p
+    assert kinetic.bracket(px, py) == B and plain.bracket(px, py) == 0
+    assert sp.expand(kinetic.H - (px**2 + py**2) / (2 * m) - k * x**2) == 0
+    shift = {px: px + B * y / 2, py: py - B * x / 2}  # p − b(q)
+    for f in (x, px, py):
+        moved = plain.rate(f.xreplace(shift))
+        assert sp.expand(moved - kinetic.rate(f).xreplace(shift)) == 0
+
+
+def test_diracs_bracket_holds_a_pendulum_on_its_circle():
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    h = System(c, m * (u**2 + w**2) / 2 - m * g * y, (x**2 + y**2 - 1,)).hamiltonian()
+    phi = x**2 + y**2 - 1
+    for f in (x, y, *h.p, x * h.p[1]):
+        assert sp.simplify(h.bracket(f, phi)) == 0  # constraints commute with everything
+    on = {x: sp.Rational(3, 5), y: sp.Rational(4, 5)}
+    assert sp.simplify(h.bracket(x, h.p[0]) - (1 - x**2 / (x**2 + y**2))) == 0
+    # L = x p_y − y p_x rotates it: {x, L} = −y, L' = −m g x, as on the circle without multipliers.
+    L = x * h.p[1] - y * h.p[0]
+    assert sp.simplify((h.bracket(x, L) + y).subs(on)) == 0
+    assert sp.simplify((h.rate(L) + m * g * x).subs(on)) == 0
+    free = System(c, m * (u**2 + w**2) / 2 - m * g * y).hamiltonian()
+    assert free.bracket(x, free.p[0]) == 1  # the twin: without the constraint it is not held
+
+
+def test_canonical_transformations_and_one_that_is_none():
+    c = coordinates("x")
+    h = System(c, m * c.v[0] ** 2 / 2 - k * c.q[0] ** 2 / 2).hamiltonian()
+    (x,), (p,) = h.q, h.p
+    w = sp.sqrt(k * m)
+    assert h.canonical([sp.atan(w * x / p)], [p**2 / (2 * w) + w * x**2 / 2]).answer == "zero"  # angle and action
+    assert h.canonical([p], [-x]).answer == "zero" and h.canonical([p], [x]).answer == "nonzero"
+    assert h.canonical([2 * x], [p]).answer == "nonzero"
+
+
+def test_the_rotational_bracket_gives_eulers_equations_and_its_casimirs():
+    M, gamma = sp.symbols("M1:4", real=True), sp.symbols("gamma1:4", real=True)
+    inertia = sp.symbols("I1:4", positive=True)
+    H = sum(a**2 / (2 * b) for a, b in zip(M, inertia, strict=True)) + m * g * gamma[2]
+    omega = sp.Matrix([a / b for a, b in zip(M, inertia, strict=True)])
+    euler = sp.Matrix(M).cross(omega) + sp.Matrix(gamma).cross(sp.Matrix([0, 0, m * g]))
+    poisson = sp.Matrix(gamma).cross(omega)
+    for i in range(3):
+        assert sp.expand(rotational_bracket(M[i], H, M, gamma) - euler[i]) == 0
+        assert sp.expand(rotational_bracket(gamma[i], H, M, gamma) - poisson[i]) == 0
+    for casimir in (sum(x**2 for x in gamma), sum(x * y for x, y in zip(M, gamma, strict=True))):
+        assert sp.expand(rotational_bracket(casimir, H, M, gamma)) == 0
+    assert sp.expand(rotational_bracket(sum(x**2 for x in M), H, M, gamma)) != 0
+
+
+def test_it_moves_as_the_lagrangian_does():
+    """Random states of a double pendulum: q' = ∂H/∂p and p' = −∂H/∂q by finite differences of a run of the system."""
+    c = coordinates("a b")
+    (a, b), (u, w) = c.q, c.v
+    pair = System(c, u**2 + w**2 / 2 + u * w * sp.cos(a - b) + 2 * sp.cos(a) + sp.cos(b))
+    h = pair.hamiltonian()
+    rates = sp.lambdify((*h.q, *h.p), [h.rate(s) for s in (*h.q, *h.p)])
+    momenta = sp.lambdify((*c.q, *c.v), list(sp.Matrix([pair.L]).jacobian(c.v)))
+    rng = np.random.default_rng(3)
+    for _ in range(3):
+        q, v = rng.normal(size=(2, 2))
+        run = pair.simulate({}, q, v, t=np.linspace(0, 2e-3, 3), tol=1e-12)
+        state = np.array([[*run.q[k], *momenta(*run.q[k], *run.v[k])] for k in range(3)])
+        assert (state[2] - state[0]) / 2e-3 == pytest.approx(rates(*state[1]), abs=1e-4)
+
+
+def test_what_has_no_hamiltonian_is_refused():
+    c = coordinates("x")
+    with pytest.raises(DomainError, match="no Hamiltonian"):
+        System(c, c.v[0] ** 2 / 2, dissipation=c.v[0] ** 2).hamiltonian()
+    with pytest.raises(DomainError, match="canonical momenta"):
+        System(c, c.v[0] ** 2 / 2 - c.q[0] ** 2 * (1 + sp.cos(t))).hamiltonian().normal_form(4, {"x": 0})

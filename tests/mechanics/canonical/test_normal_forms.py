@@ -1,0 +1,257 @@
+"""Normal forms against published coefficients, and as what they are: a canonical transformation and the same Hamiltonian."""
+
+from math import prod, sqrt
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.optimize import brentq
+
+from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor.mechanics import NormalForm, System, coordinates
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, poisson_bracket, polynomial, variable
+
+R = sp.Rational
+
+
+def plane(V, magnetic=0):
+    """Unit mass in the plane with potential V(x, y) and the field 2·magnetic."""
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    return System(c, (u**2 + w**2) / 2 + magnetic * (x * w - y * u) - V(x, y)).hamiltonian()
+
+
+def henon_heiles():
+    return plane(lambda x, y: (x**2 + y**2) / 2 + x**2 * y - y**3 / 3)
+
+
+def transformation(n: NormalForm) -> list[Polynomial]:
+    """x − x₀ as polynomials of the normal coordinates, in floating-point numbers."""
+    size = len(n.frequencies) * 2
+    linear = [
+        polynomial({tuple(int(i == j) for i in range(size)): c for j, c in enumerate(row)}, size) for row in n.vectors
+    ]
+    return [n.original(f) for f in linear]
+
+
+def check_transformation(n: NormalForm, H, x, at) -> None:
+    """The bracket of the old coordinates is theirs through the order, and H in the new ones is the series."""
+    n = n.in_numbers()
+    new, half = transformation(n), len(n.frequencies)
+    for a in range(2 * half):
+        for b in range(a):
+            bracket = poisson_bracket(new[a], new[b], n.weights, n.known_through - 2)
+            want = 1.0 * (b == a - half) * -1
+            bracket = bracket - polynomial({(0,) * (2 * half): want}, 2 * half) if want else bracket
+            assert np.abs(bracket.coefficients).max(initial=0) < 1e-9
+    generator = np.random.default_rng(1)
+    z = generator.normal(size=half) + 1j * generator.normal(size=half)
+    oscillate = n.weights != 1
+    w = np.where(oscillate, z.conj(), z.imag)
+    z = np.where(oscillate, z, z.real)
+    value = sp.lambdify(x, H)
+    gaps = []
+    for eps in (0.02, 0.01):
+        point = eps * np.concatenate([z, w])
+        old = [complex(f.at(point)).real + float(at.get(s, 0)) for f, s in zip(new, x, strict=True)]
+        gaps.append(abs(value(*old) - n.series.at(point)))
+    scale = abs(n.series.at(0.02 * np.concatenate([z, w])))
+    assert gaps[0] < 1e-12 * scale or np.log2(gaps[0] / gaps[1]) > n.known_through + 0.5
+
+
+def test_henon_heiles_as_gustavson_printed_it():
+    """Gustavson 1966, Braun 1973: −5/12 I² + 7/12 L² at order 4, with I = I₁ + I₂ and L² = (2 Im z₁ w₂)²."""
+    n = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    assert n.frequencies == (1, 1) and n.energy_signs == (1, 1) and n.error == 0
+    assert {e: n.actions[e] for e in ((2, 0), (0, 2), (1, 1))} == {
+        (2, 0): R(-5, 12),
+        (0, 2): R(-5, 12),
+        (1, 1): R(1, 3),
+    }
+    assert n.resonances[2, 0, 0, 2] == n.resonances[0, 2, 2, 0] == R(-7, 12)
+    # Of order 6 the invariants of the threefold symmetry: −235/432 I³ − 47/16 I L² + a cos 3φ, odd under y → −y in no term.
+    assert n.actions[0, 3] == R(-235, 432) and sum(e[0] == 3 for e in n.actions) == 1
+
+
+def test_in_numbers_it_is_the_same_and_says_its_rounding():
+    exact = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    numbers = System(c, (u**2 + w**2) / 2 - (1.0 * x**2 + y**2) / 2 - x**2 * y + y**3 / 3).hamiltonian()
+    n = numbers.normal_form(order=6, at={"x": 0, "y": 0})
+    assert 0 < n.error < 1e-13
+    assert sum(c for e, c in n.actions.items() if sum(e) == 2) == pytest.approx(-0.5)
+    assert exact.known_through == n.known_through == 6
+
+
+@pytest.mark.parametrize("kind", ["henon", "fast and slow", "magnetic", "saddle", "free"])
+def test_it_is_a_canonical_transformation_and_the_same_hamiltonian(kind):
+    at = {}
+    if kind == "henon":
+        h = henon_heiles()
+    elif kind == "fast and slow":
+        h = plane(lambda x, y: x**2 / 2 + R(2) * y**2 + x * y**2 / 3 - x**3 / 5 + x**2 * y**2)
+    elif kind == "magnetic":
+        h = plane(lambda x, y: -(x**2) / 2 - y**2 + x**2 * y + x**4, magnetic=2.1)
+    elif kind == "saddle":
+        h = plane(lambda x, y: -(x**2) / 2 + y**2 * 0.81 + x**2 * y + y**3)
+    else:
+        h = plane(lambda x, y: y**2 * 0.81 + x**2 * y + y**3)
+    n = h.normal_form(order=5, at={"x": 0, "y": 0})
+    assert n.error < 1e-12
+    if kind == "saddle":
+        assert n.energy_signs == (1, 0)
+    else:
+        check_transformation(n, h.H, (*h.q, *h.p), at)
+    if kind == "magnetic":
+        assert sorted(n.energy_signs) == [-1, 1]  # what the field holds on a hill has a slow motion of negative energy
+
+
+def test_a_wrong_generator_is_no_normal_form():
+    h = henon_heiles()
+    n = h.normal_form(order=5, at={"x": 0, "y": 0})
+    n = type(n)(**{**vars(n), "generators": (n.generators[0].times(2), *n.generators[1:])})
+    with pytest.raises(AssertionError):
+        check_transformation(n, h.H, (*h.q, *h.p), {})
+
+
+def test_pendulum_and_duffing_by_their_action():
+    """H(I) of the pendulum: Jacobi's ω (I − I²/16 − I³/256 − 5 I⁴/8192 − …); of Duffing's, 3 α I²/(2 ω²) − 17 α² I³/(4 ω⁵)."""
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    n = System(c, v**2 / 2 + sp.cos(x)).hamiltonian().normal_form(order=10, at={x: 0})
+    wanted = {(0,): -1, (1,): 1, (2,): R(-1, 16), (3,): R(-1, 256), (4,): R(-5, 8192), (5,): R(-33, 262144)}
+    assert n.actions == wanted and not n.resonances
+    omega, alpha = sp.symbols("omega alpha", positive=True)
+    h = System(c, v**2 / 2 - omega**2 * x**2 / 2 - alpha * x**4).hamiltonian()
+    n = h.normal_form(order=6, at={x: 0})
+    assert n.actions == {(1,): omega, (2,): 3 * alpha / (2 * omega**2), (3,): -17 * alpha**2 / (4 * omega**5)}
+    assert n.frequencies_at([R(1, 2)])[0] == omega + 3 * alpha / (2 * omega**2) - 51 * alpha**2 / (16 * omega**5)
+
+
+def lagrange_point(mu):
+    """The restricted problem of three bodies about L4, in coordinates that turn, with masses 1 − mu and mu."""
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    X, Y = x + R(1, 2) - mu, y + sp.sqrt(3) / 2
+    V = -(1 - mu) / sp.sqrt((X + mu) ** 2 + Y**2) - mu / sp.sqrt((X - 1 + mu) ** 2 + Y**2)
+    return System(c, ((u - Y) ** 2 + (w + X) ** 2) / 2 - V).hamiltonian()
+
+
+def deprit(a, b):
+    """The quartic terms ½ (A I₁² + 2 B I₁ I₂ + C I₂²) at L4 of frequencies a > b with a² + b² = 1.
+
+    Deprit & Deprit-Bartholomé, Astron. J. 72 (1967) 173; Meyer & Offin, Introduction to Hamiltonian Dynamical Systems, 11.5.
+    """
+
+    def own(a, b):
+        return b**2 * (81 - 696 * a**2 + 124 * a**4) / (72 * (1 - 2 * a**2) ** 2 * (1 - 5 * a**2))
+
+    mixed = -a * b * (43 + 64 * a**2 * b**2) / (6 * (4 * a**2 * b**2 - 1) * (25 * a**2 * b**2 - 4))
+    return own(a, b), mixed, own(b, a)
+
+
+@pytest.mark.parametrize("mu", [R(1, 100), R(2, 100), R(3, 1000)])
+def test_l4_has_the_coefficients_of_deprit_and_deprit_bartholome(mu):
+    n = lagrange_point(mu).normal_form(order=4, at={"x": 0, "y": 0})
+    (slow, fast), minus = sorted(map(abs, n.frequencies)), n.energy_signs.index(-1)
+    assert fast**2 + slow**2 == pytest.approx(1) and (fast * slow) ** 2 == pytest.approx(27 / 4 * float(mu * (1 - mu)))
+    assert abs(n.frequencies[minus]) == pytest.approx(slow)  # the long period has negative energy
+    A, B, C = deprit(fast, slow)
+    of = {tuple(sorted(((k, m) for k, m in enumerate(e) if m), key=str)): c for e, c in n.actions.items()}
+    plus = 1 - minus
+    assert of[(plus, 2),] == pytest.approx(A / 2) and of[(minus, 2),] == pytest.approx(C / 2)
+    assert of[(0, 1), (1, 1)] == pytest.approx(B, rel=1e-8)
+
+
+def test_arnolds_determinant_vanishes_at_the_published_mass():
+    """D = −½ (A ω₂² + 2 B ω₁ ω₂ + C ω₁²) = 0 at μ = 0.0109136676…: Deprit & Deprit-Bartholomé."""
+
+    def D(mu):
+        n = lagrange_point(sp.Float(mu)).normal_form(order=4, at={"x": 0, "y": 0})
+        a, b = n.frequencies
+        return sum(c * prod(map(pow, (b, -a), e)) for e, c in n.actions.items() if sum(e) == 2)
+
+    assert brentq(D, 0.0105, 0.0112, xtol=1e-12) == pytest.approx(0.0109136676, abs=1e-10)
+
+
+def test_a_toda_chain_has_no_resonance_that_hinders_it():
+    """Three particles on a ring: of order 4 the Toda normal form is a function of actions of one another in involution.
+
+    Ferguson, Flaschka & McLaughlin, J. Comp. Phys. 45 (1982) 157. After the centre of mass is taken off it is Hénon–Heiles at
+    order 3, but at order 4 it has a first integral besides, L of the 1:1 resonance: I₁ and I₂ in circular modes stay apart.
+    """
+    toda = plane(
+        lambda x, y: (
+            (sp.exp(2 * y + 2 * sp.sqrt(3) * x) + sp.exp(2 * y - 2 * sp.sqrt(3) * x) + sp.exp(-4 * y)) / 24 - R(1, 8)
+        )
+    )
+    n = toda.normal_form(order=6, at={"x": 0, "y": 0})
+    L = polynomial({(1, 0, 0, 1): 1j, (0, 1, 1, 0): -1j}, 4)
+    numbers = {e: complex(c) for e, c in [*n.resonances.items(), *((e * 2, c) for e, c in n.actions.items())]}
+    bracket = poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6)
+    assert np.abs(bracket.coefficients).max(initial=0) < 1e-12
+    other = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    numbers = {e: complex(c) for e, c in [*other.resonances.items(), *((e * 2, c) for e, c in other.actions.items())]}
+    assert np.abs(poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6).coefficients).max() > 0.1
+
+
+def test_a_sleeping_top_precesses_at_its_published_rates():
+    """Of a top in the Cartesian components of its axis: two rates of both signs of energy, and Routh's I3² w² > 4 I1 m g l."""
+    c = coordinates("x y")
+    (x, y), (u, w) = c.q, c.v
+    z = sp.sqrt(1 - x**2 - y**2)
+    spin = sp.Symbol("G", positive=True)
+    L = (u**2 + w**2 + (x * u + y * w) ** 2 / z**2) / 2 - spin * (x * w - y * u) / (1 + z) - z
+    h = System(c, L).hamiltonian()
+    n = h.normal_form(order=4, at={x: 0, y: 0}, values={spin: R(5, 2)})
+    assert sorted(n.frequencies) == [-R(1, 2), 2]  # s² − G s + 1 = 0
+    # The energy of a steady precession at θ, momenta p_φ = p_ψ + I about the vertical: H = ω I + ½ a I² of each alone.
+    for j, rate in enumerate(n.frequencies):
+        s, theta = abs(float(rate)), 0.05
+        G = 2.5
+        root = sqrt(G**2 - 4 * np.cos(theta))
+        precession = (G + (root if s > 1 else -root)) / (2 * np.cos(theta))
+        action = abs(precession * np.sin(theta) ** 2 - G * (1 - np.cos(theta)))
+        at = [action if k == j else 0 for k in range(2)]
+        shift = abs(float(n.frequencies_at(at)[j])) - precession
+        assert abs(shift) < 2e-5 < abs(s - precession)
+    with pytest.raises(SingularError, match="double"):
+        h.normal_form(order=4, at={x: 0, y: 0}, values={spin: 2.0})
+
+
+def test_a_near_resonance_is_kept_within_its_detuning():
+    h = plane(lambda x, y: x**2 / 2 + R(201, 100) ** 2 * y**2 / 2 + x**2 * y)
+    assert not h.normal_form(order=4, at={"x": 0, "y": 0}).resonances
+    n = h.normal_form(order=4, at={"x": 0, "y": 0}, detuning=0.02)
+    assert {(2, 0, 0, 1), (0, 1, 2, 0)} <= set(n.resonances)
+    assert abs(complex(n.resonances[2, 0, 0, 1])) ** 2 > 0
+
+
+def test_a_lie_transform_keeps_brackets_and_is_undone():
+    w = np.array([-1j, 1.0])
+    rng = np.random.default_rng(2)
+    g = polynomial({tuple(e): complex(*rng.normal(size=2)) for e in rng.multinomial(3, [0.25] * 4, size=12)}, 4)
+    f, k = variable(0, 4), variable(2, 4).power(2, 6) + variable(3, 4)
+    one, two = (lie_transform(e, g, w, 6) for e in (f, k))
+    difference = poisson_bracket(one, two, w, 5) - lie_transform(poisson_bracket(f, k, w, 6), g, w, 5)
+    assert np.abs(difference.through(4).coefficients).max(initial=0) < 1e-9
+    back = lie_transform(lie_transform(k, g, w, 6), g.times(-1), w, 6) - k
+    assert np.abs(back.coefficients).max(initial=0) < 1e-8
+
+
+def test_what_makes_no_sense_is_refused():
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    a = sp.Symbol("a")
+    h = System(c, v**2 / 2 + sp.cos(a * x)).hamiltonian()
+    with pytest.raises(InputError, match="give a values"):
+        h.normal_form(order=4, at={x: 0})
+    with pytest.raises(InputError, match="no equilibrium"):
+        h.normal_form(order=4, at={x: 1}, values={a: 1})
+    with pytest.raises(InputError, match="x without a value"):
+        h.normal_form(order=4, at={}, values={a: 1})
+    with pytest.raises(InputError, match="order = 1"):
+        h.normal_form(order=1, at={x: 0}, values={a: 1})
+    with pytest.raises(DomainError, match="singular"):
+        System(c, v**2 / 2 - x**2 - x**3 * sp.log(x)).hamiltonian().normal_form(order=4, at={x: 0})
