@@ -5,6 +5,11 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
+    from lagrotor.mechanics.bodies.contacts import Contact as Contact
+    from lagrotor.mechanics.bodies.contacts import Cylinder as Cylinder
+    from lagrotor.mechanics.bodies.contacts import Plane as Plane
+    from lagrotor.mechanics.bodies.contacts import Sphere as Sphere
+    from lagrotor.mechanics.bodies.force_elements import Pathway as Pathway
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
     from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian
     from lagrotor.mechanics.canonical.hamiltonians import rotational_bracket as rotational_bracket

@@ -42,8 +42,9 @@ class Equations:
 
     constraints: expressions g(q, t) that stay zero. rolling: expressions f(q, v, t), affine in the velocities, that stay
     zero. dissipation: Rayleigh's function D(q, v, t), W. forces: the generalised forces Q(q, v, t), one for each
-    coordinate, or none. In any of them unknown functions, as sympy's Function("U")(r), are among the letters: their
-    derivatives stand in the equations, and a run takes values for them.
+    coordinate, or none. Constraints and rolling may be named, {name: expression}: so are their reactions then. In any of them
+    unknown functions, as sympy's Function("U")(r), are among the letters: their derivatives stand in the equations, and a run
+    takes values for them.
 
     Raises InputError for what does not make sense, with the way out.
     """
@@ -54,6 +55,7 @@ class Equations:
     rolling: tuple[sp.Expr, ...] = ()
     dissipation: sp.Expr = sp.S.Zero
     forces: tuple[sp.Expr, ...] = ()
+    names: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
@@ -62,6 +64,9 @@ class Equations:
             )
         for name in ("constraints", "rolling", "forces"):
             given = getattr(self, name)
+            if isinstance(given, Mapping) and name != "forces":
+                self._name(name, given)
+                given = tuple(given.values())
             if isinstance(given, sp.Expr | str) or not isinstance(given, Sequence | sp.MatrixBase):
                 way = f": write ({given},)" if isinstance(given, sp.Expr) else ""
                 raise InputError(f"System: {name} = {given} must be a tuple of expressions{way}")
@@ -78,6 +83,18 @@ class Equations:
         self._check_symbols()
         if not self.bodies:
             _ = self.L  # checked now; an energy of bodies is written out when it is needed
+
+    def _name(self, part: str, given: Mapping[Any, Any]) -> None:
+        """Take the names of constraints or of rolling; those of the other part are numbers unless it is named, too."""
+        if wrong := [name for name in given if not isinstance(name, str) or not name.strip() or name in self.names]:
+            raise InputError(
+                f"System: {wrong[0]!r} in {part} is no name of its own: give {{name: expression}}, each name once"
+            )
+        own, first = tuple(given), len(self.constraints)
+        numbers = tuple(str(i + 1) for i in range(first + len(self.rolling)))
+        before = self.names or numbers
+        after = (*own, *before[first:]) if part == "constraints" else (*before[:first], *own)
+        object.__setattr__(self, "names", after)
 
     def _check_symbols(self) -> None:
         velocities, higher = {*self.c.v}, {*self.c.a}
@@ -169,8 +186,9 @@ class Equations:
 
     @property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
-        """λ_1 … λ_k, the names of the multipliers in `motion` and `power`."""
-        return tuple(sp.Symbol(f"lambda_{i + 1}", real=True) for i in range(len(self.residual)))
+        """λ_1 … λ_k, or λ with the names of the constraints: the multipliers in `motion` and `power`."""
+        names = self.names or tuple(str(i + 1) for i in range(len(self.residual)))
+        return tuple(sp.Symbol(f"lambda_{name.replace(' ', '_')}", real=True) for name in names)
 
     @cached_property
     def motion(self) -> sp.Matrix:

@@ -129,16 +129,19 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     slope = jacobian(places, c.q)
     forces = tuple(slope.T * sp.Matrix([rewritten(f) for f in system.forces])) if system.forces else ()
 
-    def left(expressions: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
+    def left(expressions: tuple[sp.Expr, ...]) -> list[tuple[int, sp.Expr]]:
         moved = [rewritten(e) for e in expressions]
-        return tuple(e for e in moved if decide_equal(e, sp.S.Zero).answer != "zero")
+        return [(i, e) for i, e in enumerate(moved) if decide_equal(e, sp.S.Zero).answer != "zero"]
 
+    constraints, rolling = left(system.constraints), left(system.rolling)
+    numbers = [*(i for i, _ in constraints), *(len(system.constraints) + i for i, _ in rolling)]
     return replace(
         system,
         c=c,
         lagrangian=rewritten(system.L),
-        constraints=left(system.constraints),
-        rolling=left(system.rolling),
+        constraints=tuple(e for _, e in constraints),
+        rolling=tuple(e for _, e in rolling),
+        names=tuple(system.names[i] for i in numbers) if system.names else (),
         dissipation=rewritten(system.dissipation),
         forces=forces,
     )

@@ -16,6 +16,8 @@ from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies.contacts import Contact, contact
+from lagrotor.mechanics.bodies.force_elements import push, torque
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
@@ -50,6 +52,11 @@ class Body:
     def potential(self, field: Vector) -> "Energy":
         """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
+
+    def rolls_on(self, surface: Any, radius: Any, axis: Vector | None = None, centre: Vector | None = None) -> Contact:
+        """The contact, without slip, of a ball of that radius, or of a thin disc about an axis, with a Plane, a Sphere or a
+        Cylinder: see `contacts`. centre: of the ball or the disc, in the frame's axes; the centre of mass unless given."""
+        return contact(self.frame, surface, radius, axis, list(self.centre) if centre is None else centre)
 
     @property
     def outline(self) -> Outline:
@@ -129,7 +136,8 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame(MovingFrame):
-    """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one.
+    """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one; `push` and `torque` give the
+    generalised forces of a force at one of its points, and of a torque on it.
 
     c = coordinates("phi theta psi")
     top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
@@ -137,6 +145,8 @@ class Frame(MovingFrame):
     """
 
     body = make_body
+    push = push
+    torque = torque
 
 
 @dataclass(frozen=True)

@@ -59,6 +59,13 @@ class SampledMotion(Run):
         off = (*self.system.constraints, *self.system.residual)
         return np.abs(self._values(*off)).max(0) if off else np.zeros(len(self.t))
 
+    @property
+    def reactions(self) -> dict[str, Array]:
+        """The multipliers along the run, (n,) each, by the names of their constraints, or 1, 2, …: those of a gap in m, or of a
+        slip in m/s, are forces in N."""
+        names = self.system.names or tuple(str(i + 1) for i in range(len(self.system.multipliers)))
+        return {name: self.evaluate(lam) for name, lam in zip(names, self.system.multipliers, strict=True)}
+
     def evaluate(self, expression: sp.Expr) -> Array:
         """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ
         of the constraints, system.multipliers, with which Gᵀ λ is the generalised force of the constraints.
