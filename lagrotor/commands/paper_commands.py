@@ -1,4 +1,4 @@
-"""The commands about a paper: init, readings, derive, check, reproduce, audit, certify, claims, figure.
+"""The commands about a paper: judge, init, readings, derive, check, reproduce, audit, certify, claims, figure.
 
 Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
@@ -22,7 +22,20 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """init, readings, derive, check, reproduce, audit, certify, claims, figure."""
+    """judge, init, readings, derive, check, reproduce, audit, certify, claims, figure."""
+    added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
+    added.description = (
+        "Judge one equation, written as in Python or in LaTeX: whether it holds, where, under which premises; the proof\n"
+        "is exact, and what is refuted has a point at which the two sides differ.\n"
+        "Exit status: 0 it holds, perhaps to an order or under premises, 1 it does not or is undecided, 2 bad usage or input."
+    )
+    added.add_argument("equation", metavar="EQUATION", help="left = right; letters are real")
+    added.add_argument("--given", nargs="+", default=[], metavar="RELATION", help="premises: J = I_3, x >= 0, a != b")
+    added.add_argument("--positive", nargs="+", default=[], metavar="LETTER", help="these letters are positive")
+    added.add_argument("--small", default="", metavar="LETTER", help="claimed for small values of this letter")
+    added.add_argument("--order", type=int, default=0, metavar="N", help="… through this order in it")
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
     added.description = (
         "Begin a paper of your own: a folder with one worked equation, claim and figure, or with the equations of a source.\n"
@@ -110,6 +123,21 @@ def _paper(given: argparse.Namespace) -> "Paper":
     from lagrotor.paper.papers import opened
 
     return opened(given.paper.resolve())
+
+
+def judge_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.judgement import judge_text
+    from lagrotor.paper.verdict_text import line_data
+    from lagrotor.paper.verdicts import AGREES
+
+    said = judge_text(given.equation, given.given, given.positive, given.small, given.order)
+    if given.json:
+        lines = [line_data(line) for line in said.verdict.lines]
+        data = {"read": said.readings, "verdict": said.verdict.verdict, "lines": lines}
+        print(json.dumps(data, indent=1, ensure_ascii=False))
+    else:
+        print("\n".join(wrap(line, 4) for line in repr(said).splitlines()))
+    return 0 if said.verdict.verdict in AGREES else 1
 
 
 def init_command(given: argparse.Namespace) -> int:

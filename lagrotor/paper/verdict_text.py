@@ -11,7 +11,7 @@ from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import from_latex, readable
-from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict
+from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text
 
 
 def in_words(verdict: Verdict, paper: Paper) -> str:
@@ -66,42 +66,6 @@ def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
         elif found:
             apart[f"{quantity}: {found.answer}: {found.says}"] = None
     return (*([f"the same on both sides: {'; '.join(alike)}"] if alike else []), *apart)
-
-
-def point_text(line: LineVerdict) -> str:
-    """Where a line was seen to be wrong, in plain text; empty where it is refuted by its order, or not at all."""
-    at = _point(line)
-    shown = [f"{readable(str(s))} = {_signed(value)}" for s, value in at.items()]
-    place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
-    return f"printed − derived{place} is {_signed(_number(line.enclosure))} at {', '.join(shown)}" if at else ""
-
-
-def _signed(number: str) -> str:
-    return from_latex(number).replace("-", "−")
-
-
-def point_tex(line: LineVerdict) -> str:
-    """The same in LaTeX."""
-    at = _point(line)
-    place = rf"_{{{line.place[0] + 1},{line.place[1] + 1}}}" if line.place else ""
-    shown = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
-    gap = rf"\left(\text{{printed}} - \text{{derived}}\right){place}"
-    return rf"{gap} = {_number(line.enclosure)}\quad\text{{at}}\quad {shown}" if at else ""
-
-
-def _point(line: LineVerdict) -> dict[Any, str]:
-    """The letters of the difference with their values, in five digits."""
-    if line.witness is None or line.difference is None or line.relation.within is not None:
-        return {}
-    free = line.difference.free_symbols
-    return {s: _number(value) for s, value in line.witness.items() if s in free}
-
-
-def _number(value: Any) -> str:
-    """A number, or two between which it lies, in five digits."""
-    middle = (value[0] + value[1]) / 2 if isinstance(value, tuple) else value
-    mantissa, _, power = f"{float(middle):.5g}".partition("e")
-    return rf"{mantissa}\times 10^{{{int(power)}}}" if power else mantissa
 
 
 def uncorrected(verdict: Verdict) -> list[Relation]:

@@ -9,9 +9,10 @@ from sympy.core.relational import Relational
 
 from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.premises import Premise, relation_text
-from lagrotor.paper.readable import readable
+from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.tables import Table
 from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.units import Dimensions
@@ -124,6 +125,42 @@ class LineVerdict:
     dimensions: Dimensions | None = None
 
 
+def point_text(line: LineVerdict) -> str:
+    """Where a line was seen to be wrong, in plain text; empty where it is refuted by its order, or not at all."""
+    at = _point(line)
+    shown = [f"{readable(str(s))} = {_signed(value)}" for s, value in at.items()]
+    place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
+    return f"printed − derived{place} is {_signed(_number(line.enclosure))} at {', '.join(shown)}" if at else ""
+
+
+def _signed(number: str) -> str:
+    return from_latex(number).replace("-", "−")
+
+
+def point_tex(line: LineVerdict) -> str:
+    """The same in LaTeX."""
+    at = _point(line)
+    place = rf"_{{{line.place[0] + 1},{line.place[1] + 1}}}" if line.place else ""
+    shown = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
+    gap = rf"\left(\text{{printed}} - \text{{derived}}\right){place}"
+    return rf"{gap} = {_number(line.enclosure)}\quad\text{{at}}\quad {shown}" if at else ""
+
+
+def _point(line: LineVerdict) -> dict[Any, str]:
+    """The letters of the difference with their values, in five digits."""
+    if line.witness is None or line.difference is None or line.relation.within is not None:
+        return {}
+    free = line.difference.free_symbols
+    return {s: _number(value) for s, value in line.witness.items() if s in free}
+
+
+def _number(value: Any) -> str:
+    """A number, or two between which it lies, in five digits."""
+    middle = (value[0] + value[1]) / 2 if isinstance(value, tuple) else value
+    mantissa, _, power = f"{float(middle):.5g}".partition("e")
+    return rf"{mantissa}\times 10^{{{int(power)}}}" if power else mantissa
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What was decided of one equation: the weakest of its lines. premises: those under which it holds, or, of a refuted one,
@@ -181,4 +218,6 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
     decided = (v.verdict, *(p.with_formula for p in v.premises), order, where, corrected)
     named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
-    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence)))
+    # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
+    seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(map(point_text, v.lines))
+    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence, *seen)))

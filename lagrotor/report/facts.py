@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.verdict_text import dimension_texts, line_text, point_tex
-from lagrotor.paper.verdicts import Verdict
+from lagrotor.paper.verdict_text import dimension_texts, line_text
+from lagrotor.paper.verdicts import Verdict, point_tex
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
 from lagrotor.report.errata import correction_lines

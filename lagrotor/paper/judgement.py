@@ -1,0 +1,120 @@
+"""An equation and its premises given as text, judged: for the shell, and for a page in a browser. Nothing in the text runs.
+
+Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python writes it. Every letter is real, those named
+`positive` are positive.
+"""
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.letters import FUNCTIONS, read
+from lagrotor.paper.premises import premises_of
+from lagrotor.paper.source.formula import read_formula
+from lagrotor.paper.source.tree import text_of
+from lagrotor.paper.source.usage import notation_of
+from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain
+
+_RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}
+_SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
+_TYPED = {"==": "=", "≥": ">=", "≤": "<=", "≠": "!="}
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What was decided of an equation given as text, and how the text was read: `readings`, the equation first."""
+
+    verdict: Verdict
+    readings: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return "\n".join((*(f"read: {line}" for line in self.readings), repr(self.verdict)))
+
+
+@dataclass(frozen=True)
+class _Text:
+    """sides and the signs between them, as the reader of expressions takes them; order: (small letter, power) of its O(…)."""
+
+    sides: tuple[str, ...]
+    signs: tuple[str, ...]
+    order: tuple[str, int] | None = None
+
+    def __str__(self) -> str:
+        rest = f" + O({self.order[0]}**{self.order[1]})" if self.order else ""
+        return self.sides[0] + "".join(f" {a} {b}" for a, b in zip(self.signs, self.sides[1:], strict=True)) + rest
+
+
+def judge_text(
+    equation: str, given: Iterable[str] = (), positive: Iterable[str] = (), small: str = "", order: int = 0
+) -> Judgement:
+    """`judge_text("sqrt(x**2) = x", given=["x >= 0"]).verdict.verdict` is 'holds-if'.
+
+    Of a chain each member is held against the last.
+
+    Args:
+        equation: left = right, or a chain of several; also LaTeX.
+        given: premises, a relation each: `J = I_3`, `x >= 0`, `a != b`.
+        positive: names of the letters that are positive; the others are real.
+        small: the letter in which the equation is claimed through small**order only.
+        order: that order; an O(…) in the equation gives both.
+
+    Raises:
+        InputError: what cannot be read, with the place and the way out.
+    """
+    texts = tuple(_statements(equation, "judge"))
+    if not all(set(text.signs) == {"="} for text in texts):
+        raise InputError(f"judge: {equation!r} is no equation: write left = right")
+    assumed = tuple(statement for line in given for statement in _statements(line, "given"))
+    if wrong := next((text for text in assumed if len(text.signs) != 1), None):
+        raise InputError(f"given: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
+    small, order = next(((text.order[0], text.order[1] - 1) for text in texts if text.order), (small, order))
+    letters = _letters((side for text in (*texts, *assumed) for side in text.sides), small, frozenset(positive))
+    premises = [_relation(text, letters) for text in assumed]
+    about = read(small, letters, "small") if small else None
+    relations: list[Relation] = []
+    for text in texts:
+        first, *rest = (read(side, letters, "judge") for side in text.sides)
+        relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
+    verdict = decide(Statement("", tuple(relations), premises_of(premises)))
+    return Judgement(verdict, tuple(map(str, (*texts, *assumed))))
+
+
+def _statements(text: str, where: str) -> Iterator[_Text]:
+    if not re.search(r"[\\{}^]", text):
+        parts = [part.strip() for part in _SIGN.split(text)]
+        yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
+        return
+    reading = read_formula(text, notation_of([text]))
+    if reading.stop is not None:
+        what, way = reading.stop
+        raise InputError(f"{where}: {text!r}: {what}: {way}")
+    for each in reading.statements:
+        sides = tuple(text_of(side.node) for side in each.sides)
+        if not set(each.relations) <= _RELATIONS.keys():
+            raise InputError(f"{where}: {text!r} has {', '.join(each.relations)}: write =, !=, >=, >, <= or <")
+        yield _Text(sides, each.relations, each.order)
+
+
+def _letters(sides: Iterable[str], small: str, positive: frozenset[str]) -> dict[str, sp.Symbol]:
+    """The letters of what is read, which are its names that no function has."""
+    names = {small} - {""}
+    for side in sides:
+        try:
+            names |= {node.id for node in ast.walk(ast.parse(side.strip(), mode="eval")) if isinstance(node, ast.Name)}
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            continue  # `read` says what is wrong with it
+    if unknown := sorted(positive - names):
+        raise InputError(f"positive: {unknown[0]!r} is no letter of the equation: it has {', '.join(sorted(names))}")
+    kinds: dict[bool, dict[str, bool]] = {True: {"positive": True}, False: {"real": True}}
+    return {name: sp.Symbol(name, **kinds[name in positive]) for name in sorted(names - FUNCTIONS.keys())}
+
+
+def _relation(text: _Text, letters: Mapping[str, Any]) -> Any:
+    left, right = (read(side, letters, "given") for side in text.sides)
+    return {left: right} if text.signs[0] == "=" else _RELATIONS[text.signs[0]](left, right)

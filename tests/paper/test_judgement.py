@@ -1,0 +1,66 @@
+"""An equation given as text: how it is read, what is decided of it, and what is refused in words."""
+
+import pytest
+
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.paper.judgement import judge_text
+
+
+@pytest.mark.parametrize(
+    ("equation", "given", "verdict"),
+    [
+        ("sin(x)**2 + cos(x)**2 = 1", (), "holds"),
+        ("sin(x)**2 + cos(x)**2 = 2", (), "refuted"),
+        ("sqrt(x**2) = x", ["x ≥ 0"], "holds-if"),
+        ("sqrt(x**2) = -x", ["x >= 1"], "refuted"),
+        ("x**2 = x*y", ["y == x"], "holds-if"),
+        ("x/y*y = x", ["y != 0"], "holds"),
+        (r"\sin 2x = 2 \sin x \cos x", (), "holds"),
+        (r"\sin 2x = 2 \sin x", (), "refuted"),
+        (r"\omega^2 l = g", [r"\omega = \sqrt{\frac{g}{l}}"], "holds-if"),
+        (r"\cos\theta = 1 - \frac{\theta^2}{2} + O(\theta^4)", (), "holds-to-order"),
+        (r"\cos\theta = 1 - \frac{\theta^2}{3} + O(\theta^4)", (), "refuted"),
+        ("a = b = c", ["a = 1", "b = 1", "c = 1"], "holds-if"),
+    ],
+)
+def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
+    assert judge_text(equation, given, positive=["g", "l"] if "g" in given[:1] else ()).verdict.verdict == verdict
+
+
+def test_what_is_positive_counts() -> None:
+    assert judge_text("sqrt(l**2) = l").verdict.verdict == "holds-if"
+    assert judge_text("sqrt(l**2) = l", positive=["l"]).verdict.verdict == "holds"
+
+
+def test_small_letters_may_be_named_beside_the_equation() -> None:
+    assert judge_text("sin(x) = x", small="x", order=2).verdict.verdict == "holds-to-order"
+    assert judge_text("sin(x) = x", small="x", order=3).verdict.verdict == "refuted"
+
+
+@pytest.mark.parametrize(
+    ("equation", "given", "says"),
+    [
+        ("x", [], "write left = right"),
+        ("x > 1", [], "write left = right"),
+        ("x = (", [], "was never closed"),
+        ("x = 1", ["y"], "one relation each"),
+        ("x = f(x)", [], r"write f\*"),
+        ("x = __import__('os')", [], "__import__"),
+        (r"\ln x^2 = 3", [], "write brackets"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_in_words(equation: str, given: list[str], says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        judge_text(equation, given)
+
+
+def test_the_shell_judges_one_equation(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["judge", "sqrt(x**2) = x", "--given", "x >= 0"]) == 0
+    assert "holds-if\n" in capsys.readouterr().out
+    assert main(["judge", r"\cos x = 1"]) == 1
+    said = capsys.readouterr().out
+    assert "read: cos(x) = 1" in said and "printed − derived is" in said
+    assert main(["judge", "cos(x) = 1", "--json"]) == 1
+    assert '"witness"' in capsys.readouterr().out
+    assert main(["judge", "cos(x)"]) == 2
