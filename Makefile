@@ -2,12 +2,14 @@
 # `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
 # `make test-machines` runs the tests as they run elsewhere: other kernels of linear algebra, numpy without its vector features,
 # other hash seeds, the lowest dependencies, the extras, other Pythons; `make test-machines RUNS="Prescott extras"` some of it.
+# `make reader` builds the reader's edition, a folder that a browser opens from disk, into reader/ (npm, node);
+# `make test-reader` opens it in Chromium without a network and asks it.
 # `make test-pages` opens every page of the report and the documentation in Chromium, on a desk, on a phone and on paper.
 # `make certify` writes a proof of every exact verdict into certificates/ and checks each with Coq (Debian: coq libcoq-interval).
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test check docs certify test-machines test-pages
+.PHONY: reproduce test check docs certify test-machines test-pages reader test-reader
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
@@ -30,6 +32,13 @@ certify: $(VENV)/.installed
 test-pages: docs
 	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[pages]'
 	$(VENV)/bin/python -m tests.pages
+
+reader: $(VENV)/.installed
+	$(VENV)/bin/python docs/edition/build.py reader
+
+test-reader: reader
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[pages]'
+	$(VENV)/bin/python -m tests.reader reader
 
 test-machines:
 	$(PYTHON) -m tests.machines $(RUNS)

@@ -143,6 +143,8 @@ def on_post_page(output: str, page: Any, config: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """The report beside the documentation, without what it keeps for its next run."""
+    """The report beside the documentation, without what it keeps for its next run; the reader's edition where it is made."""
     if REPORT.is_dir():
         shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=shutil.ignore_patterns("products", "*.json"))
+    if (ROOT / "reader").is_dir():
+        shutil.copytree(ROOT / "reader", Path(config.site_dir) / "reader")

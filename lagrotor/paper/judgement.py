@@ -74,7 +74,9 @@ def judge_text(
     if wrong := next((text for text in assumed if len(text.signs) != 1), None):
         raise InputError(f"given: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
     small, order = next(((text.order[0], text.order[1] - 1) for text in texts if text.order), (small, order))
-    letters = _letters((side for text in (*texts, *assumed) for side in text.sides), small, frozenset(positive))
+    letters = letters_in(
+        (*filter(None, [small]), *(side for text in (*texts, *assumed) for side in text.sides)), positive
+    )
     premises = [_relation(text, letters) for text in assumed]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
@@ -101,18 +103,23 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
         yield _Text(sides, each.relations, each.order)
 
 
-def _letters(sides: Iterable[str], small: str, positive: frozenset[str]) -> dict[str, sp.Symbol]:
-    """The letters of what is read, which are its names that no function has."""
-    names = {small} - {""}
+def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, sp.Symbol]:
+    """The letters of expressions in text, name → symbol: their names that no function has, positive or else real.
+
+    Raises InputError where a letter said to be positive is in none of them.
+    """
+    names = set[str]()
     for side in sides:
         try:
             names |= {node.id for node in ast.walk(ast.parse(side.strip(), mode="eval")) if isinstance(node, ast.Name)}
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             continue  # `read` says what is wrong with it
-    if unknown := sorted(positive - names):
-        raise InputError(f"positive: {unknown[0]!r} is no letter of the equation: it has {', '.join(sorted(names))}")
-    kinds: dict[bool, dict[str, bool]] = {True: {"positive": True}, False: {"real": True}}
-    return {name: sp.Symbol(name, **kinds[name in positive]) for name in sorted(names - FUNCTIONS.keys())}
+    letters = {name: sp.Symbol(name, real=True) for name in sorted(names - FUNCTIONS.keys())}
+    for name in positive:
+        if name not in letters:
+            raise InputError(f"positive: {name!r} is no letter of these: {', '.join(letters)}")
+        letters[name] = sp.Symbol(name, positive=True)
+    return letters
 
 
 def _relation(text: _Text, letters: Mapping[str, Any]) -> Any:

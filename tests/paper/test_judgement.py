@@ -4,7 +4,7 @@ import pytest
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.paper.judgement import judge_text
+from lagrotor.paper import judge_text
 
 
 @pytest.mark.parametrize(
