@@ -1,8 +1,16 @@
 """Systems of sympy.physics.mechanics: functions of time become plain letters, forces on points generalised forces.
 
-A Lagrangian of dynamicsymbols with its coordinates, or a LagrangesMethod with its constraints and loads. The generalised force
-of a load F at a point of velocity v is F·∂v/∂q', of a torque on a frame of angular velocity ω it is T·∂ω/∂q'. The
-multipliers are those of sympy's `mass_matrix_full`; in its `eom` they have the opposite sign, M a + … = Q − Gᵀ λ.
+A Lagrangian of dynamicsymbols with its coordinates; a LagrangesMethod with its constraints and loads; a KanesMethod, or a System
+with its joints and actuators. Functions of time that are no coordinates stay functions of t, whose values a run takes.
+
+The generalised force of a load F at a point of velocity v is F·∂v/∂q', of a torque on a frame of angular velocity ω it is
+T·∂ω/∂q'. Speeds u of Kane's that are not q' are put in as u = W(q, t) q' + w, and the equations M u' = f as Wᵀ(M u' − f) = 0.
+L is then the kinetic energy, and what acts is among the forces, as it is there. Where velocities were written with a rolling
+constraint already in them, so that the kinetic energy alone does not give the motion, the forces have what is missing.
+
+What sympy does otherwise: in LagrangesMethod.eom the multipliers have the opposite sign, M a + … = Q − Gᵀ λ; in its
+mass_matrix_full and here M a + … = Q + Gᵀ λ. Kane's method has no multipliers: here each constraint has one. Kane's method
+takes no potential energy of a body, Lagrange's does.
 """
 
 from collections.abc import Sequence
@@ -10,38 +18,58 @@ from typing import Any
 
 import sympy as sp
 
+from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
+from lagrotor.mechanics.lagrangian import Coordinates, bias, coordinates, jacobian, t, total_derivative
+
+_DECIDED = 3000  # operations of a difference up to which it is decided whether it vanishes; it stays where it is not
 
 
 def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
     """The coordinates and expressions of a `System`, by name.
 
-    Raises InputError for what is neither a Lagrangian with its coordinates nor a LagrangesMethod, and for functions of time that
-    are no coordinates.
+    Raises InputError for what is none of these, for coordinates that are no functions of time, and for a KanesMethod without its
+    bodies, or with another number of speeds than of coordinates.
     """
-    from sympy.physics.mechanics import LagrangesMethod, Point, dynamicsymbols
+    from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
     clock = dynamicsymbols._t
+    if isinstance(given, System) and isinstance(given.eom_method, LagrangesMethod):
+        given = given.eom_method
+    if isinstance(given, KanesMethod):
+        if not given.bodies:
+            raise InputError("from_sympy: a KanesMethod has bodies after kanes_equations(bodies, loads): call it first")
+        kinematic = given._k_kqdot_implicit * given._qdot + given._k_ku_implicit * given.u + given._f_k_implicit
+        held = given._k_nh * given.u + given._f_nh if len(given._k_nh) else []
+        return _of_speeds(
+            given._inertial, given.q, given.u, kinematic, given.bodies, given.forcelist, given._f_h, held, given._uaux
+        )
+    if isinstance(given, System):
+        loads = [*given.loads, *(load for actuator in given.actuators for load in actuator.to_loads())]
+        held = [*given.velocity_constraints]
+        return _of_speeds(
+            given.frame,
+            given.q,
+            given.u,
+            given.kdes,
+            given.bodies,
+            loads,
+            given.holonomic_constraints,
+            held,
+            given.u_aux,
+        )
     lagrange = isinstance(given, LagrangesMethod)
     if not lagrange and (not isinstance(given, sp.Expr) or q in ((), [])):
         raise InputError(
-            f"from_sympy: {type(given).__name__} must be a LagrangesMethod, or a Lagrangian with its coordinates: "
-            "from_sympy(L, (q1, q2)); a KanesMethod has no Lagrangian, give that of its bodies"
+            f"from_sympy: {type(given).__name__} must be a LagrangesMethod, a KanesMethod, a System of sympy, or a Lagrangian "
+            "with its coordinates: from_sympy(L, (q1, q2))"
         )
     if not isinstance(q, Sequence | sp.MatrixBase):
         raise InputError(f"from_sympy: q = {q!r} must be a tuple of coordinates: write ({q},)")
-    functions = list(given.q) if lagrange else list(q)
-    if not all(isinstance(f, sp.core.function.AppliedUndef) and f.args == (clock,) for f in functions):
-        raise InputError(f"from_sympy: {functions} must be dynamicsymbols, each a coordinate")
-    c = coordinates([f.func.__name__ for f in functions])
+    c, functions = _coordinates(list(given.q) if lagrange else list(q), clock)
     if not lagrange:
         return {"c": c, "lagrangian": _plain(given, functions, c, clock)}
-    rates, Q = [f.diff(clock) for f in functions], [sp.S.Zero] * len(functions)
-    for place, load in given.forcelist or ():
-        N = given.inertial
-        velocity = place.vel(N) if isinstance(place, Point) else place.ang_vel_in(N)
-        Q = [total + velocity.diff(rate, N, var_in_dcm=False).dot(load) for total, rate in zip(Q, rates, strict=True)]
+    Q = _generalised_forces(given.forcelist or (), given.inertial, [f.diff(clock) for f in functions])
     held = list(given._hol_coneqs)
     return {
         "c": c,
@@ -52,9 +80,107 @@ def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
     }
 
 
+def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Expr]) -> list[sp.Expr]:
+    """F·∂v/∂u of forces at points, T·∂ω/∂u of torques on frames or bodies."""
+    from sympy.physics.mechanics import Point
+
+    Q = [sp.S.Zero] * len(speeds)
+    for place, load in loads:
+        turning = getattr(place, "frame", place)  # a body's, or the frame itself
+        velocity = place.vel(frame) if isinstance(place, Point) else turning.ang_vel_in(frame)
+        Q = [total + velocity.diff(u, frame, var_in_dcm=False).dot(load) for total, u in zip(Q, speeds, strict=True)]
+    return Q
+
+
+def _of_speeds(
+    frame: Any,
+    q: Sequence[Any],
+    u: Sequence[Any],
+    kinematic: Sequence[Any],
+    bodies: Sequence[Any],
+    loads: Sequence[Any] | None,
+    holonomic: Sequence[Any],
+    velocity: Sequence[Any],
+    auxiliary: Sequence[Any],
+) -> dict[str, Any]:
+    """The parts of a system of bodies whose velocities are linear in the speeds u."""
+    from sympy.physics.mechanics import KanesMethod, dynamicsymbols
+
+    clock = dynamicsymbols._t
+    c, functions = _coordinates(list(q), clock)
+    if len(u) != len(q) or len(kinematic) != len(q):
+        raise InputError(
+            f"from_sympy: {len(u)} speeds and {len(kinematic)} kinematic equations for {len(q)} coordinates: "
+            "as many of each are taken"
+        )
+    still = dict.fromkeys(auxiliary, 0)
+    kinematic = sp.Matrix([*kinematic]).xreplace(still)
+    K = kinematic.jacobian(list(u))
+    speeds = -K.LUsolve(kinematic.xreplace(dict.fromkeys(u, 0)))
+    put = dict(zip(u, speeds, strict=True)) | still
+    put |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
+        s.diff(clock): 0 for s in auxiliary
+    }
+
+    def plain(e: Any) -> sp.Expr:
+        return _plain(sp.sympify(e).xreplace(put), functions, c, clock)
+
+    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(kinematic))
+    loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
+    method.kanes_equations(list(bodies), loads or None)
+    energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
+    L = plain(energy)
+    own = sp.Matrix([_plain(e, functions, c, clock) for e in speeds])
+    W = jacobian(list(own), c.v)
+    swing = sp.Matrix([total_derivative(e, c).xreplace(dict.fromkeys(c.a, sp.S.Zero)) for e in own])
+    M, f = method.mass_matrix.applyfunc(plain), method.forcing.applyfunc(plain)
+    whole = list(bias(L, c) - W.T * (M * swing - f))
+    acting = [plain(e) for e in _generalised_forces(loads, frame, list(u))]
+    active = list(W.T * sp.Matrix(acting))
+    missing = [a - b for a, b in zip(whole, active, strict=True)]
+    forces = [b if _vanishes(e) else b + e for b, e in zip(active, missing, strict=True)]
+    constraints = tuple(plain(e) for e in holonomic)
+    return {
+        "c": c,
+        "lagrangian": L,
+        "constraints": constraints,
+        "rolling": _independent(constraints, [plain(e) for e in velocity], c),
+        "forces": tuple(forces) if any(forces) else (),
+    }
+
+
+def _vanishes(e: sp.Expr) -> bool:
+    return e == 0 or (sp.count_ops(e) <= _DECIDED and decide_zero(e).answer == "zero")
+
+
+def _independent(constraints: Sequence[sp.Expr], velocity: Sequence[sp.Expr], c: Coordinates) -> tuple[sp.Expr, ...]:
+    """The constraints on velocities that the holonomic ones do not give, by the rank of their rows at a random state."""
+    from lagrotor.algebra.evidence import points
+
+    held = [total_derivative(g, c) for g in constraints]
+    rows, rolling = jacobian(held, c.v), list[sp.Expr]()
+    letters = set().union(*(e.free_symbols for e in (*held, *velocity))) - {*c.v}
+    point = next(iter(points(letters)))
+
+    def rank(matrix: sp.Matrix) -> int:
+        return int(matrix.subs(point).evalf(30).rank(iszerofunc=lambda x: abs(x) < 1e-15)) if matrix.rows else 0
+
+    for e in velocity:
+        more = rows.col_join(jacobian([e], c.v))
+        if rank(more) > rank(rows):
+            rows, rolling = more, [*rolling, e]
+    return tuple(rolling)
+
+
+def _coordinates(functions: list[Any], clock: sp.Symbol) -> tuple[Coordinates, list[Any]]:
+    if not all(isinstance(f, sp.core.function.AppliedUndef) and f.args == (clock,) for f in functions):
+        raise InputError(f"from_sympy: {functions} must be dynamicsymbols, each a coordinate")
+    return coordinates([f.func.__name__ for f in functions]), functions
+
+
 def _plain(e: Any, functions: Sequence[Any], c: Coordinates, clock: sp.Symbol) -> sp.Expr:
     """An expression of functions of time in plain letters."""
-    put: dict[Any, sp.Expr] = {clock: t}
+    put: dict[Any, sp.Expr] = {}
     for f, q, v, a in zip(functions, c.q, c.v, c.a, strict=True):
         put |= {f.diff(clock, 2): a, f.diff(clock): v, f: q}
-    return sp.sympify(e).doit().xreplace(put)
+    return sp.sympify(e).doit().xreplace(put).xreplace({clock: t})

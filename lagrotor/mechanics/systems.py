@@ -36,7 +36,7 @@ class System(Equations):
 
     @staticmethod
     def from_sympy(given: Any, q: Sequence[Any] = ()) -> "System":
-        """The system of a LagrangesMethod of sympy.physics.mechanics, or of a Lagrangian of dynamicsymbols with its q."""
+        """The system of what sympy.physics.mechanics has: see `from_sympy`."""
         return System(**parts_from_sympy(given, q))
 
     @property
