@@ -114,9 +114,9 @@ def _of_speeds(
             "as many of each are taken"
         )
     still = dict.fromkeys(auxiliary, 0)
-    kinematic = sp.Matrix([*kinematic]).xreplace(still)
-    K = kinematic.jacobian(list(u))
-    speeds = -K.LUsolve(kinematic.xreplace(dict.fromkeys(u, 0)))
+    equations = sp.Matrix([*kinematic]).xreplace(still)
+    K = equations.jacobian(list(u))
+    speeds = -K.LUsolve(equations.xreplace(dict.fromkeys(u, 0)))
     put = dict(zip(u, speeds, strict=True)) | still
     put |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
         s.diff(clock): 0 for s in auxiliary
@@ -125,7 +125,7 @@ def _of_speeds(
     def plain(e: Any) -> sp.Expr:
         return _plain(sp.sympify(e).xreplace(put), functions, c, clock)
 
-    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(kinematic))
+    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(equations))
     loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
     method.kanes_equations(list(bodies), loads or None)
     energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
