@@ -47,5 +47,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
     from lagrotor.mechanics.symmetry import legendre as legendre
     from lagrotor.mechanics.systems import System as System
+    from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
+    from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -61,6 +61,10 @@ class FourierSeries:
         """factor × f."""
         return FourierSeries({k: v * factor for k, v in self.terms.items()}, self.order)
 
+    def raised(self, n: int) -> "FourierSeries":
+        """eps**n × f."""
+        return FourierSeries({(m + n, h): v for (m, h), v in self.terms.items() if m + n <= self.order}, self.order)
+
     def convert(self, value: Callable[[Any], Coefficient]) -> "FourierSeries":
         """The same series with its coefficients converted, as by `float`."""
         return FourierSeries({k: value(v) for k, v in self.terms.items()}, self.order)

@@ -56,6 +56,10 @@ class GrowingSeries:
         """factor × f."""
         return self._series(lambda n: {h: v * factor for h, v in self.at(n).items()})
 
+    def raised(self, n: int) -> GrowingSeries:
+        """eps**n × f."""
+        return self._series(lambda k: self.at(k - n) if k >= n else {})
+
     def derivative(self) -> GrowingSeries:
         """df/dPhi."""
         return self._series(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})

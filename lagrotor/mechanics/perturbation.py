@@ -47,6 +47,7 @@ def lindstedt_poincare(
     field: Domain,
     amplitude: int = 0,
     numeric: Residual | None = None,
+    begins_at: int = 1,
 ) -> PeriodicSeries:
     """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + …, all through
     eps^order.
@@ -56,15 +57,17 @@ def lindstedt_poincare(
     each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's parity by its sign; an unknown
     without a first-order part is a cosine series. eps is the value of unknown number `amplitude` at Phi = 0, less rest.
     numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
+    begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
+    mode an amplitude.
 
     At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
-    that is singular (the mode's own harmonic) the frequency's correction omega_{n−1} makes the system solvable.
+    that is singular (the mode's own harmonic) the frequency's correction omega_{n − begins_at} makes the system solvable.
     Raises SingularError when it is not: a resonance with another mode.
     """
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]
     begins = [
-        constant_series(r, order) + FourierSeries({(1, h): v for h, v in m.items()}, order)
+        constant_series(r, order) + FourierSeries({(begins_at, h): v for h, v in m.items()}, order)
         for r, m in zip(rest, mode, strict=True)
     ]
     value = field.convert if numeric is None else float
@@ -72,12 +75,14 @@ def lindstedt_poincare(
     *unknowns, frequency = (growing.series(begin.convert(value)) for begin in (*begins, constant_series(one, order)))
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
-    drift, solvers = _frequency_column(residual, begins, one), dict[int, Solver]()
-    # Harmonics of eps^n are even or odd as n is: for an even order the frequency's last term is that of one order more.
-    for n in range(2, order + 2 - order % 2):
-        # The highest harmonics first: the mode's own takes what the amplitude's definition leaves.
+    drift, solvers = _frequency_column(residual, begins, one, begins_at), dict[int, Solver]()
+    for n in range(begins_at + 1, order + begins_at + 1):
         now, at_zero = [equation.at(n) for equation in equations], value(field.zero)
-        for h in range(n, -1, -2) if n <= order else (1,):
+        # The mode's own harmonic last: it takes what the amplitude's definition leaves. It alone gives the last frequency.
+        others = {abs(h) for waves in now for h in waves} - {1} if n <= order else set()
+        for h in (*sorted(others, reverse=True), 1):
+            if h not in operators:
+                operators = _columns(residual, rest, sines, 2 * h, one)
             if h not in solvers:
                 extra, fixed = (drift, amplitude) if h == 1 else (None, None)
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
@@ -86,8 +91,8 @@ def lindstedt_poincare(
                 growing.put(unknowns[j], n, -h if sines[j] else h, coefficient)
             at_zero += 0 if sines[amplitude] else values[amplitude]
             if shift:
-                growing.put(frequency, n - 1, 0, shift)
-                growing.forget(n - 1)
+                growing.put(frequency, n - begins_at, 0, shift)
+                growing.forget(n - begins_at)
         growing.forget(n)
     return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
 
@@ -123,14 +128,14 @@ def by_harmonic(equations: Sequence[FourierSeries], most: int, power: int) -> di
 
 
 def _frequency_column(
-    residual: Residual, unknowns: Sequence[FourierSeries], one: Coefficient
+    residual: Residual, unknowns: Sequence[FourierSeries], one: Coefficient, begins_at: int
 ) -> dict[tuple[int, int], Coefficient]:
-    """The response of the first order to a unit change of frequency; exact, as the equations are quadratic in it."""
-    first = [u.through(1) for u in unknowns]
+    """The response of the mode to a unit change of frequency; exact, as the equations are quadratic in it."""
+    first = [u.through(begins_at) for u in unknowns]
     up, down = (residual(first, constant_series(value, 1)) for value in (one + one, one - one))
     column = {}
     for i, (more, less) in enumerate(zip(up, down, strict=True)):
-        for key, v in (more - less).harmonics(1).items():
+        for key, v in (more - less).harmonics(begins_at).items():
             column[i, key] = v / 2
     return column
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, overload
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry
+from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -54,6 +54,8 @@ class System(Equations):
     equilibria = equilibria.equilibria
     same_as = sameness.same_as
     in_coordinates = sameness.in_coordinates
+    lindstedt_poincare = weakly_nonlinear.oscillation
+    averaged = weakly_nonlinear.averaged
 
     @overload
     def linearise(self, at: "Mapping[Any, Any] | Equilibrium") -> "linear_modes.LinearSystem": ...

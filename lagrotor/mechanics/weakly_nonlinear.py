@@ -1,0 +1,400 @@
+"""Weakly nonlinear motion of a system with one coordinate: periodic orbits as series, and the slow change of an amplitude.
+
+Lindstedt–Poincaré: q = q₀ + Σ εⁿ xₙ(Φ), Φ' = ω₀ (1 + Σ wₙ εⁿ), of a motion that is the same backward. ε is a parameter of the
+system, and the amplitude A then any, or, where the system has no such letter, ε is the amplitude itself.
+
+Averaging: q = a cos νt + b sin νt, q' = ν (−a sin νt + b cos νt), and with F = q'' + ν² q = ε f₁ + ε² f₂ + …
+
+    a' = −F sin νt / ν,        b' = F cos νt / ν.
+
+With y = (a, b), y' = ε g₁(y, t) + ε² g₂(y, t) and u₁ the integral of g₁ − ⟨g₁⟩ without a mean, y = Y + ε u₁(Y, t) gives
+
+    Y' = ε ⟨g₁⟩ + ε² ⟨g₂ + (∂g₁/∂y) u₁⟩ + O(ε³).
+
+q is known to O(εⁿ) through times of 1/ε by the terms through εⁿ. Multiple scales to the same order have the same slow equations.
+
+Nayfeh & Mook, Nonlinear Oscillations, 2.3; Sanders, Verhulst & Murdock, Averaging Methods in Nonlinear Dynamical Systems,
+chs. 2, 4.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from math import lcm
+from operator import mul
+from typing import Any
+
+import sympy as sp
+from sympy.polys.domains.domain import Domain
+
+from lagrotor.algebra import decide_zero, truncated_series
+from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import by_symbol, shortest
+from lagrotor.mechanics.fourier import FourierSeries, Series, constant_series
+from lagrotor.mechanics.lagrangian import t
+from lagrotor.mechanics.perturbation import lindstedt_poincare
+
+_MOST_ORDER = 2  # of averaging
+_PHASE = sp.Symbol("Phi", real=True)  # of a periodic motion, Φ = ω t
+
+
+@dataclass(frozen=True, eq=False)
+class Oscillation:
+    """A family of periodic motions: its frequency, and q over the phase Φ = ω t (Symbol("Phi", real=True)), with q' = 0 at Φ = 0,
+    in powers of the small quantity and, where that is a parameter, of the `amplitude`, the value of q at Φ = 0 less its rest.
+
+    Both are known through small**known_through and carry their O(). `system` and `values`: of what, for `error`.
+    """
+
+    frequency: sp.Expr
+    motion: sp.Expr
+    known_through: int
+    small: sp.Symbol
+    amplitude: sp.Symbol
+    system: Equations
+    values: Mapping[Any, Any]
+
+    def error(self, values: Mapping[Any, Any]) -> float:
+        """The relative error of the frequency for values of all letters, small and amplitude among them, measured against the
+        period of a run from the start that the series gives, which is known to some 10⁻¹¹.
+
+        Raises InputError for a letter without a value, SingularError where the run does not come back.
+        """
+        import numpy as np
+
+        from lagrotor.mechanics.running import simulation
+
+        letters = self.frequency.free_symbols | self.motion.free_symbols | self.system.motion.free_symbols
+        known = {s: sp.sympify(x) for s, x in by_symbol({**self.values, **values}, letters).items()}
+        omega = self.frequency.removeO().subs(known)
+        start = self.motion.removeO().subs(_PHASE, 0).subs(known)
+        if missing := (omega.free_symbols | start.free_symbols):
+            raise InputError(
+                f"error: {', '.join(sorted(map(str, missing)))} without a value: give every letter a number"
+            )
+        own = self.system.L.free_symbols | self.system.push.free_symbols
+        numbers = {str(s): float(x) for s, x in known.items() if s in own}
+        (q,), (v,) = self.system.c.q, self.system.c.v
+        period = 2 * float(sp.pi) / float(omega)
+        times = np.linspace(0, 1.6 * period, 33)
+        run = simulation.simulate_system(self.system, numbers, (float(start),), (0.0,), times, 1e-11)
+        back = run.crossings(v, direction=1 if run.v[1, 0] > 0 else -1)
+        turns = back.t[back.t > 0.4 * period]
+        if not len(turns):
+            raise SingularError(
+                f"error: the motion from {q} = {float(start):.6g} does not come back within 1.6 periods of the series"
+            )
+        return float(abs(omega / (2 * sp.pi / turns[0]) - 1))
+
+
+def oscillation(
+    system: Equations,
+    order: int,
+    small: sp.Symbol,
+    values: Mapping[Any, Any] | None = None,
+    at: Any = 0,
+    amplitude: sp.Symbol | None = None,
+) -> Oscillation:
+    """The Lindstedt–Poincaré series of the periodic motions about the equilibrium q = at, through small**order.
+
+    small: a parameter of the system, which is linear where it is zero, or a letter of your own, the amplitude then: the value
+    of q at Φ = 0, less its rest. amplitude: its name where small is a parameter. values: of parameters, exact as they are given.
+
+    Raises InputError for a system with several coordinates, constraints, or time in it, and where q = at is no equilibrium or
+    the motion is damped or grows; DomainError where it is no polynomial.
+    """
+    _check_one("lindstedt_poincare", system, order, small)
+    (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
+    A = amplitude or sp.Symbol("A", positive=True)
+    equation = _with_values(system, system.motion[0], values)
+    if t in equation.free_symbols:
+        raise InputError("lindstedt_poincare: the system depends on time: use averaged")
+    inside = small in equation.free_symbols
+    rest = sp.sympify(at)
+    equation = equation.subs(q, rest + q) if rest != 0 else equation
+    if inside:
+        polynomial = _series(equation, small, order)
+    else:
+        e = sp.Dummy("epsilon", positive=True)
+        scaled = equation.subs({q: e * q, v: e * v, a: e * a}, simultaneous=True)
+        polynomial = _series(scaled, e, order + 1).subs(e, 1)
+    poly = _polynomial("lindstedt_poincare", polynomial, (q, v, a, *((small,) if inside else ())))
+    terms = {powers: coefficient for powers, coefficient in poly.terms() if decide_zero(coefficient).answer != "zero"}
+    zeros = (0,) * int(inside)
+    if any(powers[:3] == (0, 0, 0) for powers in terms):
+        raise InputError(f"lindstedt_poincare: {q} = {rest} is no equilibrium: a force is left: give at=")
+    if any(powers[1] % 2 for powers in terms):
+        raise InputError(
+            "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: friction makes an "
+            "amplitude change, which averaged gives"
+        )
+    K, M = terms.get((1, 0, 0, *zeros), sp.S.Zero), terms.get((0, 0, 1, *zeros), sp.S.Zero)
+    if K == 0 or M == 0 or (K / M).is_nonpositive:
+        raise InputError(
+            f"lindstedt_poincare: {q} = {rest} has no frequency of small motion, ω² = {K / M if M else 'K/0'}"
+        )
+    if inside and any(sum(powers[:3]) > 1 and powers[3] == 0 for powers in terms):
+        raise InputError(
+            f"lindstedt_poincare: the equation is not linear where {small} = 0: take the amplitude for the small quantity, "
+            "with a letter that the system does not have"
+        )
+    field, own = _field([*terms.values(), *([A] if inside else [])])
+    square, scale = own(K / M), own(K)
+    coefficients = [(powers, own(coefficient) / scale) for powers, coefficient in terms.items()]
+
+    def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
+        (x,) = unknowns
+        turn = (frequency * frequency).times(square)
+        first = x.derivative()
+        # v² and a, of which each term is a product; a small parameter is a series of one term.
+        letters = (x, turn * first * first, turn * first.derivative())
+        total = x.constant(field.zero)
+        for (i, j, k, *n), coefficient in coefficients:
+            factors = [*[letters[0]] * i, *[letters[1]] * (j // 2), *[letters[2]] * k]
+            product = reduce(mul, factors).times(coefficient)
+            total = total + (product.raised(n[0]) if n and n[0] else product)
+        return [total]
+
+    mode = {1: own(A) if inside else field.one}
+    solved = lindstedt_poincare(residual, [field.zero], [mode], order, field, begins_at=0 if inside else 1)
+    bound = sp.O(small ** (order + 1))
+    omega = sp.sqrt(K / M)
+
+    def through(series: FourierSeries) -> sp.Expr:
+        return sp.Add(
+            *(
+                field.to_sympy(value) * small**n * (sp.cos(h * _PHASE) if h >= 0 else sp.sin(-h * _PHASE))
+                for (n, h), value in sorted(series.terms.items())
+            )
+        )
+
+    frequency = sp.expand(omega * through(solved.frequency)) + bound
+    return Oscillation(
+        frequency, rest + through(solved.unknowns[0]) + bound, solved.known_through, small, A, system, values or {}
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class AveragedMotion:
+    """Y' = `rates` for Y = (a, b), through small**order, and q and q' at a time t by a, b and t: with u₁ for the second order.
+
+    letters: a and b. frequency: ν.
+    """
+
+    letters: tuple[sp.Symbol, sp.Symbol]
+    rates: tuple[sp.Expr, sp.Expr]
+    state: tuple[sp.Expr, sp.Expr]
+    frequency: sp.Expr
+    small: sp.Symbol
+    order: int
+    system: Equations
+    values: Mapping[Any, Any]
+
+    @property
+    def polar(self) -> tuple[sp.Expr, sp.Expr]:
+        """(r', β') of q = r cos(νt + β) in the letters r and beta, r_0 and beta_0 where the system has those: a = r cos β,
+        b = −r sin β."""
+        taken = {str(s) for e in self.rates for s in e.free_symbols}
+        names = ["r_0", "beta_0"] if taken & {"r", "beta"} else ["r", "beta"]
+        r, beta = sp.Symbol(names[0], positive=True), sp.Symbol(names[1], real=True)
+        put = dict(zip(self.letters, (r * sp.cos(beta), -r * sp.sin(beta)), strict=True))
+        a_rate, b_rate = (e.xreplace(put) for e in self.rates)
+        grown = a_rate * sp.cos(beta) - b_rate * sp.sin(beta)
+        turned = -(a_rate * sp.sin(beta) + b_rate * sp.cos(beta)) / r
+        return shortest(sp.expand(grown)), shortest(sp.expand(turned))
+
+    def run(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> Any:
+        """(q, q') at the times (n,), (2, n), from q0 and q0' at times[0], in numbers; values: of all letters.
+
+        Raises InputError for a letter without a value.
+        """
+        import numpy as np
+        from scipy.optimize import fsolve
+
+        from lagrotor.numerics.integrate import Problem, integrate
+
+        grid = np.asarray(times, float)
+        own = set().union(*(e.free_symbols for e in (*self.rates, *self.state))) - {*self.letters, t}
+        known = {s: float(x) for s, x in by_symbol({**self.values, **values}, own).items() if s in own}
+        if missing := own - known.keys():
+            raise InputError(
+                f"averaged: {', '.join(sorted(map(str, missing)))} without a value: give every letter a number"
+            )
+        slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
+        there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
+        start = fsolve(lambda Y: np.array(there(*Y, grid[0])) - [q0, v0], [q0, 0.0], xtol=1e-13)
+        problem = Problem(lambda s, Y: [float(x) for x in slow(*Y)], np.asarray(start, float), np.inf)
+        Y = np.vstack([start, integrate(problem, grid[1:] - grid[0], 1e-11).states])
+        return np.array([np.broadcast_to(e, grid.shape) for e in there(*Y.T, grid)])
+
+    def error(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> float:
+        """The largest difference of q from an exact run over the times (n,), measured, m or rad: O(small**order) through times
+        of 1/small."""
+        import numpy as np
+
+        from lagrotor.mechanics.running import simulation
+
+        exact = simulation.simulate_system(self.system, {**self.values, **values}, (q0,), (v0,), times, 1e-10)
+        return float(np.abs(self.run(values, q0, v0, times)[0] - exact.q[:, 0]).max())
+
+
+def averaged(
+    system: Equations, order: int, small: sp.Symbol, frequency: Any = None, values: Mapping[Any, Any] | None = None
+) -> AveragedMotion:
+    """The slow motion of the amplitudes through small**order, 1 or 2: see the head of the module.
+
+    small: a parameter; where it is zero, q'' = −ν² q. frequency: ν, where it is not read off; a detuning is written into the
+    system, ω² = ν² + small σ. Time may enter by sines and cosines whose rates are rational parts of ν.
+
+    Raises InputError for several coordinates or constraints, an order that is none of these, or where the system is not that
+    of ν for small = 0; DomainError where it is no polynomial in q and q' and such functions of time.
+    """
+    _check_one("averaged", system, order, small)
+    if order > _MOST_ORDER:
+        raise InputError(f"averaged: order = {order}: 1 or 2 are known")
+    (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
+    equation = _with_values(system, system.motion[0], values)
+    slope = sp.diff(equation, a)
+    if small not in equation.free_symbols or a in slope.free_symbols:
+        raise InputError(f"averaged: small = {small} must be a letter of the system, at which it is linear when zero")
+    acceleration = -equation.subs(a, 0) / slope
+    still = sp.expand(acceleration.subs(small, 0))
+    square = -sp.diff(still, q)
+    nu = sp.sqrt(square) if frequency is None else sp.sympify(frequency)
+    if decide_zero(still + nu**2 * q).answer != "zero" or nu.is_nonpositive or nu.has(sp.I):
+        raise InputError(
+            f"averaged: for {small} = 0 it is {a} = {still}, not −ν² {q} with ν = {nu}: give frequency, or another small"
+        )
+    F = _series(acceleration + nu**2 * q, small, order)
+    base, waves = _trigonometric(F, nu)
+    poly = _polynomial("averaged", F.xreplace(waves.put), (q, v, small, *waves.letters))
+    A, B, rate = sp.Symbol("a", real=True), sp.Symbol("b", real=True), sp.Dummy("nu", positive=True)
+    if {A, B} & system.motion.free_symbols:
+        A, B = sp.Symbol("a_c", real=True), sp.Symbol("a_s", real=True)
+    field, own = _field([*(c.subs(nu, rate) if nu.is_Symbol else c for _, c in poly.terms()), A, B, rate])
+    one, h = field.one, base
+    letters: list[FourierSeries] = [
+        FourierSeries({(0, h): own(A), (0, -h): own(B)}, order),
+        FourierSeries({(0, h): own(rate) * own(B), (0, -h): -own(rate) * own(A)}, order),
+    ]
+    forced = FourierSeries({}, order)
+    for (i, j, n, *powers), coefficient in poly.terms():
+        factors = [*[letters[0]] * i, *[letters[1]] * j]
+        factors += [wave for wave, power in zip(waves.series(order, own), powers, strict=True) for _ in range(power)]
+        product = reduce(mul, factors, constant_series(one, order)).times(own(coefficient))
+        forced = forced + product.raised(n)
+    sine, cosine = FourierSeries({(0, -h): one}, order), FourierSeries({(0, h): one}, order)
+    pushes = [(forced * sine).times(-one / own(rate)), (forced * cosine).times(one / own(rate))]
+    shift = [_integral(g, 1, own(rate) / h) for g in pushes]
+    means = [[g.harmonics(n).get(0, field.zero) for n in range(1, order + 1)] for g in pushes]
+    if order == 2:
+        generators = [field.from_sympy(A), field.from_sympy(B)]
+        for i, g in enumerate(pushes):
+            for place, u in zip(generators, shift, strict=True):
+                slope_of_g = FourierSeries({k: c.diff(place) for k, c in g.terms.items() if k[0] == 1}, 2)
+                means[i][1] += (slope_of_g * u).harmonics(2).get(0, field.zero)
+
+    def plain(e: sp.Expr) -> sp.Expr:
+        return e.subs(rate, nu)
+
+    rates = tuple(plain(sp.Add(*(field.to_sympy(c) * small ** (n + 1) for n, c in enumerate(mean)))) for mean in means)
+    moved = [s + (_written(u, field, nu / h, small) if order > 1 else 0) for s, u in zip((A, B), shift, strict=True)]
+    c, s = sp.cos(nu * t), sp.sin(nu * t)
+    state = (moved[0] * c + moved[1] * s, nu * (moved[1] * c - moved[0] * s))
+    return AveragedMotion(
+        (A, B), (rates[0], rates[1]), (plain(state[0]), plain(state[1])), nu, small, order, system, values or {}
+    )
+
+
+@dataclass(frozen=True)
+class _Waves:
+    """Sines and cosines of time as letters, and each one's harmonic of the base frequency, negative for a sine."""
+
+    put: Mapping[sp.Expr, sp.Symbol]
+    numbers: tuple[int, ...]
+
+    @property
+    def letters(self) -> tuple[sp.Symbol, ...]:
+        return tuple(self.put.values())
+
+    def series(self, order: int, own: Any) -> list[FourierSeries]:
+        return [FourierSeries({(0, k): own(sp.S.One)}, order) for k in self.numbers]
+
+
+def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
+    """The harmonic that ν is of the greatest frequency of which all are harmonics, and the functions of time in F."""
+    nodes = sorted((e for e in F.atoms(sp.sin, sp.cos) if t in e.free_symbols), key=sp.default_sort_key)
+    ratios = []
+    for e in nodes:
+        ratio = sp.nsimplify(sp.simplify(e.args[0] / (nu * t)))
+        if not ratio.is_Rational or ratio <= 0:
+            raise DomainError(
+                f"averaged: {e} has no rate that is a rational part of ν = {nu}: write it with rates like 2 ν"
+            )
+        ratios.append(ratio)
+    base = lcm(*(int(ratio.q) for ratio in ratios)) if ratios else 1
+    numbers = tuple(
+        int(ratio * base) * (-1 if isinstance(e, sp.sin) else 1) for e, ratio in zip(nodes, ratios, strict=True)
+    )
+    return base, _Waves({e: sp.Dummy(f"w{i}", real=True) for i, e in enumerate(nodes)}, numbers)
+
+
+def _integral(g: FourierSeries, n: int, rate: Any) -> FourierSeries:
+    """The integral over time, without a mean, of the terms of small**n, of phase' = rate."""
+    terms = {}
+    for k, c in g.harmonics(n).items():
+        if k:
+            terms[n, -k] = (c if k > 0 else -c) / (rate * abs(k))
+    return FourierSeries(terms, g.order)
+
+
+def _written(u: FourierSeries, field: Domain, rate: sp.Expr, small: sp.Symbol) -> sp.Expr:
+    """A series as an expression of time."""
+    waves = ((n, k, field.to_sympy(c)) for (n, k), c in u.terms.items())
+    return sp.Add(*(c * small**n * (sp.cos(k * rate * t) if k >= 0 else sp.sin(-k * rate * t)) for n, k, c in waves))
+
+
+def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> None:
+    if len(system.c.q) != 1 or system.multipliers:
+        raise InputError(
+            f"{where}: one coordinate without constraints is taken: leave out cyclic ones by routh, solve constraints by "
+            "in_coordinates; of several modes normal_form gives the frequencies"
+        )
+    if not isinstance(order, int) or isinstance(order, bool) or order < 1:
+        raise InputError(f"{where}: order = {order!r} must be a whole number, at least 1")
+    if not isinstance(small, sp.Symbol) or small in (*system.c.q, *system.c.v, *system.c.a, t):
+        raise InputError(f"{where}: small = {small!r} must be a symbol, a parameter or the amplitude")
+
+
+def _with_values(system: Equations, e: sp.Expr, values: Mapping[Any, Any] | None) -> sp.Expr:
+    """The expression with values for parameters, decimals as the rationals that they print."""
+    known = by_symbol(values or {}, e.free_symbols)
+    if strangers := [str(s) for s in known if s not in e.free_symbols]:
+        raise InputError(f"values name {', '.join(strangers)}, which the equation does not have: leave it out")
+    put = {s: sp.Rational(str(x)) if isinstance(x, float) else sp.sympify(x) for s, x in known.items()}
+    return e.subs(put)
+
+
+def _series(e: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
+    return sp.expand(truncated_series(e, small, order))
+
+
+def _polynomial(where: str, e: sp.Expr, letters: Sequence[sp.Symbol]) -> sp.Poly:
+    try:
+        poly = sp.Poly(e, *letters)
+    except sp.PolynomialError:
+        poly = None
+    if poly is None or any({*letters, t} & c.free_symbols for c in poly.coeffs()):
+        raise DomainError(f"{where}: {e} is no polynomial in {', '.join(map(str, letters))}: expand it first")
+    return poly
+
+
+def _field(coefficients: Sequence[sp.Expr]) -> tuple[Domain, Any]:
+    """The field of some expressions, and what takes one into it."""
+    field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True)
+    if field.is_EX:
+        field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True, extension=True)
+    if field.is_EX or not field.is_Exact:
+        raise DomainError(f"the coefficients {coefficients} are in no field that is decided: give values of letters")
+    return field, lambda e: field.from_sympy(sp.sympify(e))
