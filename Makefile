@@ -2,6 +2,7 @@
 # `make check` runs formatter, linter and types; `make docs` writes the documentation into site/.
 # `make test-machines` runs the tests as they run elsewhere: other kernels of linear algebra, numpy without its vector features,
 # other hash seeds, the lowest dependencies, the extras, other Pythons; `make test-machines RUNS="Prescott extras"` some of it.
+# `make test-wheel` tries the wheel in dist/, made where there is none, in an empty environment of PYTHON.
 # `make reader` builds the reader's edition, a folder that a browser opens from disk, into reader/ (npm, node);
 # `make test-reader` opens it in Chromium without a network and asks it.
 # `make test-pages` opens every page of the report and the documentation in Chromium, on a desk, on a phone and on paper.
@@ -9,7 +10,7 @@
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: reproduce test check docs certify test-machines test-pages reader test-reader
+.PHONY: reproduce test check docs certify test-machines test-pages test-wheel reader test-reader
 reproduce: $(VENV)/.installed
 	$(VENV)/bin/lagrotor reproduce
 
@@ -39,6 +40,15 @@ reader: $(VENV)/.installed
 test-reader: reader
 	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[pages]'
 	$(VENV)/bin/python -m tests.reader reader
+
+# From an empty folder, so that nothing of the sources is seen.
+test-wheel:
+	ls dist/*.whl > /dev/null 2>&1 || { $(PYTHON) -m venv .venv-build && .venv-build/bin/python -m pip install --quiet \
+		--disable-pip-version-check build && .venv-build/bin/python -m build --wheel > /dev/null; }
+	rm -rf .venv-wheel && $(PYTHON) -m venv .venv-wheel
+	.venv-wheel/bin/python -m pip install --quiet --disable-pip-version-check "$$(ls dist/*.whl)[report]"
+	cd .venv-wheel && bin/lagrotor --version && bin/lagrotor rate --spins 10 -10 && bin/lagrotor judge "sin(x)**2 + cos(x)**2 = 1" \
+		&& bin/lagrotor audit 5.22 > /dev/null && bin/lagrotor init my-paper && bin/lagrotor audit --paper my-paper
 
 test-machines:
 	$(PYTHON) -m tests.machines $(RUNS)

@@ -1,6 +1,8 @@
 """The documentation is written from the sources: gallery, reference, formulas."""
 
 import importlib.util
+import json
+import re
 import tomllib
 from pathlib import Path
 from types import ModuleType
@@ -64,6 +66,17 @@ def test_versions_and_extras_agree() -> None:
     assert project["project"]["version"] == lagrotor.__version__
     assert f"version: {lagrotor.__version__}" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert f"## {lagrotor.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8"))["version"] == lagrotor.__version__
+    recipe = (ROOT / "conda/meta.yaml").read_text(encoding="utf-8")
+    assert f'version = "{lagrotor.__version__}"' in recipe
+    needed = [name.replace("matplotlib", "matplotlib-base") for name in project["project"]["dependencies"]]
+    needed += project["project"]["optional-dependencies"]["report"]
+    assert all(f"- {re.sub('(?=[<>])', ' ', name, count=1)}\n" in recipe for name in needed)
+    address = project["project"]["urls"]["Source"]
+    assert all(
+        address in (ROOT / name).read_text(encoding="utf-8")
+        for name in ("CITATION.cff", ".zenodo.json", "conda/meta.yaml")
+    )
     declared = [c.rpartition(" ")[2] for c in project["project"]["classifiers"] if "Python :: 3." in c]
     workflow = (ROOT / ".github/workflows/tests.yml").read_text(encoding="utf-8")
     assert all(f'"{version}"' in workflow for version in declared) and len(declared) > 2

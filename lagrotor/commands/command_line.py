@@ -11,6 +11,7 @@ from typing import Any
 
 from lagrotor.about import __version__
 from lagrotor.commands.benchmark_commands import add_benchmark_commands
+from lagrotor.commands.completion import add_completion
 from lagrotor.commands.options import Parser
 from lagrotor.commands.paper_commands import add_paper_commands
 from lagrotor.commands.scene_commands import add_scene_commands
@@ -102,4 +103,5 @@ def _parser() -> argparse.ArgumentParser:
     add_scene_commands(command)
     add_structure_commands(command)
     add_benchmark_commands(command)
+    add_completion(command, parser)
     return parser
