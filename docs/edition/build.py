@@ -94,7 +94,9 @@ def packages(tree: Path) -> bytes:
         for file in sorted(tree.rglob("*")):
             names = file.name == "__init__.py" and own in file.parents
             compiled = file.suffix == ".py" and file.with_suffix(".pyc").exists() and not names
-            unneeded_too = ".dist-info" in file.parent.name and file.name != "METADATA"  # a version is asked for
+            unneeded_too = (
+                ".dist-info" in file.parent.name and file.name != "METADATA"
+            )  # latex2mathml reads its version
             if file.is_file() and not compiled and not unneeded_too:
                 packed.writestr(zipfile.ZipInfo(file.relative_to(tree).as_posix()), file.read_bytes())
     return target.read_bytes()

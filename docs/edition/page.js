@@ -18,7 +18,7 @@ async function unpacked(text) {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-let files, worker, ready, asked = 0;
+let files, worker, ready, count = 0;
 const waiting = new Map();
 
 // A worker computes, so that the page stays alive and what takes too long can be stopped.
@@ -40,7 +40,7 @@ function begin() {
 
 async function ask(kind, fields) {
   await ready;
-  const number = asked += 1;
+  const number = count += 1;
   const answer = new Promise((resolve) => waiting.set(number, resolve));
   worker.postMessage({ number, kind, fields });
   return answer;

@@ -1,5 +1,5 @@
 // Python in a worker. What Pyodide would fetch is handed over in `files`. It wants a worker that is a module, which browsers
-// refuse from disk; this one only lacks what it is told apart by.
+// refuse from disk; this one only lacks what tells the two apart.
 self.importScripts = undefined;
 let answer;
 const types = { wasm: "application/wasm", mjs: "text/javascript", zip: "application/zip" };

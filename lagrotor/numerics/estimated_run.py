@@ -83,7 +83,7 @@ class Evolution:
 
 
 class Leg(NamedTuple):
-    """What the estimate asks to be integrated: the arguments of `Evolution.integrate`."""
+    """What is to be integrated for the estimate: the arguments of `Evolution.integrate`."""
 
     start: Array
     times: Array
@@ -207,7 +207,7 @@ class _Course:
         return self.integrations.setdefault((local, companion), _Integration(local, companion))
 
     def stage(self, run: _Integration, n: int, beside: _Integration | None = None) -> Generator[Leg, Stretch, Stretch]:
-        """Stage n of an integration, asked for if it is not made yet; beside: a looser one, MORE times whose evaluations it may
+        """Stage n of an integration, made if it is not there yet; beside: a looser one, MORE times whose evaluations it may
         take."""
         evolution = self.evolution
         while len(run.stages) <= n:
@@ -299,7 +299,7 @@ def estimate_runs(
 ) -> list[EstimatedRun | IntegrationError]:
     """Many motions side by side, each at its own times and as `estimate_run` has it, or what refuses it.
 
-    integrate: the legs that are asked for, by the number of the motion → what was made of each, or what stopped it.
+    integrate: the legs that are wanted, by the number of the motion → what was made of each, or what stopped it.
     """
     askings = [_asking(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
