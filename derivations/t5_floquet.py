@@ -18,9 +18,9 @@ from lagrotor import Link, Scene, floquet
 from lagrotor.mechanics import FourierSeries, euler_lagrange
 from lagrotor.numerics import measured_order
 from lagrotor.pair import axes_pair
-from lagrotor.pair.notation import AXES, G_1, G_2, SWING, G, Phi, a, b, k, r0, sigma
+from lagrotor.pair.notation import AXES, G_1, G_2, HALF, LEAN, SWING, G, P, Phi, a, b, k, r0, sigma
 from lagrotor.paper import Formula, Remark, prove
-from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, paired_series, slow_stiffness
+from lagrotor.theory import averaged_hamiltonian, elliptic_edge, exponent_series, growth_squared, paired_series
 
 # %% [markdown]
 # ## Which perturbations can grow
@@ -217,25 +217,21 @@ prove(
 )
 
 # %% [markdown]
-# The averaged motion (t7) says the same of $A$: it gives the mean twist the stiffness $s_\Delta$, and $G\dot X=-s_\Delta\Delta$.
-# A unit of $q$ twists by $2\sqrt\sigma$, the orbit swings by $d=2\sqrt\sigma\,r_0$; per radian of phase, $1/\Omega_0$ each:
+# The averaged motion (t11) says the same of $A$: it gives the half-angle $\eta$ between the axes the stiffness $H_{\eta\eta}$,
+# and $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ turns $\eta$ by $\sqrt\sigma$, the orbit swings by $s=\sqrt\sigma\,r_0$ and
+# has $P=Gs^2/k$; per radian of phase, $1/\Omega_0$ each:
 
 # %%
-in_x, in_twist = slow_stiffness()
-swung = in_twist.subs(SWING, 2 * sp.sqrt(sigma) * r0)
-per_radian = -swung * 2 * sp.sqrt(sigma) / G * sp.sqrt(a**2 - b**2) / G
+still = {LEAN: 0, HALF: 0, P: G * SWING**2 / k}
+in_half = averaged_hamiltonian().diff(HALF, 2).subs(still)
+swung = in_half.subs(SWING, sp.sqrt(sigma) * r0)
+per_radian = swung * sp.sqrt(sigma) / (2 * G) * sp.sqrt(a**2 - b**2) / G
 prove(
     (per_radian**2).subs(units),
     (A.coeff(r0, 2) * r0**2) ** 2,
     "the square of the leading term of A, from the averaged motion",
     names="A^2",
 )
-
-# %% [markdown]
-# and that of $x$ none, so that $B$ begins in fourth order:
-
-# %%
-prove(in_x, 0, "the stiffness of the mean x in the averaged motion", names="s_X")
 
 # %% [markdown]
 # ## Growth a turn

@@ -7,10 +7,10 @@
 # **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$, at rest upright; a shock on rotor 1; third order in it. The law is the
 # initial rate; each time of the mean is given with the error of that rate over it.
 #
-# **Notation.** $U=(u_1+u_2)/2$ with $x_i=\tanh u_i$; $\Delta=\alpha_2-\alpha_1$ the twist, $\alpha$ the mean turning angle
-# about the joint line, which runs through both ground joints, $P$ the momentum about it; $a$, $b$ the inertias with the bar's
-# share, $k=\ell/R$; $X$ and $\Delta_s$ the means of $U$ and $\Delta$ over the swing, $d$ the swing's amplitude in $\Delta$;
-# $p_x$, $p_y$ the impulses times $R$; $A_w=e^{-(\Omega_0w)^2/4}$.
+# **Notation.** $\beta_s$, $\eta$ the means of the lean of the mean axis along the joint line and of half the angle between the
+# axes, $s$ the swing's amplitude in it (t11); $X$ the mean of $x=\sin\beta$; $P$ the momentum about the joint line, which runs
+# through both ground joints, $\alpha$ the mean angle about it; $a$, $b$ the inertias with the bar's share, $k=\ell/R$; $p_x$,
+# $p_y$ the impulses times $R$; $A_w=e^{-(\Omega_0w)^2/4}$.
 
 # %%
 import numpy as np
@@ -20,12 +20,11 @@ from lagrotor import Link, Scene, Shock, simulate, toppling_after_shock
 from lagrotor.errors import DomainError
 from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.numerics import measured_order
-from lagrotor.pair.notation import P_X, SWING, TWIST, TWISTED, G, P, X, a, att, b, k, p_y
+from lagrotor.pair.notation import HALF, LEAN, P_X, SWING, G, P, a, att, b, k, p_y
 from lagrotor.paper import Remark, prove
 from lagrotor.theory import (
-    averaged_routhian,
-    quartic_lagrangian,
-    quartic_routhian,
+    averaged_hamiltonian,
+    shock_toppling,
     shock_wander,
     slow_rates,
     wander_after_shock,
@@ -33,135 +32,50 @@ from lagrotor.theory import (
 )
 
 # %% [markdown]
-# ## The Lagrangian through fourth order
+# ## The slow motion beside upright
 #
-# With the bar eliminated; $U$, $\Delta$ and their rates of first order, $\dot\alpha$ of second. Odd orders vanish. Second order
-# is the swing,
+# Averaged over the swing (t11) the centre moves by
+# $2G\dot\beta_s=\partial H/\partial\eta$, $2G\dot\eta=-\partial H/\partial\beta_s$.
+# At $\beta_s=0$ the twist stays, and turning about the joint line carries it into $x=\sin\beta$:
 
 # %%
-(U, Delta, _), (U_v, Delta_v, alpha_v) = TWISTED.q, TWISTED.v
-quadratic, quartic = quartic_lagrangian()
+bracket = (2 * HALF**2 + SWING**2 - k * P / G) / k**2 - b * SWING**2 / (a - b)
 prove(
-    quadratic,
-    (a + b) * U_v**2 + (a - b) * Delta_v**2 / 4 - G * U * Delta_v,
-    "the second order of the Lagrangian",
-    names="L_2",
+    tuple(rate.subs(LEAN, 0) for rate in slow_rates()),
+    (G * HALF * bracket / (a + b), 0),
+    "the slow motion at no lean, third order",
+    names=(r"\dot\beta_s", r"\dot\eta"),
 )
 
 # %% [markdown]
-# and the fourth order is
+# The mean rate of turning is $\langle\dot\alpha\rangle=\partial H/\partial P$:
 
 # %%
-leaning = (a + b) * alpha_v**2 + G * Delta**2 * alpha_v / (2 * k)
-swinging = (
-    Delta**2 * Delta_v**2 * (2 * (a - b) + b * k**2) / (8 * k**2)
-    + b * U * U_v * Delta * Delta_v
-    - (a - b) * U**2 * Delta_v**2 / 4
-    - (a + b) * U**2 * U_v**2
-    + G * U**3 * Delta_v / 3
-)
-prove(quartic, leaning + swinging, "the fourth order of the Lagrangian", names="L_4")
-
-# %% [markdown]
-# ## The cyclic angle eliminated
-#
-# $\alpha$ occurs only by its rate. $P=\partial L/\partial\dot\alpha$ is conserved and gives it,
-
-# %%
-rate = (P - G * Delta**2 / (2 * k)) / (2 * (a + b))
+turned = averaged_hamiltonian().diff(P).subs(LEAN, 0)
 prove(
-    quartic.diff(alpha_v).subs(alpha_v, rate),
-    P,
-    "the momentum about the joint line",
-    names=r"\partial L_4/\partial\dot\alpha",
-)
-
-# %% [markdown]
-# and leaves the Routhian $R_4=L_4-P\dot\alpha$ in $U$, $\Delta$:
-
-# %%
-prove(
-    quartic_routhian(),
-    swinging - (P - G * Delta**2 / (2 * k)) ** 2 / (4 * (a + b)),
-    "the Routhian, fourth order",
-    names="R_4",
-)
-
-# %% [markdown]
-# ## The swing
-#
-# $L_2$ has the solution $U=X+u\cos\Phi$, $\Delta=\Delta_s+d\sin\Phi$, $\dot\Phi=\Omega_0=G/\sqrt{a^2-b^2}$, with any constant
-# $X$, $\Delta_s$ and $u=d\sqrt{a^2-b^2}/(2(a+b))$: its equations of motion hold,
-
-# %%
-Phi, natural = sp.Symbol("Phi", real=True), G / sp.sqrt(a**2 - b**2)
-share = SWING * sp.sqrt(a**2 - b**2) / (2 * (a + b))
-U_t, Delta_t = X + share * sp.cos(Phi), TWIST + SWING * sp.sin(Phi)
-prove(
-    (2 * (a + b) * natural**2 * U_t.diff(Phi, 2) + G * natural * Delta_t.diff(Phi),
-     (a - b) / 2 * natural**2 * Delta_t.diff(Phi, 2) - G * natural * U_t.diff(Phi)),
-    (0, 0),
-    "the equations of motion of U and of Δ, second order",
-    names=("E_U", r"E_\Delta"),
-)  # fmt: skip
-
-# %% [markdown]
-# ## The average
-#
-# The fourth order acts on the slow constants through its mean over the swing:
-
-# %%
-along = {U: U_t, Delta: Delta_t, U_v: natural * U_t.diff(Phi), Delta_v: natural * Delta_t.diff(Phi)}
-by_hand = (swinging - (P - G * Delta**2 / (2 * k)) ** 2 / (4 * (a + b))).xreplace(along)
-cosine, sine = sp.symbols("c s")
-polynomial = sp.Poly(by_hand.xreplace({sp.cos(Phi): cosine, sp.sin(Phi): sine}), cosine, sine)
-mean = sum(
-    (
-        coefficient * sp.factorial2(m - 1) * sp.factorial2(n - 1) / sp.factorial2(m + n)
-        for (m, n), coefficient in polynomial.terms()
-        if m % 2 == 0 and n % 2 == 0
-    ),
-    sp.Integer(0),
-)
-mean = sp.collect(sp.expand(mean), (X, TWIST, SWING, P), func=sp.factor)
-prove(averaged_routhian(), mean, "the mean of the Routhian over the swing", names=r"\langle R_4\rangle")
-
-# %% [markdown]
-# (the mean of $\cos^m\Phi\sin^n\Phi$ is $(m-1)!!\,(n-1)!!/(m+n)!!$ for even $m$, $n$). In the means, $-G X\dot\Delta_s$ of $L_2$
-# makes $X$ and $G\Delta_s$ conjugate: $G\dot X=-\partial\langle R_4\rangle/\partial\Delta_s$,
-# $G\dot\Delta_s=\partial\langle R_4\rangle/\partial X$.
-
-# %%
-bracket = (2 * TWIST**2 + SWING**2 - 4 * k * P / G) / k**2 - b * SWING**2 / (a - b)
-prove(
-    (-mean.diff(TWIST) / G, mean.diff(X) / G),
-    (G * TWIST * bracket / (8 * (a + b)), 0),
-    "the slow motion, third order",
-    names=(r"\dot X", r"\dot\Delta_s"),
-)
-
-# %% [markdown]
-# The mean twist stays; turning about the joint line carries it into $x$.
-
-# %%
-prove(
-    slow_rates(),
-    (G * TWIST * bracket / (8 * (a + b)), 0),
-    "which the library holds",
-    names=(r"\dot X", r"\dot\Delta_s"),
+    turned,
+    (P - 2 * G * (HALF**2 + SWING**2 / 2) / k) / (2 * (a + b)),
+    "the mean rate of turning at no lean",
+    names=r"\langle\dot\alpha\rangle",
 )
 
 # %% [markdown]
 # ## After a shock
 #
-# The shock leaves $\Delta_s=p_x/G$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $d^2=A_w^2(p_x^2+\sigma p_y^2)/G^2$ (t6).
-# Along $x$ alone:
+# The shock leaves $\eta=p_x/(2G)$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $s^2=A_w^2(p_x^2+\sigma p_y^2)/(4G^2)$ (t6).
+# The rate of turning is that of t6,
+
+# %%
+size = {HALF: P_X / (2 * G), P: -p_y, SWING: att * sp.sqrt(P_X**2 + (a + b) / (a - b) * p_y**2) / (2 * G)}
+prove(turned.subs(size), shock_toppling().expressions[0], "t6's rate of turning", names=r"\langle\dot\alpha\rangle")
+
+# %% [markdown]
+# and the mean $x$ leaves zero, after a shock along $x$ alone, at
 
 # %%
 law = P_X**3 / (8 * (a + b) * G**2) * ((2 + att**2) / k**2 - att**2 * b / (a - b))
-put = {TWIST: P_X / G, P: 0}
 prove(
-    (G * TWIST * bracket / (8 * (a + b))).subs(SWING, att * P_X / G).subs(put),
+    (G * HALF * bracket / (a + b)).subs(size).subs(p_y, 0),
     law,
     "the initial rate of the mean x",
     names=r"\dot X",

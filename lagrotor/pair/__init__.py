@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from lagrotor.pair.lagrangians import axis as axis
     from lagrotor.pair.lagrangians import bar_curve as bar_curve
     from lagrotor.pair.lagrangians import joint_line_momentum as joint_line_momentum
+    from lagrotor.pair.lagrangians import leaning_frame as leaning_frame
+    from lagrotor.pair.lagrangians import leaning_lagrangian as leaning_lagrangian
     from lagrotor.pair.lagrangians import link_constraint as link_constraint
     from lagrotor.pair.lagrangians import mercator_axis as mercator_axis
     from lagrotor.pair.lagrangians import mercator_lagrangian as mercator_lagrangian

@@ -21,6 +21,7 @@ from lagrotor.pair.notation import (
     G_2,
     I1,
     I3,
+    LEANING,
     MERCATOR,
     MINIMAL,
     PAIR,
@@ -167,6 +168,41 @@ def minimal_embedding(twist: sp.Expr, latitude: sp.Expr) -> dict[sp.Symbol, sp.E
     u1, al1, u2, al2 = MERCATOR.q
     U, _, alpha = MINIMAL.q
     return {u1: U + latitude / 2, al1: alpha - twist / 2, u2: U - latitude / 2, al2: alpha + twist / 2}
+
+
+def leaning_frame() -> tuple[sp.Matrix, sp.Matrix]:
+    """(n, q) in (beta, h, alpha): r_1 = n cos h − q sin h and r_2 = n cos h + q sin h, unit vectors at right angles.
+
+    n, the mean axis, leans by beta along the joint line and is turned by alpha about it. The bar is no more than
+    q_x = −sin(h)/k, so that q = f cos chi + e sin chi with sin chi = −sin(h)/(k cos beta), f and e across the joint line
+    and along the lean.
+    """
+    beta, h, alpha = LEANING.q
+    c, s = sp.cos(alpha), sp.sin(alpha)
+    mean = sp.Matrix([sp.sin(beta), -sp.cos(beta) * s, sp.cos(beta) * c])
+    along = sp.Matrix([sp.cos(beta), sp.sin(beta) * s, -sp.sin(beta) * c])
+    across = sp.Matrix([0, -c, -s])
+    tilt = -sp.sin(h) / (k * sp.cos(beta))
+    return mean, across * sp.sqrt(1 - tilt**2) + along * tilt
+
+
+def leaning_lagrangian() -> sp.Expr:
+    """The spin-reduced pair in (beta, h, alpha), exact for every k; alpha is cyclic. With c = cos chi, s = sin chi,
+
+    T = (a + b) (h'² sin² h + |n'|² cos² h) + (a − b) (h'² cos² h + |q'|² sin² h),  |n'|² = beta'² + alpha'² cos² beta,
+    |q'|² = (chi' + alpha' sin beta)² + (alpha' c cos beta + beta' s)²,
+    and the spins add (G_1 + G_2) cos h (chi' + alpha' sin beta) + (G_1 − G_2) sin h (beta' c + alpha' sin(h)/k).
+    """
+    (beta, h, _), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
+    s = -sp.sin(h) / (k * sp.cos(beta))
+    c = sp.sqrt(1 - s**2)
+    about_mean = (s.diff(beta) * beta_v + s.diff(h) * h_v) / c + alpha_v * sp.sin(beta)
+    mean = beta_v**2 + (alpha_v * sp.cos(beta)) ** 2
+    apart = about_mean**2 + (alpha_v * c * sp.cos(beta) + beta_v * s) ** 2
+    together = (a + b) * ((h_v * sp.sin(h)) ** 2 + mean * sp.cos(h) ** 2)
+    against = (a - b) * ((h_v * sp.cos(h)) ** 2 + apart * sp.sin(h) ** 2)
+    spins = (G_1 + G_2) * sp.cos(h) * about_mean + (G_1 - G_2) * sp.sin(h) * (beta_v * c + alpha_v * sp.sin(h) / k)
+    return together + against + spins
 
 
 def joint_line_momentum(c: Coordinates = AXES) -> sp.Expr:

@@ -54,9 +54,9 @@ P_1 = _real("p_1", "R times the impulse along y on rotor 1", "kg m²/s")
 P_2 = _real("p_2", "R times the impulse along y on rotor 2", "kg m²/s")
 p_y = _real("p_y", "R times the impulse along y on the shocked rotor", "kg m²/s")
 att = _positive("A_w", "what the pulse's width leaves of the swing, exp(−(Omega_0 w)²/4)", "1")
-X = _real("X", "mean of U over the swing", "1")
-TWIST = _real("Delta_s", "mean of the twist over the swing", "rad")
-SWING = _real("d", "amplitude of the swing in the twist", "rad")
+LEAN = _real("beta_s", "lean of the mean axis along the joint line, mean over the swing", "rad")
+HALF = _real("eta", "half the angle between the axes, mean over the swing", "rad")
+SWING = _real("s", "amplitude of the swing in half the angle between the axes", "rad")
 
 _ANGLES = {
     "theta": "inclination of the axis",
@@ -70,6 +70,8 @@ _ANGLES = {
     "U": "mean Mercator latitude (u_1 + u_2)/2",
     "chi": "twist of the pair, alpha_2 − alpha_1 when ell >= R",
     "Delta": "twist of the pair, alpha_2 − alpha_1",
+    "beta": "lean of the mean axis along the joint line",
+    "h": "half the angle between the axes",
 }
 
 
@@ -88,8 +90,10 @@ def _coordinates(names: str) -> Coordinates:
 ROTOR: Coordinates = _coordinates("theta phi psi")
 PAIR: Coordinates = _coordinates("theta_1 phi_1 psi_1 theta_2 phi_2 psi_2")
 ANSATZ: Coordinates = _coordinates("theta_1 theta_2 phi psi")
-# The pair in Cartesian components of its two axes, in Mercator coordinates, and with the bar eliminated.
+# The pair in Cartesian components of its two axes, in Mercator coordinates, and with the bar eliminated:
+# by one parameter, near no twist, and by the mean axis and the angle between the axes.
 AXES: Coordinates = _coordinates("x_1 y_1 z_1 x_2 y_2 z_2")
 MERCATOR: Coordinates = _coordinates("u_1 alpha_1 u_2 alpha_2")
 MINIMAL: Coordinates = _coordinates("U chi alpha")
 TWISTED: Coordinates = _coordinates("U Delta alpha")
+LEANING: Coordinates = _coordinates("beta h alpha")

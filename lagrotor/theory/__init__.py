@@ -5,11 +5,15 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.theory.averaging import averaged_routhian as averaged_routhian
+    from lagrotor.theory.averaged_motion import SlowMotion as SlowMotion
+    from lagrotor.theory.averaged_motion import slow_frequency as slow_frequency
+    from lagrotor.theory.averaged_motion import slow_motion as slow_motion
+    from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
+    from lagrotor.theory.averaged_motion import turns_back as turns_back
+    from lagrotor.theory.averaging import averaged_hamiltonian as averaged_hamiltonian
     from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
     from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
     from lagrotor.theory.averaging import slow_rates as slow_rates
-    from lagrotor.theory.averaging import slow_stiffness as slow_stiffness
     from lagrotor.theory.closed_form import ClosedForm as ClosedForm
     from lagrotor.theory.drift_after_shock import cancelling_impulse as cancelling_impulse
     from lagrotor.theory.drift_after_shock import mean_square_twist as mean_square_twist

@@ -19,7 +19,7 @@ import sympy as sp
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError
 from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
-from lagrotor.pair.notation import AXES, G_1, G_2, P_1, P_2, P_X, SWING, TWIST, G, P, a, att, b, k, p_y
+from lagrotor.pair.notation import AXES, G_1, G_2, HALF, LEAN, P_1, P_2, P_X, SWING, G, P, a, att, b, k, p_y
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.impulse_response import impulse_matrices
@@ -92,17 +92,18 @@ def cancelling_impulse() -> ClosedForm:
 def shock_wander() -> ClosedForm:
     """X' of the mean x after a shock (p_x, p_y) on rotor 1 of opposite spins, to third order (1/s).
 
-    From the averaged motion: the mean twist Delta = p_x/G stays, and turning about the joint line carries it into x,
+    From the averaged motion: the mean twist Delta = p_x/G stays at first, and turning about the joint line carries it into x,
 
         X' = Delta ( (2 G Delta² + G d² + 4 k p_y) / k² − G b d² / (a − b) ) / (8 (a + b)),
 
     with d² = A² (p_x² + sigma p_y²)/G² the swing's part. Without p_y it goes as the cube of the shock, so that x keeps
-    within a given bound for a time that falls as the cube. Arguments: p_x, p_y, A, G, a, b, k.
+    within a given bound for a time that falls as the cube. `theory.averaged_motion` follows it from there.
+    Arguments: p_x, p_y, A, G, a, b, k.
     """
     from lagrotor.theory.averaging import slow_rates
 
-    twist, square = P_X / G, att**2 * (P_X**2 + (a + b) / (a - b) * p_y**2) / G**2
-    rate = sp.expand(slow_rates()[0]).subs(SWING, sp.sqrt(square)).subs({TWIST: twist, P: -p_y})
+    square = att**2 * (P_X**2 + (a + b) / (a - b) * p_y**2) / (4 * G**2)
+    rate = slow_rates()[0].subs({LEAN: 0, SWING: sp.sqrt(square), HALF: P_X / (2 * G), P: -p_y})
     return _form("shock_wander", "X'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 3)
 
 

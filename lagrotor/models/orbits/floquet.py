@@ -9,13 +9,14 @@ A quarter of a turn gives all of it. At Phi = 0 the motion is its own image with
 the start, that of half a turn, brought back by A B, is A Q⁻¹ B Q, and the monodromy is its square.
 """
 
-from dataclasses import dataclass
-from math import acos, acosh, pi, sqrt
+from dataclasses import dataclass, replace
+from math import acos, acosh, copysign, pi, sqrt
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import flow
@@ -25,6 +26,7 @@ from lagrotor.shown import Shown
 Array = NDArray[np.float64]
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
 _INTEGRATED = 1e-13
+_LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 # What reversed time does to the state, about the start and about the end of a quarter of a turn.
 _A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
@@ -67,12 +69,35 @@ class Floquet(Shown):
         return min(2 * self.error / apart, root) if apart > root else root
 
 
-def floquet(scene: Scene, r0: float) -> Floquet:
+def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
 
-    Raises InputError unless the spins are opposite and there is a bar, DomainError when no orbit is found at r0.
+    momentum: about the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
+    line. Raises InputError unless the spins are opposite and there is a bar, DomainError when no orbit is found.
     """
-    return floquet_of(exact_orbit(scene, r0))
+    orbit = exact_orbit(scene, r0)
+    return floquet_of(_pushed(orbit, momentum) if momentum else orbit)
+
+
+def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
+    """The orbit of the same amplitude with more momentum about the joint line: chi' at the start and the quarter's time,
+    by Newton's method, for U = chi' = 0 at its end. At the start P = 2 (a + b) (1 − x²) alpha'."""
+    scene, start = orbit.scene, MODEL.start(orbit.scene)
+    inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
+    start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])
+    time, through = pi / 2 / abs(orbit.frequency), flow(scene)
+    for _ in range(12):
+        now = through(start, time)
+        slope = np.column_stack([now.slope[[0, 4], 4], now.rate[[0, 4]]])
+        step = -np.linalg.solve(slope, now.end[[0, 4]])
+        start, time = start + np.array([0, 0, 0, 0, step[0], 0]), time + float(step[1])
+        if not 0 < time < 20 * pi / abs(orbit.frequency):
+            break
+        if np.abs(step / (start[4], time)).max() < _LAST_STEP:
+            rates = MODEL.observe(scene, start[None]).rates[:, 0]
+            pushed = replace(scene, rates=tuple(tuple(map(float, v)) for v in rates))  # type: ignore[arg-type]
+            return replace(orbit, scene=pushed, frequency=copysign(pi / 2 / time, orbit.frequency))
+    raise DomainError(f"floquet: no orbit with a momentum of {momentum:g} kg m²/s is found; take a smaller one")
 
 
 def floquet_of(orbit: ExactOrbit) -> Floquet:

@@ -1,0 +1,233 @@
+"""The slow motion of opposite spins for a scene: its frequency beside the paired precession, and how far a shock carries x.
+
+The centre of the fast swing obeys, with rate g = G/(2 (a + b) k²) and W of `theory.averaging`,
+
+    beta' = g dW/deta,    eta' = −g dW/dbeta,    W = ((eta² + (s² − p)/2)² − 3 s⁴/8)/c − kappa s² eta²,    c = cos² beta.
+
+W is conserved and quadratic in eta², so that its curves, the phase portrait, are known in closed form:
+
+    eta² = D − (s² − p − kappa s² c)/2,    D² = 3 s⁴/8 + (W − kappa s² (s² − p)/2) c + (kappa s² c/2)²,
+    beta' = 4 g eta D/c,    t = ∫ c dbeta / (4 g eta D),
+
+with D of either sign, the branch. beta turns where D or eta vanishes. After a shock along x alone that leaves s = eta it does so
+if (sigma − 1) k² > 3 + sqrt(3/2); for less, x grows until bar and axes come into line.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import acos, asin, copysign, cos, hypot, inf, pi, sqrt, tan
+from typing import NamedTuple
+
+import numpy as np
+
+from lagrotor.errors import DomainError, InputError
+from lagrotor.pair.scene import Scene
+from lagrotor.theory.calibrated_factors import LARGEST_SWING
+from lagrotor.theory.paired_precession.series_orbit import amplitude_of
+from lagrotor.theory.shock_response import shock_response
+
+# (|eta| + s)/(k cos beta), the sine of the bar's tilt, beyond which no expansion in it is made.
+FARTHEST_TILT = 0.5
+
+
+class _Leg(NamedTuple):
+    """A part of the motion in which |beta| goes one way, on one branch."""
+
+    begin: float
+    end: float
+    branch: float
+
+
+@dataclass(frozen=True)
+class SlowMotion:
+    """The centre (lean beta, half-angle eta, rad) of a swing of amplitude `swing` s (rad, in the half-angle).
+
+    momentum: p = k P/G. weight: kappa = (sigma − 1) k²/2. ratio: k. rate: g = G/(2 (a + b) k²), rad/s.
+    """
+
+    lean: float
+    half: float
+    swing: float
+    momentum: float
+    weight: float
+    ratio: float
+    rate: float
+
+    @cached_property
+    def invariant(self) -> float:
+        """W, which is conserved."""
+        y, s2, c = self.half**2, self.swing**2, cos(self.lean) ** 2
+        return ((y + (s2 - self.momentum) / 2) ** 2 - 3 * s2**2 / 8) / c - self.weight * s2 * y
+
+    def slopes(self, lean: float, half: float) -> tuple[float, float]:
+        """(beta', eta') in rad/s at a centre."""
+        s2, c = self.swing**2, cos(lean) ** 2
+        inner = half**2 + (s2 - self.momentum) / 2
+        across = 4 * half * inner / c - 2 * self.weight * s2 * half
+        return self.rate * across, -2 * self.rate * tan(lean) / c * (inner**2 - 3 * s2**2 / 8)
+
+    def turning(self, lean: float, half: float) -> float:
+        """Mean rate alpha' (rad/s) of turning about the joint line at a centre."""
+        inner = half**2 + (self.swing**2 - self.momentum) / 2
+        return -2 * self.rate * self.ratio * inner / cos(lean) ** 2
+
+    def half_squared(self, lean: float, branch: float = 1.0) -> float:
+        """eta² on the curve of the motion at a lean; negative, or not a number, where the curve does not come."""
+        c = cos(lean) ** 2
+        square = np.polyval(self._square, c)
+        return branch * sqrt(square) - self._offset(c) if square >= 0 else -inf
+
+    def _offset(self, c: float) -> float:
+        return (self.swing**2 * (1 - self.weight * c) - self.momentum) / 2
+
+    @cached_property
+    def _square(self) -> tuple[float, float, float]:
+        """Coefficients of D² in c."""
+        s2 = self.swing**2
+        slope = self.invariant - self.weight * s2 * (s2 - self.momentum) / 2
+        return (self.weight * s2 / 2) ** 2, slope, 3 * s2**2 / 8
+
+    def _turns(self, branch: float) -> list[tuple[float, float]]:
+        """(|beta|, the branch from there on) of the points where beta turns on a branch."""
+        folds = [(float(c.real), -branch) for c in np.roots(self._square) if c.imag == 0]
+        turns = [(c, after) for c, after in folds if self._offset(c) <= 0]
+        s2, p = self.swing**2, self.momentum
+        if self.invariant != 0:  # where a branch has eta = 0: D = the offset
+            level = ((s2 - p) ** 2 / 4 - 3 * s2**2 / 8) / self.invariant
+            if branch * self._offset(level) >= 0:
+                turns.append((level, branch))
+        return [(acos(sqrt(c)), after) for c, after in turns if 0 < c < 1]
+
+    @cached_property
+    def legs(self) -> tuple[_Leg, ...]:
+        """The motion from its start until |beta| has grown as far as it does: to a turning point, or to pi/2.
+
+        Beyond beta = 0 it goes on as its mirror image.
+        """
+        here = abs(self.lean)
+        branch = copysign(1.0, self.half**2 + self._offset(cos(self.lean) ** 2))
+        along, across = self.slopes(self.lean, self.half)
+        # Where eta = 0 beta turns, and eta' tells to which side.
+        outward = self.lean * (along or branch * self.rate * across)
+        legs = []
+        if outward < 0:
+            inner = max((turn for turn in self._turns(branch) if turn[0] < here * (1 - 1e-9)), default=(0.0, branch))
+            legs.append(_Leg(here, inner[0], branch))
+            here, branch = inner
+        end = min((turn for turn, _ in self._turns(branch) if turn > here * (1 + 1e-9)), default=pi / 2)
+        return (*legs, _Leg(here, end, branch))
+
+    @property
+    def farthest(self) -> float:
+        """The largest |beta| of the motion (rad), pi/2 where it does not turn back."""
+        return max(leg.end for leg in self.legs)
+
+    def time_to(self, lean: float) -> float:
+        """Time (s) until |beta| grows to `lean` (rad); inf where it does not get there."""
+        if abs(self.lean) >= lean:
+            return 0.0
+        *before, last = self.legs
+        if last.end < lean or self.slopes(self.lean, self.half) == (0.0, 0.0):
+            return inf
+        return sum(self._duration(leg) for leg in (*before, last._replace(end=lean)))
+
+    def _duration(self, leg: _Leg) -> float:
+        """∫ c dbeta/(4 g |eta D|), by beta = begin ± u² next to the start and the end, where D or eta may vanish."""
+        from scipy.integrate import quad
+
+        def density(lean: float) -> float:
+            c = cos(lean) ** 2
+            square, y = np.polyval(self._square, c), self.half_squared(lean, leg.branch)
+            return c / sqrt(square * y) if square > 0 and y > 0 else 0.0
+
+        sense, root = copysign(1.0, leg.end - leg.begin), sqrt(abs(leg.end - leg.begin) / 2)
+        first = quad(lambda u: u * density(leg.begin + sense * u * u), 0, root, epsabs=0, epsrel=1e-7, limit=200)[0]
+        last = quad(lambda u: u * density(leg.end - sense * u * u), 0, root, epsabs=0, epsrel=1e-7, limit=200)[0]
+        return float(first + last) / (2 * abs(self.rate))
+
+
+def slow_motion(scene: Scene) -> SlowMotion:
+    """The slow motion after the scene's shock of opposite spins from rest upright.
+
+    The pulse leaves the centre (x, (y_1 − y_2)/2) of the linear response, its swing s in (y_1 − y_2)/2, and P = −p_y.
+    Raises InputError as `shock_response`, and unless the spins are opposite; DomainError where |eta| + s > 0.4.
+    """
+    response = shock_response(scene)
+    if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
+        raise InputError(f"slow_motion: needs opposite spins, not {scene.spins}")
+
+    def half(vector: np.ndarray) -> float:
+        return float(vector[1] - vector[2]) / 2
+
+    swing, apart = hypot(half(response.cosine), half(response.sine)), half(response.displacement)
+    if not abs(apart) + swing <= LARGEST_SWING.value:
+        raise DomainError(
+            f"slow_motion: the shock turns the axes {2 * (abs(apart) + swing):.3g} rad against each other, beyond "
+            f"{2 * LARGEST_SWING.value:g}: it is not small; take a smaller one, or run it with lagrotor.simulate"
+        )
+    p_y = float(response.impulse[1] + response.impulse[2])
+    return _motion(scene, float(response.displacement[0]), apart, swing, -p_y)
+
+
+def _motion(scene: Scene, lean: float, half: float, swing: float, momentum: float) -> SlowMotion:
+    (a, b), G, k = scene.inertias, scene.momenta[0], scene.k
+    return SlowMotion(lean, half, swing, k * momentum / G, (scene.sigma - 1) * k * k / 2, k, G / (2 * (a + b) * k * k))
+
+
+def time_to_reach(scene: Scene, x: float) -> float:
+    """Time (s) from the peak of the scene's shock until the mean |x| of opposite spins reaches `x`; inf where it turns back.
+
+    By quadrature over the averaged motion, to leading order in the shock at any x: the relative error is of second order in
+    it. Raises as `slow_motion`; DomainError unless 0 < x < 1, and where the bar comes to tilt by more than 30 degrees
+    before, sin = (|eta| + s)/(k sqrt(1 − x²)).
+    """
+    if not 0 < x < 1:
+        raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
+    motion, lean = slow_motion(scene), asin(x)
+    if lean <= motion.farthest:
+        half = sqrt(max(motion.half_squared(lean, motion.legs[-1].branch), 0.0))
+        tilt = (max(half, abs(motion.half)) + motion.swing) / (motion.ratio * cos(lean))
+        if tilt > FARTHEST_TILT:
+            raise DomainError(
+                f"time_to_reach: at x = {x:g} the bar tilts by {np.degrees(asin(min(1.0, tilt))):.0f}°, more than 30°: take a "
+                "smaller x or shock, or run it with lagrotor.simulate"
+            )
+    return motion.time_to(lean)
+
+
+def turns_back(scene: Scene) -> bool:
+    """Whether the mean x of opposite spins stays bounded after the scene's shock: it turns back, again and again.
+
+    Of the averaged motion. After a shock along x, which leaves eta = p_x/(2 G) and s = A |eta|, it does beyond a threshold:
+
+        (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
+
+    3 + sqrt(3/2) for a short pulse. Below it x grows until bar and axes come into line. Raises as `slow_motion`.
+    """
+    return slow_motion(scene).farthest < pi / 2
+
+
+def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
+    """Slow angular frequency (rad/s) of the motion beside the paired precession of amplitude r0: imaginary where it grows.
+
+    momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
+    turns. With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²)
+
+        frequency² = g² (3 s⁴/2 − d²) (d + kappa s²),
+
+    to leading order where r0² and d are small alike: the relative error is of second order in r0, but where a bracket nearly
+    vanishes. Raises InputError unless the spins are opposite and there is a bar, DomainError unless |r0| <= 0.4 and
+    |d| <= 0.16.
+    """
+    amplitude = amplitude_of(r0, "slow_frequency")
+    if scene.link is None or scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
+        raise InputError(f"slow_frequency: needs a bar and opposite spins, not {scene.spins}")
+    if not abs(amplitude) <= LARGEST_SWING.value:
+        raise DomainError(f"slow_frequency: r0 = {r0:g} is beyond {LARGEST_SWING.value:g}; use lagrotor.floquet")
+    swing = sqrt(scene.sigma) * abs(amplitude)
+    one = _motion(scene, 0.0, 0.0, swing, 0.0)
+    push = scene.k * momentum / scene.momenta[0]
+    if not abs(push) <= LARGEST_SWING.value**2:
+        raise DomainError(f"slow_frequency: k momentum/G = {push:.3g} is beyond {LARGEST_SWING.value**2:g}")
+    squared = (1.5 * swing**4 - push**2) * (push + one.weight * swing**2)
+    return abs(one.rate) * complex(squared) ** 0.5

@@ -1,0 +1,134 @@
+"""The averaged motion of opposite spins: its curves against its own equations, its laws against exact orbits and runs."""
+
+from dataclasses import replace
+from math import cos, inf, pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from lagrotor import Link, Scene, Shock, floquet, natural_rate, shock_response
+from lagrotor.errors import DomainError, InputError
+from lagrotor.models import time_to_wander
+from lagrotor.numerics import measured_order
+from lagrotor.theory import SlowMotion, slow_frequency, slow_motion, slow_rates, time_to_reach, turns_back
+
+
+def random_motion(rng: np.random.Generator) -> SlowMotion:
+    """A light or a heavy bar, any sense of turning, started near upright; centre and swing of 0.03."""
+    half, lean = rng.uniform(-1, 1, 2)
+    momentum = rng.choice([0.0, rng.uniform(-2, 2)])
+    return SlowMotion(
+        lean, 0.03 * half, 0.03 * rng.uniform(0.2, 1), 9e-4 * momentum, rng.choice([0.0, rng.uniform(-1, 6)]), 1.0, 3.0
+    )
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_time_by_quadrature_is_that_of_the_equations(seed: int) -> None:
+    motion = random_motion(np.random.default_rng(seed))
+    goal = abs(motion.lean) + 0.6 * (motion.farthest - abs(motion.lean))
+
+    def there(t: float, y: np.ndarray) -> float:
+        return abs(y[0]) - goal
+
+    there.terminal = True  # type: ignore[attr-defined]
+    unit = 1 / (motion.rate * motion.swing * (motion.swing**2 + motion.half**2 + abs(motion.momentum)))
+    options = {"rtol": 1e-10, "atol": 1e-13, "method": "LSODA", "events": there, "max_step": unit / 4}
+    run = solve_ivp(lambda t, y: motion.slopes(*y), (0, 60 * unit), (motion.lean, motion.half), **options)
+    assert run.status == 1
+    assert motion.time_to(goal) == pytest.approx(run.t[-1], rel=1e-5)
+
+
+def test_the_farthest_lean_is_never_passed() -> None:
+    rng, turned = np.random.default_rng(5), 0
+    for motion in (random_motion(rng) for _ in range(40)):
+        if motion.farthest == pi / 2:
+            continue
+        turned += 1
+        assert motion.time_to(motion.farthest * (1 + 1e-6)) == inf
+        assert np.isfinite(motion.time_to(motion.farthest * (1 - 1e-6)))
+        assert motion.half_squared(motion.farthest + 1e-3, motion.legs[-1].branch) < 0 or motion.slopes(
+            motion.farthest, sqrt(max(motion.half_squared(motion.farthest - 1e-9, motion.legs[-1].branch), 0.0))
+        )[0] == pytest.approx(0, abs=1e-4)
+    assert turned > 5
+
+
+def test_the_numbers_are_the_derived_expressions() -> None:
+    scene = Scene((9, -9), link=Link(1.3, 0.7, 0.1), shock=Shock((8, 3, 0), 1.0, 0.1, 2))
+    motion, (a, b) = slow_motion(scene), scene.inertias
+    names = {s.name: s for e in slow_rates() for s in e.free_symbols}
+    values = {"beta_s": 0.7, "eta": 0.05, "s": motion.swing, "P": -scene.shock.impulse[1], "G": 9, "k": 1.3}
+    values |= {"a": a, "b": b}
+    exact = [float(e.subs({names[n]: v for n, v in values.items() if n in names})) for e in slow_rates()]
+    assert motion.slopes(0.7, 0.05) == pytest.approx(exact, rel=1e-12)
+    x, y1, y2 = shock_response(scene).displacement
+    assert (motion.lean, motion.half) == pytest.approx((x, (y1 - y2) / 2))
+
+
+@pytest.mark.parametrize(("link", "spin"), [(Link(1.1, 0.0), 11.0), (Link(0.8, 1.0, 0.02), -14.0)])
+def test_x_is_reached_in_time(link: Link, spin: float) -> None:
+    scene = Scene((spin, -spin), link=link, shock=Shock((38, 0, 0), 0.4, 0.05))
+    law = time_to_reach(scene, 0.3)
+    assert time_to_wander(scene, 0.3, 1.5 * law) == pytest.approx(law, rel=0.15)
+
+
+def test_beyond_the_threshold_x_turns_back() -> None:
+    """(sigma − 1) k² > 1 + 2/A² + sqrt(3/2), at any size of the shock and any k."""
+    for k, force, width in ((1.0, 4.0, 1e-3), (0.7, 20.0, 0.05), (1.6, 3.0, 0.3)):
+        for side in (0.99, 1.01):
+            heavy = Scene((10, -10), link=Link(k, 1.0, 0.0), shock=Shock((force, 0, 0), 2.0, width))
+            for _ in range(40):  # the width's A depends on the bar
+                A = np.exp(-((natural_rate(heavy) * width) ** 2) / 4)
+                shape = side * (1 + 2 / A**2 + sqrt(1.5)) / k**2
+                heavy = replace(heavy, link=Link(k, 2 * heavy.rotor.J * shape, 0.0))
+            assert turns_back(heavy) is (side > 1)
+            assert time_to_reach(heavy, 0.5) < inf if side < 1 else slow_motion(heavy).time_to(1.5) == inf
+
+
+AMPLITUDES = (0.04, 0.055, 0.075)
+
+
+def distances(link: Link, share: float, factor: float = 1.5) -> list[float]:
+    """Relative distance of the slow frequency's square from exact multipliers, at d = share s²; factor of s⁴."""
+    apart = []
+    for r0 in AMPLITUDES:
+        scene = Scene((-12, 12), link=link)
+        momentum = share * scene.sigma * r0**2 * scene.momenta[0] / scene.k
+        orbit = floquet(scene, r0, momentum)
+        exact = (orbit.turning**2 - orbit.growth**2) * (orbit.frequency / (2 * pi)) ** 2
+        law = (slow_frequency(scene, r0, momentum) ** 2).real * (factor - share**2) / (1.5 - share**2)
+        apart.append(abs(law / exact - 1))
+    return apart
+
+
+@pytest.mark.parametrize(
+    ("link", "share"),
+    [(Link(0.9, 1.1, 0.1), 0.0), (Link(1.2, 0.0), 0.5), (Link(1.2, 0.0), -0.5), (Link(0.9, 0.6), 0.3)],
+)
+def test_the_slow_frequency_is_right_to_second_order(link: Link, share: float) -> None:
+    assert measured_order(AMPLITUDES, distances(link, share)) == pytest.approx(2, abs=0.1)
+    assert measured_order(AMPLITUDES, distances(link, share, 1.6)) < 1
+
+
+def test_a_push_in_one_sense_holds_a_massless_bar_and_in_the_other_does_not() -> None:
+    scene = Scene((10, -10))
+    held, lost = slow_frequency(scene, 0.1, 0.05), slow_frequency(scene, 0.1, -0.05)
+    assert held.real > 0 == held.imag
+    assert lost.imag > 0 and abs(lost.real) < 1e-12 * lost.imag
+
+
+def test_refused() -> None:
+    shocked = Scene((10, -10), shock=Shock((40, 0, 0), 1.0, 0.05))
+    with pytest.raises(DomainError, match="x = 1 must lie"):
+        time_to_reach(shocked, 1.0)
+    with pytest.raises(DomainError, match="the bar tilts by"):
+        time_to_reach(shocked, 0.95)
+    with pytest.raises(DomainError, match="rad against each other"):
+        turns_back(replace(shocked, shock=Shock((400, 0, 0), 1.0, 0.05)))
+    with pytest.raises(InputError, match="opposite spins"):
+        turns_back(replace(shocked, spins=(10.0, 9.0)))
+    with pytest.raises(InputError, match="opposite spins"):
+        slow_frequency(Scene((10, 10)), 0.1)
+    with pytest.raises(DomainError, match="beyond"):
+        slow_frequency(Scene((10, -10)), 0.1, 5.0)
+    assert cos(slow_motion(shocked).farthest) < 1e-15
