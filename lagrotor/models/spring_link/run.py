@@ -3,27 +3,32 @@
 The step of a few bodies, or the rates of their state, is in single numbers: arrays cost more for so few operations.
 """
 
+import warnings
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
-from math import exp, hypot, inf, isfinite, nan
+from math import exp, hypot, inf, isfinite, nan, pi, sqrt
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError, IntegrationError
+from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.simulate import check_times
 from lagrotor.models.spring_link.paper_bodies import TIP
 from lagrotor.models.spring_link.rigid_body import Array, finite_rotation, inertia_transform
 from lagrotor.models.spring_link.system import RigidBodySystem, link_force, step_limit
 from lagrotor.numerics import recorded_numbers
+from lagrotor.numerics.any_run import Ending, Quantity, Run, read_run
+from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import check_tolerance
-from lagrotor.numerics.pulse import segments
+from lagrotor.numerics.pulse import COMPANION_STEP, segments
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
+from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
@@ -32,21 +37,23 @@ _STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch o
 LOST = 1e100  # a state of this norm has blown up; its energies are still finite
 
 
-@dataclass(frozen=True, eq=False)
-class SpringRun:
-    """A run of n_b bodies, the first two the rotors, and n_l links, read at n times t (n,) in s.
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SpringRun(Run):
+    """A run of n_b bodies, the first two the rotors, and n_l links.
 
-    axes, rates, tips (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertex 2 (m);
-    centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
+    axes, rates, tips, feet (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1 (m);
+    spins (2, n) about the axes in rad/s; centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
     momentum (n, 3) in kg m/s and angular_momentum (n, 3) in kg m²/s about the origin, of all bodies together;
     energies in J: translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n);
-    evaluations: how often the forces were computed.
+    evaluations: how often the forces were computed. errors: of the bodies' places, in units of the largest body, and of R;
+    NaN of the paper's own step, whose error is not estimated.
     """
 
-    t: Array
     axes: Array
     rates: Array
     tips: Array
+    feet: Array
+    spins: Array
     centres: Array
     rotations: Array
     stretches: Array
@@ -55,7 +62,6 @@ class SpringRun:
     translation: Array
     rotation: Array
     spring: Array
-    evaluations: int
 
     @property
     def paper_energy(self) -> Array:
@@ -67,15 +73,81 @@ class SpringRun:
         """Kinetic energy and that of the springs, (n,) in J: conserved without damping, shock and external force."""
         return self.paper_energy + self.spring.sum(0)
 
+    def quantities(self) -> dict[str, Quantity]:
+        """What the run holds, and its energy."""
+        held = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
+        return held | {"energy": Quantity(self.energy, ("t",), "J")}
+
+    def plot(self) -> Any:
+        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
+        from lagrotor.drawing.run_figure import run_figure
+
+        return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
+
+    def animate(self, path: str | Path, fps: float = 25.0) -> Path:
+        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there: splines through what was read."""
+        from scipy.interpolate import CubicSpline
+        from scipy.spatial.transform import Rotation, Slerp
+
+        from lagrotor.drawing.film import FilmedMotion, check_film, film_motion, frame_times
+
+        check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
+        times = frame_times(self.t[0], self.t[-1], fps)
+        turned = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
+        tips, centres = (CubicSpline(self.t, part, axis=1)(times) for part in (self.tips, self.centres[:2]))
+        length = float(np.linalg.norm(self.tips[0, 0] - self.feet[0, 0]))
+        spins = float(self.spins[0, 0]), float(self.spins[1, 0])
+        moving = FilmedMotion(times, turned, tips, centres, self.feet[:, 0], length, spins, len(self.centres) > 2)
+        return film_motion(moving, path, fps, lambda name: None)
+
+    @staticmethod
+    def load(path: str | Path) -> "SpringRun":
+        """The run that `save` wrote as `.npz`. Raises InputError where that is not what the file is."""
+        _, held, known = read_run(path)
+        n = len(known["t"])
+        sizes: dict[str, int] = {"t": n, "rotor": 2, "component": 3, "row": 3}
+        try:
+            parts: dict[str, Any] = {name: held[name] for name in _QUANTITIES}
+            for name, part in parts.items():
+                for axis, size in zip(_QUANTITIES[name][0], part.shape, strict=True):
+                    if sizes.setdefault(axis, size) != size:
+                        raise ValueError(f"{name} has shape {part.shape}")
+                if not np.isfinite(part).all():
+                    raise ValueError(f"{name} holds a number that is not finite")
+        except (KeyError, ValueError) as refusal:
+            raise InputError(
+                f"load: {path} is no run of bodies on springs ({refusal}): give a file that `save` wrote"
+            ) from None
+        return SpringRun(**parts, **known)
+
+
+_OF_ROTORS, _OF_BODIES, _OF_LINKS = ("rotor", "t", "component"), ("body", "t"), ("link", "t")
+_QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
+    "axes": (_OF_ROTORS, "1"),
+    "rates": (_OF_ROTORS, "1/s"),
+    "tips": (_OF_ROTORS, "m"),
+    "feet": (_OF_ROTORS, "m"),
+    "spins": (("rotor", "t"), "rad/s"),
+    "centres": ((*_OF_BODIES, "component"), "m"),
+    "rotations": ((*_OF_BODIES, "component", "row"), "1"),
+    "stretches": (_OF_LINKS, "m"),
+    "momentum": (("t", "component"), "kg m/s"),
+    "angular_momentum": (("t", "component"), "kg m²/s"),
+    "translation": (_OF_BODIES, "J"),
+    "rotation": (_OF_BODIES, "J"),
+    "spring": (_OF_LINKS, "J"),
+}
+
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
     """Move a copy of `system` from t[0] by the paper's step and read it at the times `t` (n,), whole multiples of dt.
 
     The shock of step k has its strength at k dt, as in the paper's loop. `step_limit` says which dt is stable; one
-    above it is run all the same, for as long as it lasts.
+    above it is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What was reached
+    is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
 
     Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
-    miss it); IntegrationError when the state is not a number, or beyond LOST.
+    miss it).
     """
     times = check_times(t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
@@ -88,7 +160,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
             f"run_steps: dt = {dt:g} s steps over a shock of width {shock.width:g} s; take dt well below it"
         )
     step, state, k, at = step_function(system, shock, dt), system.state.tolist(), counts[0], shock.at if shock else 0.0
-    seen = []
+    states, ending = [], Ending("end", float(times[-1]))
     with np.errstate(over="ignore", invalid="ignore"):
         for count in counts:
             try:
@@ -98,12 +170,20 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
             except OUT_OF_RANGE:
                 state = [nan]  # which arrays would hold here
             if not hypot(*state) < LOST:
-                raise IntegrationError(
-                    f"run_steps: the state is not a number, or beyond {LOST:g}, at t = {k * dt:.6g} s with dt = {dt:g} "
-                    f"s; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
+                reason = f"the state is not a number, or beyond {LOST:g}, with dt = {dt:g} s"
+                if system.joints:
+                    reason += (
+                        f"; the longest stable step is {step_limit(system).whole:.4g} s at the start: take dt below it"
+                    )
+                ending = Ending("stopped", float(k * dt), reason)
+                warnings.warn(
+                    f"run_steps: it ended early: {ending}; it holds what was reached", LagrotorWarning, stacklevel=2
                 )
-            seen.append(state)
-    return _read(system, times, np.array(seen), int(k - counts[0]))
+                break
+            states.append(state)
+    n = len(states)
+    known = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
+    return _run_of(system, times[:n], np.array(states), known)
 
 
 def run_solver(
@@ -111,42 +191,83 @@ def run_solver(
 ) -> SpringRun:
     """Move a copy of `system` from t[0] by one of scipy's solvers, the same forces without the error of a fixed step.
 
-    State X, U, R, L of every body, with R' = [Omega]× R. tol: relative and absolute local error / 20. The run is cut at
+    State X, U, R, L of every body, with R' = [Omega]× R. tol: the largest error of the whole run, estimated as of every run: of
+    the places in units of the largest body, and of R; a LagrotorWarning says where it is not kept. The run is cut at
     the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
     method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
 
-    Raises InputError for bad times, tolerance or method, IntegrationError when the solver cannot go on.
+    Raises InputError for bad times, tolerance or method, IntegrationError when nothing can be reached.
     """
-    from scipy.integrate import solve_ivp
-
-    times, error = check_times(t), check_tolerance(tol) / 20
+    times, tolerance, begin = check_times(t), check_tolerance(tol), float(check_times(t)[0])
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
-    rate = rate_function(system, shock)
+    rate, n_b = rate_function(system, shock), len(system.vertices)
+    size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
-    since_peak = times - at
-    begin, end = float(since_peak[0]), float(since_peak[-1])
-    y = system.state[: 18 * len(system.vertices)]
-    states, evaluations = np.empty((len(times), len(y))), 0
-    states[since_peak == begin] = y
-    for left, right, pulsed in segments(begin, end, width):
+    stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
+    turn = (
+        2 * pi / max(sqrt(stiff), float(np.linalg.norm(system.Omega, axis=1).max()), 1 / max(times[-1] - begin, 1e-300))
+    )
+
+    def distance(one: Array, other: Array) -> Array:
+        places, turned = (np.split(part, [3 * n_b, 9 * n_b], axis=1)[::2] for part in (one, other))
+        apart = [
+            (a - b).reshape(len(one), n_b, -1) / unit for a, b, unit in zip(places, turned, (size, 1.0), strict=True)
+        ]
+        return np.maximum(*(np.linalg.norm(part, axis=-1).max(axis=1) for part in apart))
+
+    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        return _solved(rate, shock, at, width, start, times, local, companion, budget, method)
+
+    evolution = Evolution(system.state[: 18 * n_b], integrate, distance, turn, Patience(50_000, 2_000))
+    run = estimate_run(evolution, times, tolerance)
+    run.warn_unless_kept("run_solver", tolerance)
+    known = {"errors": run.errors, "horizon": run.horizon, "evaluations": run.evaluations, "ending": run.ending}
+    return _run_of(system, run.t, run.states, known)
+
+
+def _solved(
+    rate: OfState, shock: Shock | None, at: float, width: float, y: Array, times: Array, local: float, companion: bool,
+    budget: float, method: str,
+) -> Stretch:  # fmt: skip
+    """One integration by scipy's solver from times[0], cut at the shock's edges. Raises StopError."""
+    from scipy.integrate import solve_ivp
+
+    error, spent, parts = local / 20, 0, [y[None]]
+
+    def counted(s: float, y: Array, acting: Shock | None) -> list[float]:
+        nonlocal spent
+        spent += 1
+        if spent > budget:
+            raise StopError(at + s, f"{spent} evaluations spent", None, spent, "budget")
+        return rate(y.tolist(), _strength(acting, s))
+
+    since_peak, reached = times - at, 1
+    for left, right, pulsed in segments(float(since_peak[0]), float(since_peak[-1]), width):
         if right <= left:
             continue
-        options: dict[str, Any] = {"max_step": width} if pulsed else {}
-        inside = (since_peak > left) & (since_peak <= right)
-        t_eval, acting = np.union1d(since_peak[inside], [right]), shock if pulsed else None
-        found = solve_ivp(
-            lambda s, y, acting: rate(y.tolist(), _strength(acting, s)), (left, right), y, method=method, args=(acting,),
-            t_eval=t_eval, rtol=max(error, 2.3e-14), atol=error, **options,
-        )  # fmt: skip
-        if not found.success or not np.isfinite(found.y).all():
-            raise IntegrationError(
-                f"run_solver: {method} stopped between t = {at + left:.6g} and {at + right:.6g} s ({found.message}); "
-                "lower S or D, or take a larger tol"
-            )
-        states[inside], y = found.y.T[: inside.sum()], found.y[:, -1]
-        evaluations += found.nfev
-    return _read(system, times, states, evaluations)
+        longest = {"max_step": width * (COMPANION_STEP if companion else 1.0)} if pulsed else {}
+        inside = since_peak[(since_peak > left) & (since_peak <= right)]
+        solved, reason = None, ""
+        try:
+            solved = solve_ivp(
+                counted, (left, right), y, method=method, args=(shock if pulsed else None,),
+                t_eval=np.union1d(inside, [right]), rtol=max(error, 2.3e-14), atol=error, **longest,
+            )  # fmt: skip
+        except StopError as stop:
+            made = np.concatenate(parts)
+            raise StopError(
+                float(times[reached - 1]), stop.reason, Stretch(made, made[-1], spent), cause="budget"
+            ) from None
+        except OUT_OF_RANGE as failure:
+            reason = str(failure)
+        if not solved or not solved.success or not np.isfinite(solved.y).all():
+            made = np.concatenate(parts)
+            reason = f"{method}: {solved.message if solved else reason}; lower S or D, or take a larger tol"
+            raise StopError(float(times[reached - 1]), reason, Stretch(made, made[-1], spent))
+        parts.append(solved.y.T[: len(inside)])
+        y, reached = solved.y[:, -1], reached + len(inside)
+    return Stretch(np.concatenate(parts), y, spent)
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> OfState:
@@ -204,7 +325,7 @@ def _strength(shock: Shock | None, s: float) -> float:
     return exp(-ratio * ratio)
 
 
-def _read(system: RigidBodySystem, t: Array, states: Array, evaluations: int) -> SpringRun:
+def _run_of(system: RigidBodySystem, t: Array, states: Array, known: dict[str, Any]) -> SpringRun:
     """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
@@ -212,12 +333,14 @@ def _read(system: RigidBodySystem, t: Array, states: Array, evaluations: int) ->
     X, U, L = states[:, : 9 * n_b].reshape(n, 3, n_b, 3).swapaxes(0, 1)
     R = states[:, 9 * n_b : 18 * n_b].reshape(n, n_b, 3, 3)
     Omega = (system.transform(R, system.inverse_inertia[:-1]) @ L[..., None])[..., 0]
-    axes, rates, tips = [], [], []
+    axes, rates, tips, feet, spins = [], [], [], [], []
     for i, vertices in enumerate(system.vertices[:2]):
         bottom, top = vertices[0], vertices[TIP - 1]
         axes.append(R[:, i] @ ((top - bottom) / np.linalg.norm(top - bottom)))
         rates.append(np.cross(Omega[:, i], axes[i]))
         tips.append(X[:, i] + R[:, i] @ top)
+        feet.append(X[:, i] + R[:, i] @ bottom)
+        spins.append((Omega[:, i] * axes[i]).sum(-1))
     held = (np.broadcast_to(part[-1:], (n, *part[-1:].shape)) for part in (system.X, system.R))
     places = (np.concatenate((part, ground), axis=1) for part, ground in zip((X, R), held, strict=True))
     stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
@@ -227,6 +350,8 @@ def _read(system: RigidBodySystem, t: Array, states: Array, evaluations: int) ->
         axes=np.array(axes),
         rates=np.array(rates),
         tips=np.array(tips),
+        feet=np.array(feet),
+        spins=np.array(spins),
         centres=X.swapaxes(0, 1),
         rotations=R.swapaxes(0, 1),
         stretches=stretches,
@@ -235,5 +360,5 @@ def _read(system: RigidBodySystem, t: Array, states: Array, evaluations: int) ->
         translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
         rotation=(Omega * L).sum(-1).T / 2,
         spring=system.stiffness * stretches**2 / 2,
-        evaluations=evaluations,
+        **known,
     )

@@ -152,6 +152,11 @@ class RigidBodySystem:
         rest = state[18 * n :].reshape(-1, 3)
         self.Omega = np.concatenate((rest, self.Omega[-1:])) if len(rest) else self.angular_velocity()
 
+    @property
+    def joints(self) -> int:
+        """How many links there are."""
+        return len(self._incidence)
+
     def joint_mobility(self) -> Array:
         """W (3 n_links, 3 n_links) in 1/kg: acceleration of the gaps by unit forces in the links, at this position.
 
