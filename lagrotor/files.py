@@ -73,7 +73,8 @@ def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, An
     """Write arrays as .npz with a description: `about`, the version, and a digest of the whole, as JSON."""
     import numpy as np
 
-    described, rows = {**about, "lagrotor": __version__}, {k: np.ascontiguousarray(a) for k, a in arrays.items()}
+    rows: dict[str, Any] = {name: np.ascontiguousarray(values) for name, values in arrays.items()}
+    described = {**about, "lagrotor": __version__}
     described["digest"] = _digest(described, rows)
     return write_beside(target, lambda file: np.savez_compressed(file, about=json.dumps(described), **rows))
 
