@@ -19,17 +19,15 @@ import sympy as sp
 
 from lagrotor import Link, Rotor, Scene, Structure, Trajectory, consistent_scene, simulate, sweep
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.mechanics import System, coordinates
+from lagrotor.mechanics import System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation as system_door
-from lagrotor.mechanics.running.simulation import SystemRun
-from lagrotor.models import paper_system, run_solver
-from lagrotor.models.spring_link.run import SpringRun
+from lagrotor.models import SpringRun, paper_system, run_solver
 from lagrotor.numerics import estimated_run
 from lagrotor.numerics.any_run import Ending, Run
 from lagrotor.numerics.estimated_run import EstimatedRun
 from lagrotor.numerics.rotations import turn_about
+from lagrotor.structures import StructureRun
 from lagrotor.structures.exact import simulating as structure_door
-from lagrotor.structures.exact.structure_run import StructureRun
 from tests.mechanics.running.references import EXTENDED, drawn, extrapolated
 from tests.structures.extended import exact as exact_structure
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from lagrotor.models.spring_link.rigid_body import printed_inertia_transform as printed_inertia_transform
     from lagrotor.models.spring_link.rigid_body import printed_rotation as printed_rotation
     from lagrotor.models.spring_link.rigid_body import rotation_between as rotation_between
+    from lagrotor.models.spring_link.run import SpringRun as SpringRun
     from lagrotor.models.spring_link.run import run_solver as run_solver
     from lagrotor.models.spring_link.run import run_steps as run_steps
     from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem

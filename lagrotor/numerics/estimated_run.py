@@ -1,9 +1,9 @@
 """The contract of runs: a motion integrated twice, at two tolerances, in stages, and what is known of its error.
 
 SAFETY times the difference of the two runs is taken for the error of the better one, its square where rounding may be most of
-it. It is also how far neighbouring motions part: where it exceeds the tolerance, the run has reached its horizon. Where it
-exceeds LOST, nothing is known any more: there the comparison ends, and the better run goes on alone. What the motion
-conserves must be kept as well as the error allows.
+it, and more where what they conserve, or their cost, says that both are off by nearly the same. It is also how far neighbouring
+motions part: where it exceeds the tolerance, the run has reached its horizon. Where it exceeds LOST, nothing is known any more:
+there the comparison ends, and the better run goes on alone. What the motion conserves must be kept as well as the error allows.
 """
 
 import warnings
@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.estimate_constants import (
+    ALIKE,
     APART,
     BEYOND,
+    CHEAPER,
     FIRST,
     GIVEN_UP,
     KEPT,
@@ -35,6 +37,7 @@ from lagrotor.numerics.estimate_constants import (
     STAGE,
     START,
     SWING,
+    TELLING,
 )
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
@@ -245,7 +248,7 @@ def start_beside(start: Array, unsure: float = 1.0) -> Array:
 def estimated_errors(
     apart: Array, local: float, turns: Array, refused: bool = False, independent: bool = False
 ) -> Array:
-    """Errors (…, n) of the better of two runs that are `apart` (…, n), its local error, after so many turns (…, n).
+    """Errors (n,) of the better of two runs that are `apart` (n,), its local error, after so many turns (n,).
 
     refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED.
     independent: of the two, as `Evolution` has it.
@@ -377,8 +380,9 @@ def _following(course: _Course, comparison: _Comparison, tol: float) -> Generato
 
 def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Generator[Leg, Stretch, _Comparison]:
     """The two up to the stage in which they part or one stops; refused if the better one does not conserve what it must."""
-    evolution, parts, alone = course.evolution, list[Array](), list[NDArray[np.bool_]]()
-    reached, farther, lost, stop = list[Array](), 0.0, inf, None
+    evolution, pairs, lost, stop = course.evolution, list[tuple[Array, Array]](), inf, None
+    alone = list[NDArray[np.bool_]]()  # where one of the two has passed an event that the other has not
+    parts, farther, spent = list[Array](), 0.0, (0, 0)
     for n, t in enumerate(course.stages):
         one = yield from _states(course, loose, n, None)
         stop = loose.stops[0] if len(loose.stages) <= n else None
@@ -387,32 +391,61 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
             break
         other = yield from _states(course, tight, n, loose)
         stop = tight.stops[0] if len(tight.stages) <= n else stop
-        m = min(len(one.states), len(other.states))
-        one_states, states, at = one.states[:m], other.states[:m], t[:m]
+        m, spent = min(len(one.states), len(other.states)), (spent[0] + one.evaluations, spent[1] + other.evaluations)
+        pairs.append((one.states[:m], other.states[:m]))
         passed = [
-            np.searchsorted([jump for part in (*run.stages[:n], last) for jump in part.jumps], at, side="right")
+            np.searchsorted([jump for part in (*run.stages[:n], last) for jump in part.jumps], t[:m], side="right")
             for run, last in ((loose, one), (tight, other))
         ]
-        apart = evolution.distance(one_states, states)
-        refused = bool(course.refused)
-        parts.append(estimated_errors(apart, tight.local, course.turns(at), refused, evolution.independent))
         alone.append(passed[0] != passed[1])
-        reached.append(states)
         together = ~alone[-1]
         if evolution.difference and together.any():
-            farther = max(farther, evolution.difference(one_states[together], states[together]))
-        lost = _first(at, (parts[-1] > LOST.value) & together)
+            farther = max(farther, evolution.difference(*(states[together] for states in pairs[-1])))
+        parts.append(evolution.distance(*pairs[-1]))
+        errors = estimated_errors(
+            parts[-1], tight.local, course.turns(t[:m]), bool(course.refused), evolution.independent
+        )
+        lost = _first(t[:m], (errors > LOST.value) & together)
         if lost < inf or stop:
             break
-    errors, between = np.concatenate([np.empty(0), *parts]), np.concatenate([np.empty(0, bool), *alone])
-    grown = errors_up_to(course.t[: len(errors)], np.where(between, 0.0, errors), np.array(evolution.turn))
+    apart = np.concatenate([np.empty(0), *parts])
+    if not len(apart):
+        return _Comparison(loose, tight, len(pairs), apart, lost, stop)
+    t, off, between = course.t[: len(apart)], None, np.concatenate(alone)
+    looser, better = (np.concatenate(states) for states in zip(*pairs, strict=True))
+    finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(apart).all())
+    if evolution.defect and finite and not (stop and evolution.elsewhere):
+        off = evolution.defect(t, looser), evolution.defect(t, better)
+    alike = _alike(spent, off, TELLING.value * ROUNDING.value * (START.value + float(course.turns(t[-1]))))
+    errors = estimated_errors(alike * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent)
+    grown = errors_up_to(t, np.where(between, 0.0, errors), np.array(evolution.turn))
+    known = max(float(grown[-1]) / alike, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.
     refusal: IntegrationError | None = stop
-    if len(grown) and not (refusal and course.evolution.elsewhere):
-        wrong = _not_conserving(course, np.concatenate(reached), max(float(grown[-1]), tight.local, farther))
-        refusal = wrong or refusal
-    return _Comparison(loose, tight, len(parts), errors, lost, refusal)
+    if not (stop and evolution.elsewhere):
+        way_out = "take other coordinates or a smaller tol" if evolution.elsewhere else "take a smaller tol"
+        if not finite:
+            refusal = IntegrationError(f"a value is not finite: {way_out}")
+        elif off and off[1] > KEPT.value * known:
+            refusal = IntegrationError(
+                f"what the motion conserves is off by as much as an error of {off[1]:.1e} makes, although {known:.1e} is "
+                f"estimated: the run followed another motion; {way_out}"
+            )
+    return _Comparison(loose, tight, len(pairs), errors, lost, refusal)
+
+
+def _alike(spent: tuple[int, int], off: tuple[float, float] | None, rounding: float) -> float:
+    """How many times the difference of two runs counts, from 1 on, as both may be off by nearly the same.
+
+    Errors e and share e differ by (1 − share) e: the better one's is share/(1 − share) times the difference, of two runs that do
+    as their tolerances say a fourth, which SAFETY allows for. off: what both are off conserving, a second measure of their
+    errors, where rounding is not all that it is. spent: their evaluations.
+    """
+    share = CHEAPER.value if spent[1] < spent[0] else 0.0
+    if off and off[1] > rounding:
+        share = max(share, min(off[1] / max(off[0], off[1]), ALIKE.value))
+    return max(1.0, share / (1 - share))
 
 
 def _states(
@@ -424,22 +457,6 @@ def _states(
     except StopError as stop:
         nothing = Stretch(np.empty((0, len(course.evolution.start))), course.evolution.start, 0)
         return (stop.reached or nothing) if len(run.stages) == n else nothing
-
-
-def _not_conserving(course: _Course, states: Array, error: float) -> IntegrationError | None:
-    """What is wrong with states that do not conserve what they must as well as their error allows; None where nothing is."""
-    way_out = "take other coordinates or a smaller tol" if course.evolution.elsewhere else "take a smaller tol"
-    if not (np.isfinite(states).all() and np.isfinite(error)):
-        return IntegrationError(f"a value is not finite: {way_out}")
-    if course.evolution.defect is None:
-        return None
-    defect = course.evolution.defect(course.t[: len(states)], states)
-    if defect <= KEPT.value * error:
-        return None
-    return IntegrationError(
-        f"what the motion conserves is off by as much as an error of {defect:.1e} makes, although {error:.1e} is "
-        f"estimated: the run followed another motion; {way_out}"
-    )
 
 
 def _whole(course: _Course, best: _Comparison, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:

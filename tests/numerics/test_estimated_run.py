@@ -257,6 +257,32 @@ def test_what_is_conserved_is_held_to_the_error() -> None:
         Made(share=np.nan).run(1e-6, elsewhere=True)
 
 
+def test_a_better_run_that_conserves_no_better_is_no_better() -> None:
+    """Errors e and share e are (1 − share) e apart: 3 times the difference is too little for a share above three quarters."""
+    error = Made(share=0.01).run(1e-6).errors[-1]
+
+    def told(looser: float, better: float) -> float:
+        off = iter((looser, better))
+        return float(Made(share=0.01).run(1e-6, defect=lambda t, y: next(off)).errors[-1]) / error
+
+    assert [told(1e-9, share * 1e-9) for share in (0.2, 0.5)] == pytest.approx([1, 1])
+    assert told(1e-9, 0.75e-9) == pytest.approx(3, rel=1e-3)
+    assert [told(1e-9, 1e-9), told(1e-9, 3e-9)] == pytest.approx([5, 5], rel=1e-3)
+    below, above = (factor * 10 * ROUNDING * (START + 10) for factor in (0.9, 1.1))
+    assert told(below, below) == pytest.approx(1) and told(above, above) == pytest.approx(5, rel=1e-3)
+
+
+def test_a_better_run_that_costs_less_is_by_another_method() -> None:
+    class Cheaper(Made):
+        def __call__(self, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+            return replace(
+                super().__call__(start, times, local, companion, budget), evaluations=100 if companion else self.cost
+            )
+
+    told = [Cheaper(share=0.01, cost=cost).run(1e-6).errors[-1] for cost in (101, 100, 99)]
+    assert told[0] == told[1] and told[2] == pytest.approx(2 * told[0], rel=1e-3)
+
+
 def test_a_run_is_read_at_any_time_by_its_own_integration() -> None:
     made = Made(share=0.1)
     run = made.run(1e-6)
