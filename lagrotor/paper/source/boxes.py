@@ -69,7 +69,7 @@ _NOTHING = (
     "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
     "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
     "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces", "left.", "right.", "it@",
-    "upshape", "rmfamily", "normalfont", "textstyle@", "par", "protect", "break", "penalty", "raggedright",
+    "upshape", "rmfamily", "normalfont", "textstyle@", "par", "qedhere", "protect", "break", "penalty", "raggedright",
 )  # fmt: skip
 _DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
 _OPERATORS = {
@@ -616,6 +616,11 @@ class _Reader:
         self.plain()
         return [Box("thin", "", item.at, self.end)]
 
+    def _line_end(self, item: Token, style: str) -> list[Box]:
+        """A line of a display that has one line only: TeX passes over it."""
+        self.bracketed()
+        return [Box("wide", "", item.at, self.end)]
+
     def _pmod(self, item: Token, style: str) -> list[Box]:
         raise FormulaError(item.at, r"\pmod is not read", "keep it aside")
 
@@ -678,5 +683,6 @@ _FORMS: dict[str, Form] = {
     "substack": _Reader._substack,
     **dict.fromkeys(("label", "cite", "vspace", "tag"), _Reader._label),
     "hspace": _Reader._hspace,
+    "\\": _Reader._line_end,
     "pmod": _Reader._pmod,
 }

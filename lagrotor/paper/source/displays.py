@@ -92,7 +92,11 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
     found = Source(title)
     try:
-        _Walker(text, file, found).read()
+        walker = _Walker(text, file, found)
+        walker.read()
+        if walker.only_cited:  # what has a number is known at the end
+            found = Source(title)
+            _Walker(text, file, found, numbered=walker.referred).read()
     except RecursionError:
         raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None
     return found
@@ -101,7 +105,7 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
 class _Walker:
     """Walks through the expanded tokens and keeps the counters that LaTeX keeps."""
 
-    def __init__(self, text: str, file: Path | None, found: Source) -> None:
+    def __init__(self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None) -> None:
         whole = r"\documentclass" in text
         self.expander = Expander(text, file, packages.commands((), everything=not whole))
         self.found, self.whole = found, whole
@@ -110,7 +114,9 @@ class _Walker:
         self.parent = ""
         self.cited: list[str] = []  # labels named since the last display
         self.ids: set[str] = set()
-        self.only_cited = False
+        self.only_cited = False  # \mathtoolsset{showonlyrefs}
+        self.referred: set[str] = set()  # by \eqref
+        self.numbered = numbered  # labels that have a number; None: all
         self.body = not whole
 
     @property
@@ -156,9 +162,10 @@ class _Walker:
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset":
             self.only_cited = "showonlyrefs" in latex_of(self.expander.argument())
-        elif name in ("eqref", "ref", "cref", "Cref", "autoref"):
-            labels = self._name()
-            self.cited += [label.strip() for label in labels.split(",")]
+        elif name in ("eqref", "refeq", "ref", "cref", "Cref", "autoref"):
+            labels = [label.strip() for label in self._name().split(",")]
+            self.cited += labels
+            self.referred.update(labels if name in ("eqref", "refeq") else ())
 
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
@@ -358,6 +365,9 @@ class _Walker:
 
     def _finish(self, row: Row, by_rows: bool) -> None:
         """The number of a row that has ended."""
+        if self.numbered is not None and row.numbered and not self.numbered & set(row.labels):
+            self._withdraw(row)
+            row.numbered, row.referred = False, ""
         if row.tag:
             row.number = row.tag
         elif row.numbered:

@@ -4,6 +4,7 @@ Nothing is executed: definitions are lists of tokens, and their expansion is bou
 """
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +14,7 @@ from lagrotor.files import read_text
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
-# Expansions in a row before a token of the source is taken, and tokens that wait; beyond, a macro calls itself without end.
+# Expansions of what stands at one place, and tokens that wait; beyond, a macro calls itself without end.
 _MOST_EXPANSIONS, _MOST_TOKENS, _MOST_FILES = 20_000, 2_000_000, 500
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
@@ -79,13 +80,16 @@ class Expander:
         self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
         self.macros = ScopedMacros()
         self.ended = False
+        self.original = False  # whether the environment that comes next is the one that the source has defined anew
+        self.theorems: dict[str, str] = {}  # environments that count: their counter
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
         self.loaded: set[str] = set()
         self.document_class = ""
         self.notes: list[str] = []
-        self.depth = self.files = self.expansions = 0
+        self.depth = self.files = 0
+        self.expansions: Counter[int] = Counter()  # by place: what a macro stands for has the place of the macro
         self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
         self.starts: list[tuple[int, str, list[int]]] = []  # where each file begins, its name, its ends of lines
         self.end = 0
@@ -118,7 +122,6 @@ class Expander:
             if self.waiting[-1]:
                 return self.waiting[-1].pop()
             self.waiting.pop()
-            self.expansions = 0
         return None
 
     def push(self, tokens: Iterable[Token]) -> None:
@@ -252,7 +255,7 @@ class Expander:
         name = token.text
         macro = self.macros.get(name)
         if macro is not None:
-            self._count(name)
+            self._count(name, token.at)
             self.push(self._body(macro, token))
             return True
         command = self.own.get(name) or self.packages.get(name)
@@ -260,7 +263,7 @@ class Expander:
             given = command(self)
             if given is None:
                 return False
-            self._count(name)
+            self._count(name, token.at)
             self.push(Token(t.kind, t.text, token.at) for t in given)
             return True
         if name in _HANDLERS:
@@ -280,9 +283,9 @@ class Expander:
                 return True
         return False
 
-    def _count(self, name: str) -> None:
-        self.expansions += 1
-        if self.expansions > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > self.most:
+    def _count(self, name: str, at: int) -> None:
+        self.expansions[at] += 1
+        if self.expansions[at] > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > self.most:
             raise InputError(
                 f"{self.file or 'the source'}: {name} expands without end: a macro that calls itself cannot be taken in"
             )
@@ -319,15 +322,59 @@ class Expander:
         return made
 
     def _by_spec(self, letter: str, default: list[Token]) -> list[Token]:
-        if letter in "oO":
-            given = self.optional()
-            return default if given is None else given
         if letter == "s":
             return [Token("text", "*" if self.star() else "", 0)]
-        if letter in "dD":
-            given = self.delimited("(", ")")
-            return default if given is None else given
+        if letter in "oOdD":
+            given = self.optional() if letter in "oO" else self.delimited("(", ")")
+            return given if given is not None else default if letter in "OD" else [_NO_VALUE]
         return self.argument()
+
+    def _if_value(self, token: Token) -> bool:
+        r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
+        tested = self.argument()
+        if token.text.startswith(r"\IfBoolean"):
+            holds = latex_of(tested).strip() == "*"
+        else:
+            holds = (_NO_VALUE in tested) == token.text.startswith(r"\IfNoValue")
+        ending = re.search("T?F?$", token.text)[0]  # type: ignore[index]
+        branches = {letter: self.argument() for letter in ending}
+        self.push(branches.get("T" if holds else "F", ()))
+        return True
+
+    def _if_then_else(self, token: Token) -> bool:
+        r"""\ifthenelse{\boolean{long}}{…}{…}; what cannot be known is taken as false."""
+        test, yes, no = latex_of(self.argument()).strip(), self.argument(), self.argument()
+        denied = re.match(r"\\(?:NOT|not)\b\s*", test)
+        bare = test[denied.end() :] if denied else test
+        said = re.fullmatch(r"\\boolean\s*\{(\w+)\}", bare)
+        same = re.fullmatch(r"\\equal\s*\{([^{}]*)\}\s*\{([^{}]*)\}", bare)
+        if said:
+            holds = self.flags.get(f"if{said[1]}", False)
+        elif same:
+            first, second = (latex_of(self.expand(tokenize(each))).strip() for each in same.groups())
+            holds = first == second
+        else:
+            self.notes.append(rf"\ifthenelse{{{test}}} is taken as false")
+            holds = bool(denied)
+        self.push(yes if holds != bool(denied) else no)
+        return True
+
+    def _boolean(self, token: Token) -> bool:
+        name = f"if{self.name()}"
+        self.flags[name] = token.text == r"\setboolean" and self.name() == "true"
+        return True
+
+    def _theorem(self, token: Token) -> bool:
+        r"""\newtheorem{name}[counter]{Title}[within]: an environment that counts."""
+        if self.star():
+            return True
+        name, shared = self.name(), self.optional()
+        self.argument()
+        within = self.optional()
+        self.theorems[name] = latex_of(shared).strip() if shared is not None else name
+        if shared is None:
+            self.counters.add(name, latex_of(within).strip() if within is not None else "")
+        return True
 
     def _take(self, part: Token) -> None:
         token = self.next()
@@ -475,10 +522,25 @@ class Expander:
         self.macros[name] = Macro(tuple(body), tuple(head), None if default is None else tuple(default))
         return True
 
+    def _target(self) -> Token | None:
+        r"""The command that is defined next, \csname … \endcsname too."""
+        self.skip_spaces()
+        token = self.next()
+        if token is None or token.text != r"\csname":
+            return token
+        name: list[Token] = []
+        while (part := self.next()) is not None and part.text != r"\endcsname":
+            name.append(part)
+        return Token("command", "\\" + latex_of(self.expand(name)).strip(), token.at)
+
+    def _named(self, token: Token) -> bool:
+        self.push([token])
+        made = self._target()
+        self.push([made] if made else [])
+        return True
+
     def _def(self, token: Token) -> bool:
-        target = self.next()
-        while target is not None and target.kind == "text" and not target.text.strip():
-            target = self.next()
+        target = self._target()
         head: list[Token] = []
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
@@ -494,16 +556,12 @@ class Expander:
         return True
 
     def _let(self, token: Token) -> bool:
-        self.skip_spaces()
-        target = self.next()
-        self.skip_spaces()
-        source = self.next()
+        target, source = self._target(), self._target()
         if source is not None and source.kind == "text" and source.text.startswith("="):
             rest = source.text[1:].lstrip()
             if rest:
                 self.push([Token("text", rest, source.at)])
-            self.skip_spaces()
-            source = self.next()
+            source = self._target()
         if source is not None and source.kind == "text" and len(source.text) > 1:
             self.push([Token("text", source.text[1:], source.at + 1)])
             source = Token("text", source.text[0], source.at)
@@ -562,9 +620,14 @@ class Expander:
         self.environments[name] = Macro(tuple(begin), head, None if default is None else tuple(default)), tuple(end)
         return True
 
+    def _environment_of(self, name: list[Token]) -> tuple[Macro, tuple[Token, ...]] | None:
+        known = None if self.original else self.environments.get(latex_of(name).strip())
+        self.original = False
+        return known
+
     def _begin(self, token: Token) -> bool:
         name = self.argument()
-        known = self.environments.get(latex_of(name).strip())
+        known = self._environment_of(name)
         if known is None and (command := self._command_of(latex_of(name).strip(), "", token.at)):
             self.macros.open()
             self.push([command])
@@ -572,15 +635,17 @@ class Expander:
         if latex_of(name).strip() != "document":
             self.macros.open()
         if known is None:
+            if (counter := self.theorems.get(latex_of(name).strip())) is not None:
+                self.counters.step(counter)
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
-        self._count(rf"\begin{{{latex_of(name)}}}")
+        self._count(rf"\begin{{{latex_of(name)}}}", token.at)
         self.push(self._body(known[0], token))
         return True
 
     def _end(self, token: Token) -> bool:
         name = self.argument()
-        known = self.environments.get(latex_of(name).strip())
+        known = self._environment_of(name)
         if known is None and (command := self._command_of(latex_of(name).strip(), "end", token.at)):
             self.push([command, Token("scope", "", token.at)])
             return True
@@ -588,7 +653,7 @@ class Expander:
             self.ended = latex_of(name).strip() != "document"
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
-        self._count(rf"\end{{{latex_of(name)}}}")
+        self._count(rf"\end{{{latex_of(name)}}}", token.at)
         self.push([*(Token(t.kind, t.text, token.at) for t in known[1]), Token("scope", "", token.at)])
         return True
 
@@ -601,6 +666,7 @@ class Expander:
         r"""\align and \endalign, as definitions of environments have them: what \begin{align} and \end{align} are."""
         name = token.text[1:]
         verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
+        self.original = token.kind == "primitive"
         self.push(tokenize(rf"{verb}{{{name}}}", token.at))
         return True
 
@@ -640,10 +706,10 @@ class Expander:
 
     def _use(self, token: Token) -> bool:
         self.optional()
-        for name in self.name().split(","):
-            name = name.strip()
-            self.loaded.add(name)
-            self.read_file(name, (".sty",))
+        for name in map(str.strip, self.name().split(",")):
+            if name not in self.loaded:  # TeX takes in a package once
+                self.loaded.add(name)
+                self.read_file(name, (".sty",))
         self.optional()
         return True
 
@@ -758,6 +824,8 @@ def _spec(text: str) -> Iterator[tuple[str, list[Token]]]:
         yield match[1], tokenize(match[2] or "")
 
 
+# What stands for an optional argument that is not given.
+_NO_VALUE = Token("command", r"\NoValue", 0)
 Handler = Callable[[Expander, Token], bool]
 _HANDLERS: dict[str, Handler] = {
     **dict.fromkeys(_DEFINITIONS, Expander._defined),
@@ -779,6 +847,15 @@ _HANDLERS: dict[str, Handler] = {
     **dict.fromkeys((r"\long", r"\global", r"\protected", r"\outer", r"\relax", r"\protect"), Expander._ignored),
     **dict.fromkeys((r"\makeatletter", r"\makeatother", r"\ensuremath@", r"\xspace"), Expander._ignored),
     **{rf"\{end}{name}": Expander._display for name in _DISPLAYS for end in ("", "end")},
+    **dict.fromkeys(
+        [rf"\If{test}{ending}" for test in ("Value", "NoValue", "Boolean") for ending in ("T", "F", "TF")],
+        Expander._if_value,
+    ),
+    **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), Expander._boolean),
+    r"\ifthenelse": Expander._if_then_else,
+    r"\newtheorem": Expander._theorem,
+    r"\csname": Expander._named,
+    r"\expandafter": Expander._ignored,
     r"\let": Expander._let,
     r"\DeclareMathOperator": Expander._operator,
     r"\DeclarePairedDelimiter": Expander._pair,

@@ -4,11 +4,13 @@ What the print leaves open and custom settles, the reading takes by custom and s
 is not read.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from lagrotor.paper.source.boxes import FormulaError, boxes
+from lagrotor.paper.source.boxes import Box, FormulaError, boxes
 from lagrotor.paper.source.read_expression import Grammar
 from lagrotor.paper.source.read_statements import PrintedStatement, read_statements
+from lagrotor.paper.source.rows import all_boxes
 from lagrotor.paper.source.usage import Notation
 
 
@@ -26,12 +28,23 @@ class Reading:
         return self.stop is None and bool(self.statements)
 
 
+def _lowered(row: list[Box]) -> Iterator[str]:
+    """The letters that stand in an index, in a mark, in a ket or by themselves on a side: no factors."""
+    for box in all_boxes(row):
+        held = [*(box.sub or []), *(box.sup or [])]
+        if box.kind == "bracket" and {box.name, box.closing} & {"|", r"\langle", r"\rangle", "<", ">"}:
+            held += box.parts[0]
+        yield from (each.name for each in held if each.kind == "letter")
+
+
 def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -> Reading:
     """The reading of a displayed formula; lead: the left side of the row before, which it continues."""
     source = f"{lead} {latex}" if lead else latex
     reader = Grammar(source, notation or Notation())
     try:
-        statements = tuple(read_statements(reader, boxes(source)))
+        row = boxes(source)
+        reader.lowered = frozenset(_lowered(row))
+        statements = tuple(read_statements(reader, row))
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:

@@ -12,7 +12,8 @@ from lagrotor.paper.source.usage import Notation
 class FormulaReader(ABC):
     """One formula that is read. guesses: what custom settled; bound: indices of the sums that are open here.
 
-    integrating, exponents: how many integrals, and powers of e, the place that is read lies in.
+    integrating, exponents: how many integrals, and powers of e, the place that is read lies in. lowered: what stands in an
+    index, a ket or a bound of this formula.
     """
 
     source: str
@@ -21,6 +22,7 @@ class FormulaReader(ABC):
     bound: list[str] = field(default_factory=list)
     integrating: int = 0
     exponents: int = 0
+    lowered: frozenset[str] = frozenset()
 
     @abstractmethod
     def expression(self, row: list[Box]) -> Node:

@@ -207,6 +207,28 @@ def _commutator(left: str, right: str) -> Package:
     return take
 
 
+def _between_states(expander: Expander) -> Iterable[Token]:
+    r"""\expval{A}, \expval{A}{\psi} of physics."""
+    expander.star()
+    inner = latex_of(expander.argument())
+    following = expander.peek()
+    if following is None or following.kind != "open":
+        return tokenize(rf"\left\langle {inner} \right\rangle ")
+    state = latex_of(expander.argument())
+    return tokenize(rf"\left\langle {state} \middle| {inner} \middle| {state} \right\rangle ")
+
+
+def _product_of_states(expander: Expander) -> Iterable[Token]:
+    r"""\braket{a}{b} of physics, \braket{a|b} of braket."""
+    expander.star()
+    bra = latex_of(expander.argument())
+    following = expander.peek()
+    ket = latex_of(expander.argument()) if following is not None and following.kind == "open" else ""
+    parts = [bra, ket] if ket else re.split(r"(?<!\\)\||\\(?:mid|vert)(?![A-Za-z])", bra)
+    inside = r" \middle| ".join(parts)
+    return tokenize(rf"\left\langle {inside} \right\rangle ")
+
+
 _FUNCTIONS = (
     r"\sin", r"\cos", r"\tan", r"\csc", r"\sec", r"\cot", r"\sinh", r"\cosh", r"\tanh", r"\arcsin", r"\arccos", r"\arctan",
     r"\exp", r"\log", r"\ln",
@@ -253,9 +275,14 @@ _PHYSICS: dict[str, Package] = {
     r"\vmqty": _as(r"\begin{vmatrix}#1\end{vmatrix}"),
     r"\ket": _as(r"\left| #1 \right\rangle "),
     r"\bra": _as(r"\left\langle #1 \right|"),
-    **dict.fromkeys((r"\braket",), _as(r"\left\langle #1 \right\rangle ")),
-    r"\ip": _as(r"\left\langle #1 \middle| #2 \right\rangle", 2),
-    r"\ev": _between(r"\langle", r"\rangle"),
+    **dict.fromkeys((r"\braket", r"\ip", r"\innerproduct"), _product_of_states),
+    **dict.fromkeys((r"\ev", r"\expval", r"\expectationvalue"), _between_states),
+    **dict.fromkeys(
+        (r"\mel", r"\matrixel", r"\matrixelement"), _as(r"\left\langle #1 \middle| #2 \middle| #3 \right\rangle ", 3)
+    ),
+    **dict.fromkeys(
+        (r"\ketbra", r"\dyad", r"\op", r"\outerproduct"), _as(r"\left| #1 \right\rangle\left\langle #2 \right| ", 2)
+    ),
     **{name: _function(name) for name in _FUNCTIONS},
 }
 
@@ -272,6 +299,12 @@ _SIUNITX: dict[str, Package] = {
     r"\num": _num,
     **dict.fromkeys((r"\si", r"\unit"), _only_unit),
     r"\ang": _as(r"#1^\circ "),
+}
+_BRAKET: dict[str, Package] = {
+    **dict.fromkeys((r"\ket", r"\Ket"), _as(r"\left| #1 \right\rangle ")),
+    **dict.fromkeys((r"\bra", r"\Bra"), _as(r"\left\langle #1 \right| ")),
+    **dict.fromkeys((r"\braket", r"\Braket"), _product_of_states),
+    r"\ketbra": _as(r"\left| #1 \right\rangle\left\langle #2 \right| ", 2),
 }
 _SMALL: dict[str, Package] = {
     **dict.fromkeys((r"\bm", r"\pmb"), _as(r"\boldsymbol{#1}")),
@@ -318,6 +351,8 @@ def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Packa
     found = dict(_SMALL)
     if everything or "siunitx" in names:
         found |= _SIUNITX
+    if everything or "braket" in names:
+        found |= _BRAKET
     if everything or names & {"physics", "physics2"}:
         found |= _PHYSICS
     elif "siunitx" in names:

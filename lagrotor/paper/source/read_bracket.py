@@ -7,7 +7,7 @@ from itertools import pairwise
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_advection
-from lagrotor.paper.source.read_scripts import power_of
+from lagrotor.paper.source.read_scripts import index_parts, power_of
 from lagrotor.paper.source.read_statements import read_statement
 from lagrotor.paper.source.rows import strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
@@ -25,11 +25,22 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         return Call("at_constant", (reader.expression(content), *held)), place + 1
     if pair == (".", "|") or (pair == ("[", "]") and box.sub and box.sup):
         return _evaluated(reader, box, content), place + 1
-    if box.sub is not None:
-        raise FormulaError(box.sub[0].at if box.sub else box.at, "a bracket has an index", "write what it means")
     if pair not in _ENCLOSED:
         raise FormulaError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
-    return power_of(reader, _ENCLOSED[pair](reader, box), box), place + 1
+    node = _ENCLOSED[pair](reader, box)
+    if box.sub is not None:
+        node = _indexed(reader, node, box)
+    return power_of(reader, node, box), place + 1
+
+
+def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
+    """A state or a mean that is named by its index, |0⟩_A; a component of a vector, (a × b)_i."""
+    index = index_parts(reader, box)
+    if isinstance(node, Call) and node.name in ("mean", "ket", "bra"):
+        return Call("_".join((node.name, *index)), node.args)
+    if box.name == "(" and is_vector(node) and all(len(part) <= 2 for part in index):
+        return Call("component", (node, *(number(i) if i.isdigit() else Letter(i) for i in index)))
+    raise FormulaError(box.at, "a bracket has an index", "write what it means")
 
 
 def _bars(reader: FormulaReader, box: Box) -> Node:
@@ -57,13 +68,12 @@ def _angles(reader: FormulaReader, box: Box) -> Node:
     if bars and bars[0] and not any(content[k].sub or content[k].sup for k in bars):
         parts = [content[a + 1 : b] for a, b in pairwise([-1, *bars, len(content)])]
         return Call("braket", tuple(_label(reader, each) for part in parts for each in arguments(part)))
-    if any(b.kind == "comma" for b in content):
-        raise FormulaError(box.at, "angle brackets with two parts are not read", "write the product in words")
-    return Call("mean", (reader.expression(content),))
+    held = tuple(reader.expression(part) for part in arguments(content))
+    return Call("mean" if len(held) == 1 else "inner", held)
 
 
 def _vector_of_state(reader: FormulaReader, box: Box) -> Node:
-    name = "ket" if box.name != r"\langle" else "bra"
+    name = "bra" if _PLAIN.get(box.name, box.name) == r"\langle" else "ket"
     return Call(name, tuple(_label(reader, part) for part in arguments(box.parts[0])))
 
 
@@ -91,6 +101,9 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
             raise FormulaError(
                 content[0].at if content else box.at, "a relation stands in brackets", "write it by itself"
             )
+        if box.name == "[" and _is_one_letter(content):
+            why = f"whether [{content[0].name}] is a dimension or the letter is open"
+            raise FormulaError(box.at, why, "leave the brackets out, or keep it aside")
         return reader.expression(content)
     if not all(parts):
         raise FormulaError(box.at, "a component is missing", "write it")
@@ -106,6 +119,11 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
     if box.name == r"\{" and name == "column":
         name = "set"
     return Call(name, tuple(map(reader.expression, parts)))
+
+
+def _is_one_letter(row: list[Box]) -> bool:
+    """Whether nothing but a letter is enclosed, which needs no brackets."""
+    return len(row) == 1 and row[0].kind == "letter" and row[0].sup is None and row[0].sub is None
 
 
 def _evaluated(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
@@ -127,12 +145,14 @@ def _evaluated(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
 # Names of the same bracket; what is between brackets that belong together.
 _PLAIN = (
     {r"\lbrace": r"\{", r"\rbrace": r"\}", r"\lbrack": "[", r"\rbrack": "]"}
+    | dict.fromkeys(("<", "⟨"), r"\langle")
+    | dict.fromkeys((">", "⟩"), r"\rangle")
     | dict.fromkeys((r"\vert", r"\lvert", r"\rvert"), "|")
     | dict.fromkeys((r"\Vert", r"\lVert", r"\rVert"), r"\|")
 )
 _ENCLOSED: dict[tuple[str, str], Callable[[FormulaReader, Box], Node]] = {
     ("(", ")"): _inside, ("[", "]"): _inside, (r"\{", r"\}"): _inside, (".", "."): _inside, ("|", "|"): _bars,
-    (r"\|", r"\|"): _double_bars, (r"\langle", r"\rangle"): _angles, ("<", ">"): _angles, ("⟨", "⟩"): _angles,
+    (r"\|", r"\|"): _double_bars, (r"\langle", r"\rangle"): _angles,
     ("|", r"\rangle"): _vector_of_state, (r"\langle", "|"): _vector_of_state,
     (r"\lfloor", r"\rfloor"): _rounded, (r"\lceil", r"\rceil"): _rounded,
 }  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of
+from lagrotor.paper.source.read_scripts import TENSOR, letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import (
     derivative_mark,
     has_differential_above,
@@ -16,6 +16,8 @@ from lagrotor.paper.source.rows import (
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, walk
 from lagrotor.paper.source.usage import arguments, simple_argument
+
+_INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
 
 
 def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -130,6 +132,8 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
     rest = strip(row[place:])
     if not rest or rest[0].kind == "operator":
         raise FormulaError(box.at, "the derivative has nothing to act on", "write what is differentiated")
+    if reader.integrating and (end := _differential_behind(row, place)):
+        return _operand(reader, row[:end], place, box)
     node, behind = reader.factor(rest, 0)
     remaining = without_thin(rest[behind:])
     if not remaining:
@@ -143,6 +147,12 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
         )
     reader.guesses.append("a derivative acts on the whole product that follows it")
     return reader.product(rest), len(row)
+
+
+def _differential_behind(row: list[Box], place: int) -> int:
+    """Where a differential follows, of which the derivative is not taken; 0 where there is none."""
+    behind = range(place + 1, len(row) - 1)
+    return next((k for k in behind if is_d(row[k], "d") and row[k + 1].kind in ("letter", "group", "thin")), 0)
 
 
 def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order: int, box: Box) -> Node:
@@ -169,6 +179,8 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
     order = _order(reader, box)
     variable = letter_of(reader, box.sub[0])[0]
+    if isinstance(variable, Letter) and variable.name in _INDICES and variable.name not in reader.notation.bare:
+        variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
 
@@ -179,7 +191,7 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     if box.sub is not None:
         raise FormulaError(box.at, "∇ has an index", "write the derivative")
     after = row[place + 1] if place + 1 < len(row) else box
-    if after.kind == "operator" and after.name in ("cdot", "times") and box.sup is None:
+    if after.kind == "operator" and after.name in ("cdot", "times", "wedge") and box.sup is None:
         node, behind = _operand(reader, row, place + 2, box)
         return Call("divergence" if after.name == "cdot" else "curl", (node,)), behind
     node, behind = _operand(reader, row, place + 1, box)

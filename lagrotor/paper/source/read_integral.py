@@ -21,11 +21,12 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
             if variable is None:
                 raise FormulaError(box.at, "the differential of the integral is not clear", "write d and its letter")
             inner_row = without_thin(rest)[variable[1] :]
-            inner: Node = reader.expression(inner_row) if inner_row else number(1)
+            further, start = _further(reader, inner_row, 0)
+            inner: Node = reader.expression(inner_row[start:]) if inner_row[start:] else number(1)
             differential, behind = variable[0], len(row)
         else:
             inner, differential = _taken_out(reader.expression(rest[:end]), box)
-            behind = place + 1 + end
+            behind, further = place + 1 + end, []
     finally:
         reader.integrating -= 1
     assert isinstance(differential, Call)
@@ -35,7 +36,26 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     elif box.sub is not None or box.sup is not None:
         bounds = [Letter("over_" + "_".join(re.findall(r"\w+", reader.source[(box.sub or box.sup)[0].at : box.end])))]  # type: ignore[index]
     variable_of = differential.args[0] if len(differential.args) == 1 else differential
+    if not reader.integrating and not before:
+        further, behind = _further(reader, row, behind)
+    if further:
+        if len(bounds) > 1 or (box.name == "int" and not bounds and variable_of is not differential):
+            why = "two differentials follow one integral"
+            raise FormulaError(box.at, why, "write as many integrals as differentials")
+        variable_of = Call("volume", (variable_of, *further))
     return Call("Integral", (inner, variable_of, *bounds)), behind
+
+
+def _further(reader: FormulaReader, row: list[Box], place: int) -> tuple[list[Node], int]:
+    """What else is integrated over, y and z of dx dy dz, and the place behind."""
+    variables: list[Node] = []
+    while True:
+        start = next((k for k in range(place, len(row)) if row[k].kind != "thin"), len(row))
+        made = read_differential(reader, row, start) if start < len(row) and row[start].name == "d" else None
+        if made is None or not isinstance(made[0], Call):
+            return variables, place
+        variables.append(made[0].args[0] if len(made[0].args) == 1 else made[0])
+        place = made[1]
 
 
 def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[int, bool]:
@@ -59,13 +79,6 @@ def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[
                 continue
             if place == first and any(b.kind not in ("thin",) for b in rest[target + 1 :]):
                 return target + 1, True
-            behind = without_thin(rest[target + 1 :])
-            if behind and behind[0].kind == "letter" and behind[0].name == "d":
-                raise FormulaError(
-                    behind[0].at,
-                    "two differentials follow one integral",
-                    "write as many integrals as differentials",
-                )
             return target + 1, False
         if (
             each.kind == "fraction"

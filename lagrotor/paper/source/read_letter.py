@@ -7,7 +7,7 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import strip, without_thin
-from lagrotor.paper.source.tree import Call, Letter, Node, number
+from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
 from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument
 
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
@@ -27,7 +27,7 @@ def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
     if box.name in ("i", "j", "imath") and not box.style and _is_imaginary(reader, row, place):
         return power_of(reader, Letter("imaginary_unit"), box), place + 1
     if box.name == "pi" and not box.primes and not (_may_call(row, place) and is_called(reader, box, row[place + 1])):
-        return power_of(reader, Letter("pi"), box), place + 1
+        return _pi(reader, row, place)
     return None
 
 
@@ -35,6 +35,13 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     box = row[place]
     if (special := _special(reader, row, place)) is not None:
         return special
+    if box.name == "delta" and box.sup and _may_call(row, place):  # \delta^3(x - y)
+        inner = reader.expression(row[place + 1].parts[0])
+        power = _dimension(box.sup, is_vector(inner))
+        if power is not None and box.sub is None and row[place + 1].sup is None:
+            if "delta" in reader.notation.bare:
+                raise FormulaError(box.at, "whether delta is Dirac's function or a power is open", "write \\cdot")
+            return Call(f"delta__{power}", (inner,)), place + 2
     if _may_call(row, place):
         called = is_called(reader, box, row[place + 1])
         if called is None:
@@ -47,11 +54,9 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             return _call(reader, box, row[place + 1]), place + 2
     if place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "[":
         inside = row[place + 1].parts[0]
-        if (
-            box.sup is None
-            and not any(b.kind == "operator" for b in inside[1:])
-            and not any(b.kind == "comma" for b in inside)
-        ):
+        listed = any(b.kind == "comma" for b in inside)
+        operators = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)  # A[B, C]
+        if box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:])):
             raise FormulaError(
                 box.at,
                 f"whether {box.name}[…] is a functional or a product is open",
@@ -69,6 +74,15 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     return (node if raised else power_of(reader, node, box)), place + 1
 
 
+def _dimension(row: list[Box], of_vector: bool) -> str | None:
+    """The dimension of Dirac's function: (3), 3, d, and 2 of a vector."""
+    said = len(row) == 1 and row[0].kind == "bracket" and len(row[0].parts[0]) == 1
+    if said:
+        row = row[0].parts[0]
+    plain = len(row) == 1 and row[0].kind in ("number", "letter") and row[0].sup is None and row[0].sub is None
+    return row[0].name if plain and (said or of_vector or row[0].name in ("3", "4", "d", "D")) else None
+
+
 def _may_call(row: list[Box], place: int) -> bool:
     return place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "("
 
@@ -82,7 +96,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     )
     if {box.name, key, plain} & known.functions:
         return True
-    if {box.name, key, plain} & known.letters:
+    if {box.name, key, plain} & known.letters or bracket.sub:
         return False
     if any(b.kind == "comma" and b.name != "." for b in content) or box.name == "O":
         return True
@@ -93,7 +107,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return False if several else None if evidence else (False if not simple_argument(content) else None)
     if any(b.kind == "relation" for b in top):
         return None
-    if simple_argument(content) and bracket.sup is None:
+    if simple_argument(content) and (bracket.sup is None or (evidence is not None and len(top) == 1)):
         return True if evidence is not None or any(b.kind == "letter" for b in top) else None
     if evidence is None:
         late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
@@ -102,7 +116,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return None if late or box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
     own = {b.name for b in top if b.kind == "letter"}
     if several:
-        return True if own & evidence and key not in known.bare else None
+        return True if key not in known.bare else None
     if bracket.sup is not None:
         return None
     return True if own & evidence or (not own and any(b.kind == "number" for b in top)) else None
@@ -127,6 +141,21 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     if not raised:
         node = power_of(reader, node, box)
     return power_of(reader, node, bracket)
+
+
+def _pi(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    """The number, but where the paper has a quantity of this name."""
+    box, known = row[place], reader.notation
+    if "pi" in known.letters:
+        return None
+    counted = place and row[place - 1].kind == "number"  # 2 pi
+    if known.pi_is_letter and "pi" not in known.numbers and not counted:
+        raise FormulaError(
+            box.at,
+            "whether pi is the number or a quantity is open",
+            'write in paper.toml [notation] numbers = "pi" or letters = "pi"',
+        )
+    return power_of(reader, Letter("pi"), box), place + 1
 
 
 def _euler(reader: FormulaReader, box: Box) -> bool:
@@ -173,7 +202,7 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
         return False
     if box.name in known.numbers or (box.upright and box.name == "i"):
         return True
-    if known.imaginary and box.name == "i" and (beside or reader.exponents or "i" not in known.lowered):
+    if known.imaginary and box.name == "i" and (beside or reader.exponents or "i" not in reader.lowered):
         reader.guesses.append("i is the imaginary unit")
         return True
     raise FormulaError(

@@ -75,6 +75,10 @@ def _check_power(reader: FormulaReader, box: Box) -> None:
             )
         if set(alike) - set("lmn") or set(alike) & known.lowered:
             reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
+    names = [b.name for b in row if _is_plain(b)]
+    if len(names) == len(row) > 1 and (len(set(names)) < len(names) or set(names) <= set("xyz")):
+        why = f"whether {' '.join(names)} are upper indices or a power is open"
+        raise FormulaError(row[0].at, why, "write the power with \\cdot, or the indices below")
     if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
         raise FormulaError(
             row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"

@@ -247,6 +247,12 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
     scalar = next((side for side in read if is_scalar(side.node)), None)
     if vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
         raise FormulaError(scalar.at, "a vector is equal to a number", "mark the vectors alike, as \\hat{\\mathbf r}")
+    pair = next((side for side in read if _is_list(side.node)), None)
+    if pair is not None and any(
+        isinstance(s.node, Call) and not is_vector(s.node) and s.node.name != "limit" for s in read
+    ):
+        why = "whether the brackets hold components or are an inner product is open"
+        raise FormulaError(pair.at, why, "write \\langle … \\rangle for the product")
     order = None
     final = read[-1].node
     if isinstance(final, Call) and final.name == "sum":
@@ -254,6 +260,13 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         if order is not None:
             read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _is_list(node: Node) -> bool:
+    """Whether a side is a list in brackets, or a multiple of one."""
+    if isinstance(node, Call) and node.name in ("product", "negative"):
+        return any(map(_is_list, node.args))
+    return isinstance(node, Call) and node.name == "column"
 
 
 def _side(reader: FormulaReader, row: list[Box]) -> Node:

@@ -166,7 +166,7 @@ def refuse_words(row: list[Box]) -> None:
     """Raise FormulaError where letters in a row are a word, const or sin, and no product."""
     run = ""
     for box in [*row, Box("thin", "", 0, 0)]:
-        plain = box.kind == "letter" and len(box.name) == 1 and not box.style and not box.marks
+        plain = box.kind == "letter" and len(box.name) == 1 and not box.style and not box.marks and not box.upright
         if plain:
             run += box.name
         if not plain or box.sub is not None or box.sup is not None or box.primes:

@@ -97,6 +97,8 @@ def is_vector(node: Node) -> bool:
         return False
     if node.name == "product":
         return any(map(is_vector, node.args))
+    if node.name == "differential" and len(node.args) > 1:  # d^3 r
+        return False
     if node.name in (
         "sum",
         "negative",
@@ -170,7 +172,7 @@ def is_scalar(node: Node) -> bool:
 def is_operator(node: Node) -> bool:
     """Whether a node does not commute with what it is multiplied by: a ket, a bra, an operator with a dagger."""
     if isinstance(node, Call):
-        return node.name in ("ket", "bra") or (
+        return node.name.split("_")[0] in ("ket", "bra") or (
             node.name in ("power", "product", "matmul") and any(map(is_operator, node.args))
         )
     return isinstance(node, Letter) and "__dagger" in node.name

@@ -41,6 +41,11 @@ class Notation:
     imaginary: bool = False
     exponential: bool = False
 
+    @property
+    def pi_is_letter(self) -> bool:
+        """Whether pi has an index or a mark somewhere, or arguments."""
+        return "pi" in self.called or any(name.startswith("pi") and name != "pi" for name in self.bare)
+
 
 def declared_notation(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:
     """What the author says in [notation]. Raises InputError for a key that means nothing."""
@@ -167,7 +172,7 @@ def _look(row: list[Box], found: Notation) -> None:
     for place, box in enumerate(inner):
         following = inner[place + 1] if place + 1 < len(inner) else None
         if box.kind == "letter":
-            _look_at_letter(box, following, found)
+            _look_at_letter(box, following, found, alone=len(inner) == 1)
         if box.kind in ("letter", "partial", "nabla"):
             found.lowered.update(b.name for b in box.sub or () if b.kind == "letter")
             if box.sub and (index := index_of(box)) is not None:
@@ -178,13 +183,14 @@ def _look(row: list[Box], found: Notation) -> None:
             after = inner[place + 2] if place + 2 < len(inner) else None
             if after is None or (after.kind in _BEHIND and after.name != "/"):
                 found.angles.add(following.name)
-        if box.sup is not None and any(each.kind != "letter" or each.sub for each in box.sup):
+        marked = box.kind == "letter" and box.sup is not None and len(box.sup) == 1 and box.sup[0].kind == "bracket"
+        if box.sup is not None and not marked and any(each.kind != "letter" or each.sub for each in box.sup):
             _look(box.sup, found)  # letters alone may be indices
         for part in box.parts:
             _look(part, found)
 
 
-def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
+def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: bool) -> None:
     name = box.name
     if name == "i" and following is not None and following.name == "hbar":
         found.imaginary = True
@@ -209,8 +215,8 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation) -> None:
         return
     if name == "d" and box.sup is not None and following is not None and following.kind == "letter":
         return
-    if name in ("delta", "Delta") and following is not None and following.kind in ACTED_ON and box.sub is None:
-        return
+    if name in ("delta", "Delta") and box.sub is None and (alone if following is None else following.kind in ACTED_ON):
+        return  # a difference, or the sign by itself in a sentence
     found.bare.add(key)
 
 

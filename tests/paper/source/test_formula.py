@@ -74,6 +74,20 @@ READ = {
     r"y = |a||b|": "y = Abs(a)*Abs(b)",
     r"p = \text{const}\qquad (t > 0)": "p = const; t = 0",
     r"y = 4\pi\left(\frac{m}{k}\right)^{3/2}": "y = 4*pi*(m/k)**(3/2)",
+    r"V = \iiint_D f(x, y, z)\,dx\,dy\,dz": "V = Integral(f(x, y, z), volume(x, y, z), over_D)",
+    r"Z = \int d^3r_1\,d^3r_2\,f": "Z = Integral(f, volume(differential(r_1, 3), differential(r_2, 3)))",
+    r"\int_V\nabla\cdot\mathbf E\,dV = \int_V\nabla^2\phi\,dV":
+        "Integral(divergence(Ebold), V, over_V) = Integral(laplacian(phi), V, over_V)",
+    r"U = \int\mathbf E\cdot\mathbf E\,\mathrm{d}^3\mathbf r": "U = Integral(dot(Ebold, Ebold), differential(rbold, 3))",
+    r"\langle x, y\rangle = n\langle v\rangle_{p}": "inner(x, y) = n*mean_p(v)",
+    r"|\psi\rangle_A = \left|0\right>": "ket_A(psi) = ket(0)",
+    r"L_3 = (\mathbf r\times\mathbf p)_3": "L_3 = component(cross(rbold, pbold), 3)",
+    r"\langle p|q\rangle = \delta^3(\mathbf p - \mathbf q)": "braket(p, q) = delta__3(pbold - qbold)",
+    r"\partial_\mu\chi = A_\mu": "Derivative(chi, x__mu) = A_mu",
+    r"\mathbf B = \nabla\wedge\mathbf A": "Bbold = curl(Abold)",
+    r"E = a + b.\\": "E = a + b",
+    r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t":
+        "differential(x)*differential(y)*differential(z) = differential(V)*differential(s)*differential(t)",
 }  # fmt: skip
 
 
@@ -151,6 +165,11 @@ OPEN = {
     r"\frac{\tilde{\mathrm{d}}v}{\mathrm{d}t} = a": "a differential stands below",
     r"\ddot r = \mathrm{d}r\,f": "a differential stands on one side only",
     r"P\,\mathrm{d}' A = b": "a differential has a prime",
+    r"\chi^{xxz} = 0": "whether x x z are upper indices or a power",
+    r"[\mathcal L] = 4": "whether [L] is a dimension or the letter",
+    r"S[q(t), t] = a": "whether S[…] is a functional",
+    r"(\psi, Q\psi) = \sum_n a_n b_n": "components or are an inner product",
+    r"Z = \int f\,dx\,dy": "two differentials follow one integral",
 }
 
 
@@ -175,6 +194,17 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     assert said(r"x = i\omega", numbers="i") == "x = imaginary_unit*omega"
     assert said("E = mc^2") == "E = m*c**2" and said("I = mr^2") == "I = m*r**2", "energy and inertia, no numbers"
     assert said("x = 1{,}500", decimal_comma=True) == "x = 3/2"
+    assert "pi is the number or a quantity" in said(r"H = \pi^2 + \phi^2", r"\pi(x) = \dot\phi")
+    assert said(r"H = 2\pi k", r"\pi(x) = \dot\phi") == "H = 2*pi*k", "a multiple of the number"
+    assert said(r"a\delta^3(x - y) = b") == "a*delta__3(x - y) = b"
+    assert "Dirac's function or a power" in said(r"a\delta^3(x - y) = b", r"\delta = 1")
+    assert said(r"y = r(t)^2", "r(t) = 1") == "y = r**2", "a power of what is called"
+    assert said(r"\dot x = f(x + 1)", "f(x) = x") == "x_dot = f(x + 1)", "f is printed with its argument only"
+    assert said(r"\delta W = 0", r"\delta") == "delta_W = 0", "the sign by itself in a sentence"
+    assert "factor or a difference" in said(r"\delta W = 0", r"\cos(t + \delta)")
+    wave = (r"y = e^{ikx}", "v_i = a")
+    assert said(r"a = -iqB", *wave) == "a = -imaginary_unit*q*B", "no index of this formula"
+    assert "imaginary unit is open" in said(r"a_i = -iqB", *wave) and "imaginary" in said(r"|i\rangle = 0", *wave)
 
 
 @pytest.mark.parametrize(
