@@ -446,14 +446,12 @@ class _Reader:
         )
         if word is not None:
             stripped = word.strip()
-            if name in ("text", "textbf"):
+            if name in ("text", "textbf") and word not in FUNCTIONS:
                 self.plain()
                 return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
             if re.fullmatch(r"[A-Za-z]{2,}", stripped):
                 self.plain()
-                if stripped in FUNCTIONS:
-                    return [Box("function", stripped, item.at, self.end)]
-                if name == "operatorname":
+                if stripped in FUNCTIONS or name == "operatorname":
                     return [Box("function", stripped, item.at, self.end)]
                 if stripped[0] == "d" and len(stripped) == 2 and name == "mathrm":
                     d = Box("letter", "d", item.at, item.at + 1, upright=True)
@@ -552,8 +550,8 @@ class _Reader:
         name = self.plain()
         if name in _MATRICES or name in ROWS or name in _CASES:
             self.bracketed()
-            if name in ("array", "alignedat", "alignat", "IEEEeqnarraybox"):
-                self.plain()
+            if name in ("array", "alignedat", "alignat", "IEEEeqnarraybox") and "|" in self.plain() and name == "array":
+                raise FormulaError(item.at, "a line stands in the matrix", "write its blocks by themselves")
             kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
             rows = self.rows(name, item)
             return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]

@@ -9,7 +9,7 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_advection
 from lagrotor.paper.source.read_scripts import index_parts, power_of
 from lagrotor.paper.source.read_statements import read_statement
-from lagrotor.paper.source.rows import strip, without_thin
+from lagrotor.paper.source.rows import all_boxes, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import arguments
 
@@ -113,6 +113,10 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
         and box.name == "["
     ):
         return Call("interval", tuple(map(reader.expression, parts)))
+    if box.name == "[" and any(b.kind == "function" for b in all_boxes(content)):
+        raise FormulaError(
+            box.at, "whether the brackets hold components or an interval is open", "write round brackets"
+        )
     name = {"[": "commutator", r"\{": "poisson"}.get(box.name, "column") if len(parts) == 2 else "column"
     if name != "column":
         reader.guesses.append(f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")

@@ -104,7 +104,7 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
     parts: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
-            _check_words(reader, box)
+            _check_words(reader, box, row[place + 1] if place + 1 < len(row) else None)
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
             parts.append(("condition" if condition else box.kind, []))
         elif _is_condition(row, place):
@@ -156,8 +156,12 @@ def _is_condition(row: list[Box], place: int) -> bool:
     return bool(held and (apart or not place))
 
 
-def _check_words(reader: FormulaReader, box: Box) -> None:
-    """Words that deny what they join are not read; of "or" it is taken that both are stated."""
+def _check_words(reader: FormulaReader, box: Box, following: Box | None) -> None:
+    """Words that deny what they join are not read, nor functions by name; of "or" it is taken that both are stated."""
+    joined = following is not None and following.kind == "bracket" and following.at == box.end
+    if joined and box.name.isalpha() and reader.source[box.end - 2].isalpha() and not _CONDITION.match(box.name):
+        why = f"whether {box.name} acts on what follows is open"
+        raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}, or a space behind the word")
     if _DENYING.search(box.name):
         raise FormulaError(box.at, f"{box.name}: the words deny what they join", "write the statements by themselves")
     if re.search(r"\bor\b", box.name):
@@ -233,6 +237,7 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         if len(side) == 1 and side[0].kind == "dots" and relations and place == len(sides) - 1:
             relations.pop()
             continue
+        _check_side(side)
         latex = reader.source[side[0].at : side[-1].end].strip()
         index = (
             not place and len(sides) == 2 and len(side) == 1 and side[0].name in ("i", "j") and side[0].kind == "letter"
@@ -260,6 +265,21 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         if order is not None:
             read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _check_side(side: list[Box]) -> None:
+    """Raise FormulaError for a side that is an acronym, or that is in square brackets: a mean, a dimension, a part."""
+    name = "".join(
+        box.name for box in side if not (box.sub or box.sup or box.marks or box.style or box.kind != "letter")
+    )
+    if 2 < len(side) == len(name) and name.isupper():
+        raise FormulaError(side[0].at, f"{name} is a word", "write \\mathrm for it, or \\cdot")
+    if len(side) == 1 and side[0].kind == "bracket" and side[0].name == "[" and not (side[0].sub or side[0].sup):
+        inside = side[0].parts[0]
+        if not any(b.kind == "comma" for b in inside) and len(inside) > 1:
+            raise FormulaError(
+                side[0].at, "what the square brackets mean is open", "leave them out, or write what it is"
+            )
 
 
 def _is_list(node: Node) -> bool:

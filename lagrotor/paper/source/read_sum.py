@@ -40,12 +40,18 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
     relations = [k for k, b in enumerate(below) if b.kind == "relation"]
     if not relations:
         if all(b.kind in ("letter", "comma") for b in below) and box.sup is None:
+            if not any(b.kind == "comma" for b in below) and len({b.name for b in below}) < len(below):
+                raise FormulaError(
+                    box.at, "whether words or indices stand below is open", "write commas between indices"
+                )
             letters = [
                 letter_of(reader, b)[0] if b.name not in ("i", "j") else Letter(b.name)
                 for b in below
                 if b.kind == "letter"
             ]
             return letters if len(letters) == 1 else [letters[0], Letter("all"), Letter("all"), *letters[1:]]
+        if len(below) == 1 and below[0].kind == "text" and below[0].name.isalpha() and box.sup is None:
+            return [Letter(f"all_{below[0].name}")]
         raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
     if len(relations) == 1 and below[relations[0]].name == "=" and below[0].kind == "letter" and relations[0] == 1:
         name = below[0].name

@@ -39,7 +39,7 @@ Node: TypeAlias = Number | Letter | Call
 
 # Operations besides those of arithmetic whose value is a vector or a matrix, or a number made of vectors.
 # Relations as calls, in the condition of a case or of a sum.
-CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne"}
+CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 _VECTORS = ("cross", "column", "matrix", "gradient", "curl")
 _CALLED = FUNCTIONS.keys() - {
@@ -106,6 +106,7 @@ def is_vector(node: Node) -> bool:
         "Derivative",
         "rate",
         "transpose",
+        "Integral",
         "prime",
         "limit",
         "Sum",

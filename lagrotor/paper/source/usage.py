@@ -44,7 +44,7 @@ class Notation:
     @property
     def pi_is_letter(self) -> bool:
         """Whether pi has an index or a mark somewhere, or arguments."""
-        return "pi" in self.called or any(name.startswith("pi") and name != "pi" for name in self.bare)
+        return "pi_" in self.called or any(name.startswith("pi") and name != "pi_" for name in self.bare)
 
 
 def declared_notation(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:

@@ -86,6 +86,8 @@ READ = {
     r"\partial_\mu\chi = A_\mu": "Derivative(chi, x__mu) = A_mu",
     r"\mathbf B = \nabla\wedge\mathbf A": "Bbold = curl(Abold)",
     r"E = a + b.\\": "E = a + b",
+    r"S = \sum_{i\in N} a_i + \sum_{\text{spins}} b": "S = Sum(a_i, In(i, N)) + Sum(b, all_spins)",
+    r"t = \text{tr}(A) + \sum_{ij} a_{ij}": "t = tr(A) + Sum(a_ij, i, all, all, j)",
     r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t":
         "differential(x)*differential(y)*differential(z) = differential(V)*differential(s)*differential(t)",
 }  # fmt: skip
@@ -170,6 +172,15 @@ OPEN = {
     r"S[q(t), t] = a": "whether S[…] is a functional",
     r"(\psi, Q\psi) = \sum_n a_n b_n": "components or are an inner product",
     r"Z = \int f\,dx\,dy": "two differentials follow one integral",
+    r"ACC = \frac{TP}{N}": "ACC is a word",
+    r"[R_l(t)] = e^{-t}": "what the square brackets mean",
+    r"W = \int F(r)\cdot d\vec r": "whether F is a vector",
+    r"f = \sqrt{\lambda}(T)": "before the bracket is a function",
+    r"\text{Pr}[A] = 4": "whether Pr acts on what follows",
+    r"\vec k = [\cos a, \sin a]": "components or an interval",
+    r"S = \sum_{cyc} a": "words or indices stand below",
+    r"\left(\begin{array}{cc|c}1 & 0 & j\\ 0 & 1 & k\end{array}\right) = A": "a line stands in the matrix",
+    r"m = \int \vec F\,dt": "a vector is equal to a number",
 }
 
 
