@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from lagrotor.drawing.style import PAPER_COLOUR as PAPER_COLOUR
     from lagrotor.drawing.style import paper_style as paper_style
     from lagrotor.drawing.style import with_residual as with_residual
+    from lagrotor.drawing.view import View as View
+    from lagrotor.drawing.view import view_lines as view_lines
+    from lagrotor.drawing.view import view_times as view_times
     from lagrotor.drawing.wheel import BAR as BAR
     from lagrotor.drawing.wheel import GROUND as GROUND
     from lagrotor.drawing.wheel import INK as INK

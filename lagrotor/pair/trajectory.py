@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from lagrotor.drawing.film import FilmedMotion
+    from lagrotor.drawing.view import View
 
 Array = NDArray[np.float64]
 
@@ -109,6 +110,13 @@ class Trajectory(Run):
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         return film_motion(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
+
+    def view(self) -> "View":
+        """The motion as a page that a notebook shows, turned by hand and played, without a network; `.save("run.html")`."""
+        from lagrotor.drawing.view import view_rotors, view_times
+
+        spins = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s".replace("-", "−")
+        return view_rotors(self.motion(view_times(self.t[0], self.t[-1])), spins)
 
     def motion(self, times: Array) -> "FilmedMotion":
         """What a film draws at `times` (m,) in s: axes by Hermite cubics, the bodies turned along samples and frames."""

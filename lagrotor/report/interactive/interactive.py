@@ -12,6 +12,7 @@ from pathlib import Path
 
 import sympy as sp
 
+from lagrotor.drawing.view import canvas_script
 from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
@@ -66,7 +67,11 @@ def pair_section() -> str:
     def part(name: str) -> str:
         return (_HERE / f"interactive{name}").read_text(encoding="utf-8")
 
-    lines = [javascript_formulas(), *(part(f"_{name}.js") for name in ("motion", "drawing", "controls"))]
+    lines = [
+        javascript_formulas(),
+        canvas_script(),
+        *(part(f"_{name}.js") for name in ("motion", "drawing", "controls")),
+    ]
     script = "\n".join(["(() => {", '"use strict";', *lines, 'show(document.getElementById("model"));', "})();"])
     return part(".html").replace("/* style */", part(".css")).replace("/* script */", script)
 

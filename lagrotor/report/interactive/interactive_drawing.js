@@ -2,8 +2,6 @@
 
 const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 
-const fixed = (value, digits) => (Number.isFinite(value) ? value.toFixed(digits).replace("-", "−") : "–");
-
 // A small difference: four decimals, or a power of ten; what is lost in rounding is 0.
 function small(value) {
   if (!Number.isFinite(value)) return "–";
@@ -20,44 +18,8 @@ const LOOK = {
   paper: { width: 2, dash: [7, 4] },
 };
 
-// Right, up and towards the viewer for a camera at azimuth and elevation.
-function camera(azimuth, elevation) {
-  const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
-  return [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
-}
-
-const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-
 function tips(axes, ell) {
   return [0, 1].map((i) => [axes[3 * i] + (i - 0.5) * ell, axes[3 * i + 1], axes[3 * i + 2]]);
-}
-
-// A canvas in CSS pixels, cleared; sharp on any screen.
-function sheet(canvas) {
-  const scale = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-  if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
-    canvas.width = Math.round(width * scale);
-    canvas.height = Math.round(height * scale);
-  }
-  const pen = canvas.getContext("2d");
-  pen.setTransform(scale, 0, 0, scale, 0, 0);
-  pen.clearRect(0, 0, width, height);
-  pen.lineCap = pen.lineJoin = "round";
-  pen.font = "13px system-ui, 'Segoe UI', 'Liberation Sans', sans-serif";
-  return { pen, width, height };
-}
-
-function line(pen, points, colour, { width = 1, dash = [], alpha = 1 } = {}) {
-  if (points.length < 2) return;
-  pen.save();
-  pen.strokeStyle = colour;
-  pen.lineWidth = width;
-  pen.globalAlpha = alpha;
-  pen.setLineDash(dash);
-  pen.beginPath();
-  points.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  pen.stroke();
-  pen.restore();
 }
 
 // The mark of a layer at a tip: filled round, open round, open square.
@@ -69,12 +31,6 @@ function mark(pen, [x, y], layer, colours) {
   pen.lineWidth = 2;
   if (layer === "exact") pen.fill();
   else pen.stroke();
-}
-
-function text(pen, words, x, y, colour, align = "left") {
-  pen.fillStyle = colour;
-  pen.textAlign = align;
-  pen.fillText(words, x, y);
 }
 
 // Rim and spokes of a wheel half-way up an axis, carried by the least turn of e_z into it and by its own spin.

@@ -1,0 +1,134 @@
+"""A motion that a page shows, turned by hand and played, without a network: lines that move, drawn by a script beside them."""
+
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
+
+if TYPE_CHECKING:
+    from lagrotor.drawing.film import FilmedMotion
+
+FRAMES = 600  # of a view at most, so that it stays small
+FPS = 30.0
+_HERE = Path(__file__).parent
+_LARGEST = 32_000  # what a coordinate is written up to, as a 16-bit number
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class View:
+    """A motion as a page of its own: shown by a notebook, or written by `save`."""
+
+    html: str
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page, `.html`; it needs no network. Raises InputError for another ending."""
+        if Path(path).suffix != ".html":
+            raise InputError(f"view: {path}: the name must end in .html")
+        return write_text(Path(path), self.html)
+
+    def _repr_html_(self) -> str:
+        frame = 'style="width: 100%; height: 27rem; border: 0" title="The motion"'
+        return f'<iframe {frame} srcdoc="{escape(self.html)}"></iframe>'
+
+    def __repr__(self) -> str:
+        return f"<View: {len(self.html) / 1000:.0f} kB; a notebook shows it, save('run.html') writes it>"
+
+
+def view_times(begin: float, end: float) -> Array:
+    """Times of the frames of a view, (m,) in s: FPS a second, FRAMES at most, both ends among them."""
+    return np.linspace(begin, end, int(min(FRAMES, max(2, (end - begin) * FPS + 1))))
+
+
+def view_lines(
+    t: Array,
+    lines: Sequence[Array],
+    inks: Sequence[str],
+    title: str = "",
+    traced: Sequence[int] | None = None,
+    still: Sequence[Array] = (),
+) -> View:
+    """Lines that move as a view.
+
+    Args:
+        t: times of the frames, (m,), in s.
+        lines: each (m, p, 3), in m; a line of one time stands still, (1, p, 3).
+        inks: their colours, again from the first where there are fewer than lines.
+        title: a line above.
+        traced: the lines whose last point leaves its path; all where it is not given.
+        still: lines (p, 3) that do not move, as of the ground, drawn faintly.
+
+    Raises:
+        InputError: a motion that is empty or not finite.
+    """
+    held = [np.asarray(line, float) for line in (*lines, *(line[None] for line in still))]
+    if not held or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in held):
+        raise InputError(f"view: {len(held)} lines at {len(t)} times: there is nothing that moves, or it is not finite")
+    corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in held])
+    low, high = corners[:, 0].min(0), corners[:, 1].max(0)
+    middle, unit = (low + high) / 2, float((high - low).max() or 1.0) / 2 / _LARGEST
+    paths = range(len(lines)) if traced is None else traced
+
+    def written(place: int, line: Array) -> dict[str, Any]:
+        steps = np.rint((line - middle) / unit).astype("<i2")
+        moving = place < len(lines)
+        ink = inks[place % len(inks)] if moving else "#aaaaaa"
+        data = b64encode(steps.tobytes()).decode("ascii")
+        return {"data": data, "points": line.shape[1], "ink": ink, "traced": moving and place in paths}
+
+    motion = {
+        "t": [float(f"{each:.6g}") for each in t],
+        "unit": unit,
+        "middle": middle.tolist(),
+        "lines": [written(*each) for each in enumerate(held)],
+    }
+    parts = {"/* canvas */": canvas_script(), "/* view */": _text("view.js"), "/* motion */": json.dumps(motion)}
+    page = _text("view.html").replace("<!-- title -->", escape(title))
+    for place, content in parts.items():
+        page = page.replace(place, content)
+    return View(page)
+
+
+def view_rotors(moving: "FilmedMotion", title: str = "") -> View:
+    """Rotors with their wheels, one spoke marked so that the spin is seen, and the bar between their tips as a view."""
+    from lagrotor.drawing.wheel import BAR, INK, MARK, RADIUS, ROTORS, place_points
+
+    angles = np.linspace(0, 2 * np.pi, 31)
+    rim = RADIUS * moving.length * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    hub = np.zeros((1, 3))
+    spokes = np.vstack([np.vstack([hub, rim[6 * k : 6 * k + 1], hub]) for k in range(1, 5)])
+    lines: list[Array] = []
+    inks: list[str] = []
+    traced: list[int] = []
+    for body in range(len(moving.tips)):
+        ink, place = ROTORS[body % len(ROTORS)], (moving.rotations[body], moving.centres[body])
+        shapes = ((rim, ink), (spokes, ink), (np.vstack([hub, rim[:1]]), MARK))
+        lines += [place_points(points, *place) for points, _ in shapes]
+        inks += [colour for _, colour in shapes]
+        foot = np.broadcast_to(moving.joints[body], moving.tips[body].shape)
+        traced.append(len(lines))
+        lines.append(np.stack([foot, moving.tips[body]], 1))
+        inks.append(INK)
+    if moving.joined:
+        lines.append(np.stack([*moving.tips], 1))
+        inks.append(BAR)
+    ends = moving.joints[[0, -1]] * [1.8, 1, 1]
+    return view_lines(moving.t, lines, inks, title, traced, [ends])
+
+
+def canvas_script() -> str:
+    """The functions that every moving picture of a page draws with."""
+    return _text("canvas.js")
+
+
+def _text(name: str) -> str:
+    return (_HERE / name).read_text(encoding="utf-8")
