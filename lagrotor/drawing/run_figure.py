@@ -1,14 +1,18 @@
 """A run over time: of the pair its tips, their paths from above, energy; of any system its coordinates and energy."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from io import BytesIO
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from lagrotor.drawing.style import paper_style
-from lagrotor.drawing.wheel import ROTORS
+from lagrotor.drawing.wheel import GROUND, ROTORS
 from lagrotor.numerics.rotations import Array
+
+_CONSTANT = 1e-7  # of its size, by which what is constant may change
 
 
 class RunFigure(Figure):
@@ -49,14 +53,39 @@ def run_figure(t: Array, tips: Array, energy: Array, title: str) -> RunFigure:
 def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array, drift: Array) -> RunFigure:
     """Coordinates {label: (n,)} over t (n,) in s, the change of the energy, and the constraints' violation if there is any."""
     below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
-    panels = [*coordinates.items(), *below.items()]
+    return curves_figure(t, {**coordinates, **below}, below)
+
+
+def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str] = ()) -> RunFigure:
+    """Curves {label: (n,)} over t (n,) in s, a panel each; others: labels of those in another colour."""
     with paper_style():
-        figure = RunFigure(figsize=(7.0, max(3.0, 1.4 * len(panels))))
-        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for panel, (label, values) in zip(axes, panels, strict=True):
-            panel.plot(t, values, color=ROTORS[label in below])
+        figure = RunFigure(figsize=(7.0, max(3.0, 1.4 * len(curves))))
+        axes = figure.subplots(len(curves), 1, sharex=True, squeeze=False)[:, 0]
+        for panel, (label, values) in zip(axes, curves.items(), strict=True):
+            panel.plot(t, values, color=ROTORS[label in others])
             panel.set_ylabel(label)
+            middle = float(np.abs(values).max(initial=0.0))
+            if np.ptp(values) < _CONSTANT * middle:  # but for rounding
+                panel.set_ylim(*sorted((0.9 * values[0], 1.1 * values[0])))
         axes[-1].set_xlabel("time [s]")
+    return figure
+
+
+def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], marks: Sequence[float]) -> RunFigure:
+    """Real and imaginary parts of rates (m, n), 1/s, over the numbers (m,) of a letter, with marks on its axis."""
+    with paper_style():
+        figure = RunFigure(figsize=(7.0, 5.0))
+        above, below = figure.subplots(2, 1, sharex=True)
+        for panel, parts, label in (
+            (above, rates.real, "real part [1/s]"),
+            (below, rates.imag, "imaginary part [1/s]"),
+        ):
+            panel.plot(numbers, parts, color=ROTORS[0])
+            panel.axhline(0, color=GROUND, linewidth=1)
+            panel.set_ylabel(label)
+            for mark in marks:
+                panel.axvline(mark, color=ROTORS[1], linestyle="--", linewidth=1)
+        below.set_xlabel(letter)
     return figure
 
 

@@ -56,11 +56,11 @@ def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
     return e.subs(values, simultaneous=True) if e.has(sp.Derivative) else e.xreplace(dict(values))
 
 
-def _jets(e: sp.Expr) -> list[sp.Expr]:
+def jets_of(e: sp.Expr) -> list[sp.Expr]:
     """The outermost unknown functions and derivatives of them."""
     if not e.has(AppliedUndef):
         return []
-    return [e] if jet_of(e) is not None else [jet for a in e.args for jet in _jets(a)]
+    return [e] if jet_of(e) is not None else [jet for a in e.args for jet in jets_of(a)]
 
 
 def with_jets(e: sp.Expr, made: Callable[[str, tuple[int, ...], tuple[sp.Expr, ...]], sp.Expr | None]) -> sp.Expr:
@@ -80,7 +80,7 @@ def shortest(e: sp.Expr) -> sp.Expr:
     """The expression, its normal form, or that with A sin² for A − A cos²: whichever has the fewest operations."""
     if sp.count_ops(e) > _MOST_OPERATIONS:
         return e
-    if jets := _jets(e):
+    if jets := jets_of(e):
         letters = {jet: sp.Dummy() for jet in jets}
         return shortest(e.xreplace(letters)).xreplace({letter: jet for jet, letter in letters.items()})
     try:

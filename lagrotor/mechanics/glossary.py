@@ -1,6 +1,7 @@
 """A glossary of letters with meanings and units, and expressions as LaTeX with the dots of velocities."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -41,10 +42,10 @@ class Glossary(dict[sp.Symbol, Entry]):
         return self[symbol].meaning.split(":")[0] if symbol in self else "parameter"
 
 
-def latex(expression: Any) -> str:
-    """LaTeX of an expression, with dots over what a symbol's name calls a velocity or an acceleration."""
+def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
+    """LaTeX of an expression, with dots over what a symbol's name calls a velocity or an acceleration; names: of letters."""
     free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
-    return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free}))
+    return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free} | dict(names or {})))
 
 
 # sin, cos or tan, perhaps to a power, of one letter in brackets.

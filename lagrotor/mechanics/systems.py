@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, overload
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry, weakly_nonlinear
+from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry, typeset, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
+    from lagrotor.mechanics.running.root_loci import RootLocus
     from lagrotor.mechanics.running.simulation import SystemRun
     from lagrotor.mechanics.running.state_space import StateSpace
     from lagrotor.mechanics.running.switches import Event, Impact
@@ -56,6 +57,8 @@ class System(Equations):
     in_coordinates = sameness.in_coordinates
     lindstedt_poincare = weakly_nonlinear.oscillation
     averaged = weakly_nonlinear.averaged
+    latex = typeset.in_latex
+    _repr_markdown_ = typeset.in_markdown
 
     @overload
     def linearise(self, at: "Mapping[Any, Any] | Equilibrium") -> "linear_modes.LinearSystem": ...
@@ -101,6 +104,15 @@ class System(Equations):
 
         self, values = function_values.put_functions("floquet", self, values)
         return monodromy.monodromy_matrix(self, at, values, period)
+
+    def root_locus(
+        self, at: "Mapping[Any, Any]", values: "Values", letter: sp.Symbol | str, numbers: "ArrayLike"
+    ) -> "RootLocus":
+        """The rates of small motion about `at` as one letter takes numbers: see `running.root_loci`."""
+        from lagrotor.mechanics.running import function_values, root_loci
+
+        self, values = function_values.put_functions("root_locus", self, values)
+        return root_loci.root_locus(self, at, values, letter, numbers)
 
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.

@@ -1,30 +1,88 @@
 """Pictures of any run: its coordinates and energy over time, and a film of its bodies."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.expressions import vector_of
+from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
+    from lagrotor.drawing.turning_view import TurningView
 
 Point = Sequence[sp.Expr]
+_MOST_FRAMES = 240  # of a view
+_NOTHING = (
+    "{}: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), (x, y, z)], …] with "
+    "positions in the coordinates, or build L from Frame(c).body(…)"
+)
 
 
-def plot(run: SampledMotion) -> "RunFigure":
-    """A figure of the coordinates, the change of the energy and, under constraints, their violation over time."""
-    from lagrotor.drawing.run_figure import coordinates_figure
+def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | None = None) -> "RunFigure":
+    """A figure of what is named, over time: coordinates and velocities, "E" the energy, reactions by the names of their
+    constraints, or expressions as `evaluate` takes them. Without any of the coordinates, the change of the energy and, under
+    constraints, their violation.
 
-    labels = {f"${sp.latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
-    return coordinates_figure(run.t, labels, run.energy, run.drift)
+    glossary: units of letters, as a paper's; without it t is in s and the energy in J, and others have none.
+    Raises InputError for what is none of these.
+    """
+    from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
+
+    units = {str(s): f" [{entry.unit}]" for s, entry in (glossary or {}).items() if entry.unit not in ("", "1")}
+    if not what:
+        labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
+        return coordinates_figure(run.t, labels, run.energy, run.drift)
+    return curves_figure(run.t, dict(_curve(run, each, units) for each in what))
+
+
+def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str, Array]:
+    """The label and the values of a curve."""
+    c, name = run.system.c, str(what)
+    moving = dict(zip(map(str, (*c.q, *c.v)), (*run.q.T, *run.v.T), strict=True))
+    if name in moving:
+        letter = next(s for s in (*c.q, *c.v) if str(s) == name)
+        return f"${letter_latex(letter)}${units.get(name, '')}", moving[name]
+    if name in ("E", "energy"):
+        return "$E$ [J]", run.energy
+    if isinstance(what, str) and name in run.system.names:
+        return name, run.reactions[name]
+    if isinstance(what, str):
+        known = [*moving, "E", *run.system.names]
+        raise InputError(
+            f"plot: {name!r} is none of {', '.join(known)}{near(name, known)}: name one, or give an expression"
+        )
+    return f"${latex(what)}$", run.evaluate(what)
+
+
+def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "TurningView":
+    """The motion in three dimensions that turn, of its bodies with their frames, and of `lines` as `animate` takes
+    them: a notebook shows it, and `.save("motion.html")` writes it.
+
+    Raises InputError as `animate` does.
+    """
+    from lagrotor.drawing.turning_view import RigidOutline, TurningView
+
+    frames = run if len(run.t) <= _MOST_FRAMES else run.at(np.linspace(run.t[0], run.t[-1], _MOST_FRAMES))
+    drawn = [
+        np.stack([_vectors(frames, vector_of("view: a point of lines", e, 3)) for e in _sequence(line)], 1)
+        for line in (_sequence(lines) if lines else ())
+    ]
+    bodies = []
+    for body in run.system.bodies:
+        origin, axes = _pose(frames, body)
+        outline = tuple(np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline)
+        bodies.append(RigidOutline(outline, origin, axes))
+    if not (bodies or drawn):
+        raise InputError(_NOTHING.format("view"))
+    return TurningView(frames.t, tuple(bodies), tuple(drawn), f"motion of {', '.join(map(str, run.system.c.q))}")
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
@@ -43,10 +101,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
     else:
         drawn = [carried for body in run.system.bodies for carried in _outline(frames, body)]
     if not drawn:
-        raise InputError(
-            "animate: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), "
-            "(x, y, z)], …] with positions in the coordinates, or build L from Frame(c).body(…)"
-        )
+        raise InputError(_NOTHING.format("animate"))
     return animate_lines(path, frames.t, drawn, fps)
 
 
@@ -60,10 +115,16 @@ def _sequence(given: Sequence[Any]) -> Sequence[Any]:
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:
     """The body's lines carried along, each (m, p, 3)."""
-    origin = _vectors(frames, body.frame.place())
-    rows = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
+    origin, axes = _pose(frames, body)
     lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]
-    return [origin[:, None] + line @ np.stack(rows, 1) for line in lines]
+    return [origin[:, None] + line @ axes.swapaxes(1, 2) for line in lines]
+
+
+def _pose(frames: SampledMotion, body: Body) -> tuple[Array, Array]:
+    """The origin of a body's frame (m, 3) and its axes as columns (m, 3, 3)."""
+    origin = _vectors(frames, body.frame.place())
+    axes = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
+    return origin, np.stack(axes, -1)
 
 
 def _vectors(frames: SampledMotion, point: Point) -> Array:

@@ -47,6 +47,7 @@ class SystemRun(SampledMotion):
     lyapunov = lyapunov
     plot = run_pictures.plot
     animate = run_pictures.animate
+    view = run_pictures.view
 
     @staticmethod
     def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":

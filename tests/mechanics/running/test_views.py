@@ -1,0 +1,99 @@
+"""What she sees of a system and its run: formulas, curves, bodies that turn, root loci."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.paper import Glossary
+
+I1, I3, m, g, l, mu = sp.symbols("I_1 I_3 m g l mu", positive=True)
+C = coordinates("phi theta psi")
+BODY = Frame(C).turned("zxz", C.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+TOP = System(C, BODY.kinetic - m * g * l * sp.cos(C.q[1]))
+VALUES = {I1: 0.1, I3: 0.15, m: 1, g: 9.81, l: 1}
+ONE = coordinates("x y")
+(x, y), U, s = ONE.q, sp.Function("U"), sp.Function("y_s")
+ROD = System(ONE, m * (ONE.v[0] ** 2 + ONE.v[1] ** 2) / 2 - m * g * y, {"rod": sp.sqrt(x**2 + y**2) - l})
+
+
+@pytest.fixture(scope="module")
+def spinning():
+    return TOP.simulate(VALUES, (0, 0.5, 0), (0, 0, 40), np.linspace(0, 1, 101), 1e-9)
+
+
+def test_a_notebook_shows_the_equations_of_a_system() -> None:
+    shown = TOP._repr_markdown_()
+    headings = re.findall(r"\*\*(.+)\*\*", shown)
+    assert headings == ["Kinetic energy", "Potential energy", "Equations of motion", "Conserved"]
+    assert r"$$V = g l m \cos \theta$$" in shown
+    assert r"$$I_3 \ddot{\phi} \cos \theta + I_3 \ddot{\psi} - I_3 \dot{\phi} \dot{\theta} \sin \theta = 0$$" in shown
+    assert r"$$p_{\psi} = I_3 \dot{\phi} \cos \theta + I_3 \dot{\psi}$$" in shown
+    rough = System(ONE, ROD.L, dissipation=mu * ONE.v[0] ** 2)
+    assert "Conserved" in ROD._repr_markdown_() and "Dissipation" in rough._repr_markdown_()
+    assert "E =" not in rough._repr_markdown_()  # friction takes it
+
+
+def test_latex_has_functions_dots_and_names() -> None:
+    held = System(ONE, ROD.L - U(x - y), {"rod": y - s(t)}, {"slip": ONE.v[0] - s(t).diff(t)})
+    lines = held.latex().splitlines()
+    assert lines[0] == r"\begin{align}" and lines[-1] == r"\end{align}"
+    assert (
+        lines[1].startswith(r"m \ddot{x}")
+        and r"U'\left(x - y\right)" in lines[1]
+        and r"\lambda_\text{slip}" in lines[1]
+    )
+    assert lines[4] == r"- \dot{y}_s\left(t\right) + \dot{x} &= 0"
+
+
+def test_curves_are_those_that_are_named(spinning) -> None:
+    glossary = Glossary()
+    glossary.moving(C, ("azimuth", "rad"), ("inclination", "rad"), ("spin", "rad"))
+    figure = spinning.plot("theta", "E", "phi_dot", sp.cos(C.q[1]), glossary=glossary)
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels == [r"$\theta$ [rad]", "$E$ [J]", r"$\dot{\phi}$ [rad/s]", r"$\cos \theta$"]
+    assert figure.axes[0].lines[0].get_ydata() == pytest.approx(spinning.q[:, 1])
+    assert np.ptp(figure.axes[1].get_ylim()) > 1  # no picture of rounding
+    hung = ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), np.linspace(0, 1, 11))
+    assert hung.plot("rod").axes[0].lines[0].get_ydata() == pytest.approx(hung.reactions["rod"])
+    for what, words in (("thet", "theta?"), ("mass", "is none of"), (U(C.q[0]), "U without a value")):
+        with pytest.raises(InputError, match=words):
+            spinning.plot(what)
+
+
+def test_a_view_carries_the_bodies(spinning, tmp_path: Path) -> None:
+    view = spinning.view()
+    page = view.save(tmp_path / "top.html").read_text(encoding="utf-8")
+    assert "http" not in page.replace("http-equiv", "")  # it needs no network
+    data = json.loads(re.search(r"const scene = (\{.*\});\n", page)[1])
+    body = data["bodies"][0]
+    turned = np.array(body["rotation"]).reshape(-1, 3, 3)[:, :, 2]  # the axis of the top
+    assert turned[:, 2] == pytest.approx(np.cos(spinning.q[:, 1]), abs=1e-4)
+    assert len(data["t"]) == 101 and view._repr_html_().startswith("<iframe srcdoc=")
+    longer = TOP.simulate(VALUES, (0, 0.5, 0), (0, 0, 40), np.linspace(0, 1, 301), 1e-9).view()
+    assert len(longer.t) == 240
+    lines = ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), np.linspace(0, 1, 11)).view([[(0, 0, 0), (x, 0, y)]])
+    assert np.linalg.norm(lines.lines[0][:, 1], axis=1) == pytest.approx(np.ones(11))
+    for lines, words in (((), "nothing to draw"), ([(0, 0, 0)], "no line|a point"), ([[(x, y)]], "3 expressions")):
+        with pytest.raises(InputError, match=words):
+            ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), (0, 1)).view(lines)
+
+
+def test_a_root_locus_has_its_boundary() -> None:
+    """A spinning top stands upright from p² = 4 I₁' m g l on; about three axes, so that its pole is elsewhere."""
+    c, w = coordinates("a b s"), sp.Symbol("w", positive=True)
+    body = Frame(c).turned("xyz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    top = System(c, body.kinetic - body.potential((0, 0, -g)))
+    locus = top.root_locus({c.q[0]: 0, c.q[1]: 0, c.v[2]: w}, VALUES, w, np.linspace(20, 60, 9))
+    assert locus.boundaries == pytest.approx([np.sqrt(4 * 1.1 * 9.81) / 0.15], rel=1e-6)
+    assert locus.growth[0] > 1 and abs(locus.growth[-1]) < 1e-6
+    figure = locus.plot()
+    assert figure.axes[1].get_xlabel() == "$w$" and len(figure.axes[0].lines) == 6 + 1 + 1
+    for values, numbers, words in ((VALUES | {w: 1}, [1, 2], "without w"), (VALUES, [2, 1], "increasing")):
+        with pytest.raises(InputError, match=words):
+            top.root_locus({c.q[0]: 0, c.q[1]: 0, c.v[2]: w}, values, w, numbers)
