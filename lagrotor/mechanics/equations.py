@@ -32,6 +32,7 @@ from lagrotor.mechanics.lagrangian import (
     t,
     total_derivative,
 )
+from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, check_velocities, kinematics
 
 _FAST = 1000  # by which random velocities are multiplied where friction must have grown
 
@@ -42,9 +43,11 @@ class Equations:
 
     constraints: expressions g(q, t) that stay zero. rolling: expressions f(q, v, t), affine in the velocities, that stay
     zero. dissipation: Rayleigh's function D(q, v, t), W. forces: the generalised forces Q(q, v, t), one for each
-    coordinate, or none. Constraints and rolling may be named, {name: expression}: so are their reactions then. In any of them
-    unknown functions, as sympy's Function("U")(r), are among the letters: their derivatives stand in the equations, and a run
-    takes values for them.
+    coordinate, or none. Constraints and rolling may be named, {name: expression}: so are their reactions then. velocities:
+    {u: expression affine in v} of one's own, in which the equations are written, as many as coordinates, or fewer where
+    constraints give the rest: see `quasi_velocities`; the other expressions may contain them. In any of them unknown
+    functions, as sympy's Function("U")(r), are among the letters: their derivatives stand in the equations, and a run takes
+    values for them.
 
     Raises InputError for what does not make sense, with the way out.
     """
@@ -56,6 +59,7 @@ class Equations:
     dissipation: sp.Expr = sp.S.Zero
     forces: tuple[sp.Expr, ...] = ()
     names: tuple[str, ...] = ()
+    velocities: Mapping[sp.Symbol, sp.Expr] | Pairs = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
@@ -72,6 +76,7 @@ class Equations:
                 raise InputError(f"System: {name} = {given} must be a tuple of expressions{way}")
             object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(given)))
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
+        self._take_velocities()
         if self.forces and len(self.forces) != len(self.c.q):
             raise InputError(
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
@@ -83,6 +88,20 @@ class Equations:
         self._check_symbols()
         if not self.bodies:
             _ = self.L  # checked now; an energy of bodies is written out when it is needed
+        _ = self.kinematics
+
+    def _take_velocities(self) -> None:
+        """The velocities as pairs, and put in where an expression has them."""
+        pairs = check_velocities(self.c, self.velocities)
+        own = {u: e for u, e in pairs if u != e}
+        object.__setattr__(self, "velocities", pairs)
+        if not own:
+            return
+        for name in ("constraints", "rolling", "forces"):
+            object.__setattr__(self, name, tuple(e.xreplace(own) for e in getattr(self, name)))
+        object.__setattr__(self, "dissipation", self.dissipation.xreplace(own))
+        if hasattr(self.lagrangian, "xreplace"):
+            object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(own))
 
     def _name(self, part: str, given: Mapping[Any, Any]) -> None:
         """Take the names of constraints or of rolling; those of the other part are numbers unless it is named, too."""
@@ -135,6 +154,7 @@ class Equations:
             self.c.a,
             t,
             acting,
+            self.velocities,
             getattr(self.lagrangian, "free_symbols", ()) if self.bodies else (),
         )
 
@@ -146,6 +166,24 @@ class Equations:
         check_names("System", *self._letters, L)
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
+
+    @property
+    def speeds(self) -> tuple[sp.Symbol, ...]:
+        """The velocities of a state (q, u): those of one's own, or v."""
+        return tuple(u for u, _ in self.velocities) or self.c.v
+
+    @cached_property
+    def kinematics(self) -> Kinematics | None:
+        """How v follows from velocities of one's own, where there are any."""
+        if not self.velocities:
+            return None
+        rolling = range(len(self.constraints), len(self.residual))
+        return kinematics(self.c, tuple(self.velocities), self.constraints, self.residual, rolling)
+
+    @property
+    def left(self) -> tuple[int, ...]:
+        """The rows of the constraints, by number, that are kept by multipliers."""
+        return self.kinematics.left if self.kinematics else tuple(range(len(self.residual)))
 
     @property
     def bodies(self) -> tuple[Any, ...]:

@@ -144,4 +144,5 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
         names=tuple(system.names[i] for i in numbers) if system.names else (),
         dissipation=rewritten(system.dissipation),
         forces=forces,
+        velocities=tuple((u, rewritten(e)) for u, e in system.velocities),
     )

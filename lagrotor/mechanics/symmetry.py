@@ -162,7 +162,13 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
             f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
         )
     return replace(
-        system, c=rest, lagrangian=_legendre(L, u, p, velocities), rolling=rolling, dissipation=sp.S.Zero, forces=forces
+        system,
+        c=rest,
+        lagrangian=_legendre(L, u, p, velocities),
+        rolling=rolling,
+        dissipation=sp.S.Zero,
+        forces=forces,
+        velocities=(),
     )
 
 

@@ -135,6 +135,10 @@ def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, 
 
 def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
     """(q, v[, t]) of a Lagrangian system; time starts at 0."""
+    if system.velocities:
+        raise InputError(
+            f"proved: the system is written in {', '.join(map(str, system.speeds))}, velocities of its own: leave them out"
+        )
     n, timed = len(system.c.q), depends_on_time(system)
     stages, accelerations, _ = constrained_motion(system)
     outputs = (*system.c.v, *accelerations, *((sp.S.One,) if timed else ()))

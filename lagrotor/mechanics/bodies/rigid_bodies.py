@@ -7,7 +7,7 @@ keeps the bodies, whose tree gives faster code and the picture.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -188,6 +188,10 @@ class Energy:
 
     def _sympy_(self) -> sp.Expr:
         return self.expression
+
+    def xreplace(self, put: Mapping[sp.Basic, sp.Basic]) -> "Energy":
+        """The energy with letters put in beside the bodies."""
+        return replace(self, rest=self.rest.xreplace(put))
 
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):

@@ -15,9 +15,10 @@ from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.function_values import FunctionValue
-from lagrotor.mechanics.running.programs import tree_motion
+from lagrotor.mechanics.running.programs import function_program, tree_motion, velocities_along
 from lagrotor.mechanics.running.singular import mass_at, rows_at
 
+_POLE = 1e-13  # of a factor of det [A; G], below which it is zero
 _RANK = 1e-11  # of the largest eigenvalue, what is left of a direction that nothing moves, by rounding
 
 
@@ -27,8 +28,16 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     passed over."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
-    moving = {*system.c.q, *system.c.v, *system.c.a, t}
-    acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces, *others)
+    moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, t}
+    acting = (
+        system.lagrangian,
+        *system.constraints,
+        *system.rolling,
+        system.dissipation,
+        *system.forces,
+        *others,
+        *(e for _, e in system.velocities),
+    )
     letters = {str(s): s for e in acting for s in getattr(e, "free_symbols", ()) if s not in moving}
     values = {name: value for name, value in values.items() if not isinstance(value, FunctionValue | sp.Lambda)}
     for name, value in values.items():
@@ -61,6 +70,26 @@ def _check_sign(where: str, letter: sp.Symbol, value: Any) -> None:
         )
 
 
+def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:
+    """Raise SingularError where velocities of one's own do not give v at a state."""
+    given = system.kinematics
+    if given is None:
+        return
+    size = len(system.c.q) + len(system.speeds)
+    at, time = state[None, :size], np.append(state, 0.0)[size : size + 1]
+    own = ", ".join(map(str, system.speeds))
+    poles = [function_program(system, e).along(values)(at, time).item() for e in given.poles]
+    if (lost := np.abs(poles) <= _POLE).any():
+        raise SingularError(
+            f"{where}: {given.poles[int(np.argmax(lost))]} = 0 there, where {own} do not give the velocities of the coordinates: "
+            "start beside it, or turn by unit quaternions, which have no pole: frame.ball(…)"
+        )
+    if not np.isfinite(velocities_along(system, values, at, time)).all():
+        raise SingularError(
+            f"{where}: {own} do not give the velocities of the coordinates there: det [A; G] = 0; start beside it"
+        )
+
+
 def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
     """Raise SingularError where M, with the constraints, does not give one acceleration at a state; warn where the kinetic
     energy of a velocity that the constraints allow is negative."""
@@ -78,7 +107,7 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
     if np.abs(kinetic).min() <= _RANK * max(np.abs(kinetic).max(), np.abs(M).max()):
         _, vectors = np.linalg.eigh(free @ M @ free.T)
         idle = np.abs(free.T @ vectors[:, int(np.abs(kinetic).argmin())])
-        names = ", ".join(str(v) for v, part in zip(system.c.v, idle, strict=True) if part > 0.2 * idle.max())
+        names = ", ".join(str(v) for v, part in zip(system.speeds, idle, strict=True) if part > 0.2 * idle.max())
         raise SingularError(
             f"{where}: the mass matrix is singular at the start (det M = 0): no mass moves with {names}, and no constraint "
             "gives it; use fewer coordinates, give what it moves a mass, or start beside a pole"

@@ -44,7 +44,7 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], float] | None:
     """(times (n,), states (n, d)) → the error, relative to the sizes, that would explain how far the integrals are off."""
     conserved = [program.along(values) for program in integrals(system)]
-    n = 2 * len(system.c.q)
+    n = len(system.c.q) + len(system.speeds)
 
     def defect(times: Array, states: Array) -> float:
         worst = 0.0

@@ -27,7 +27,7 @@ _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): for any solver, and the fastest that the engine has.
+    """(t, y) → (v, u'), for the state y = (q, u), an array (N + m,): for any solver, and the fastest that the engine has.
 
     engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
 
@@ -96,17 +96,17 @@ def smooth_motion(
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
     which it is regular.
     """
-    program, n = motion_program(system), len(system.c.q)
+    program, known = motion_program(system), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states)
     project = projection_of(system, values) if system.multipliers else None
-    scale = np.append(powers_of_two(sizes), np.ones(d - 2 * n))
+    scale = np.append(powers_of_two(sizes), np.ones(d - known))
     words = singular_position(system, values, start)
 
     def by_taylor(start: Array, times: Array, local: float, companion: bool) -> Stretch:
         order = companion_order(local) if companion else taylor_order(local)
         longest = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
-        clock = tuple(range(2 * n, d))
+        clock = tuple(range(known, d))
         problem = Problem(program.rhs(*parameters), start, np.inf, project=project)
         solver = taylor_solver(lambda _: (program.program, parameters), order, longest, clock)
         return integrate(problem, times, local, solver)

@@ -199,6 +199,7 @@ def _with_each(system: Kind, lagrangian: Any, put: Callable[[sp.Expr], sp.Expr])
         rolling=tuple(map(put, system.rolling)),
         dissipation=put(system.dissipation),
         forces=tuple(map(put, system.forces)),
+        velocities=tuple((u, put(e)) for u, e in system.velocities),
     )
 
 

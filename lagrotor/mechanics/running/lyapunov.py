@@ -48,11 +48,11 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         raise InputError(
             "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
         )
-    given, n = tangent_motion(motion_program(run.system)), 2 * run.q.shape[1]
+    given, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
     rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
-    y = np.concatenate([run.q[0], run.v[0], [run.t[0]] * (d - n)])
+    y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
     tangent = np.append(np.random.default_rng(1).normal(size=n), [0.0] * (d - n))  # time is not displaced
     growth = np.zeros(_PIECES)
     for i, h in enumerate(np.diff(grid)):

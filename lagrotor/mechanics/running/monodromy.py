@@ -58,29 +58,30 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     begin = float({str(s): x for s, x in at.items()}.get(str(t), 0)) if isinstance(at, Mapping) else 0.0
     given = motion_program(system)
     n, d = len(system.c.q), len(given.states)
+    size = n + len(system.speeds)
     place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
     state = point_state("floquet", system, place, values, begin)
     free, T = tangent_space("floquet", system, values, state, begin)
-    start = np.append(state, [begin] * (d - 2 * n))
+    start = np.append(state, [begin] * (d - size))
     slope, width = motion_slope("floquet", given, values), T.shape[1]
 
     def rate(_: float, y: Array) -> list[float]:
         f, J, _inputs = slope(y[:d])
-        spread = J[: 2 * n, : 2 * n] @ y[d:].reshape(2 * n, width)
+        spread = J[:size, :size] @ y[d:].reshape(size, width)
         return [*f.tolist(), *spread.ravel().tolist()]
 
     whole = Problem(rate, np.concatenate([start, T.ravel()]), _MOST)
     coarse, fine = (integrate(whole, np.array([duration]), local).states[-1] for local in _LOCAL)
-    end, J = fine[:d], slope(start)[1][:, : 2 * n]
-    size = max(1.0, float(np.abs(start).max()))
-    opened = np.abs(end - start)[n : 2 * n].max() / size
-    other = np.abs(slope(end)[1][:, : 2 * n] - J).max() / max(1.0, float(np.abs(J).max()))
+    end, J = fine[:d], slope(start)[1][:, :size]
+    largest = max(1.0, float(np.abs(start).max()))
+    opened = np.abs(end - start)[n:size].max() / largest
+    other = np.abs(slope(end)[1][:, :size] - J).max() / max(1.0, float(np.abs(J).max()))
     if not max(opened, other) < _CLOSED:
         raise InputError(
             f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
             f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
         )
-    one, two = (y[d:].reshape(2 * n, width)[free] for y in (coarse, fine))
+    one, two = (y[d:].reshape(size, width)[free] for y in (coarse, fine))
     error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
-    states = tuple(s for s, own in zip((*system.c.q, *system.c.v), free, strict=True) if own)
+    states = tuple(s for s, own in zip((*system.c.q, *system.speeds), free, strict=True) if own)
     return MonodromyMatrix(states, two, error)

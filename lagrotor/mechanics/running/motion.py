@@ -1,6 +1,7 @@
 """A motion of a system that was run: its states at some times, and whatever else is a function of them."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from hashlib import sha256
 from math import inf
 from typing import Any, TypeVar
@@ -16,7 +17,7 @@ from lagrotor.mechanics.running.flow import Array, Integrate, Values, smooth_mot
 from lagrotor.mechanics.running.function_values import FunctionValue, with_values
 from lagrotor.mechanics.running.phases import Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
-from lagrotor.mechanics.running.programs import energy_program, function_program
+from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.mechanics.running.starts import increasing
 from lagrotor.numerics.any_run import Quantity, Run
@@ -27,7 +28,8 @@ Kind = TypeVar("Kind", bound="SampledMotion")
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SampledMotion(Run):
-    """A motion of a system at the times t (n,) in s: coordinates q (n, N) and velocities v (n, N).
+    """A motion of a system at the times t (n,) in s: coordinates q (n, N), velocities v (n, N), and u (n, m), those of one's
+    own or v.
 
     errors are relative: of each coordinate to its largest value over the run, of each velocity to its own, neither less than a
     thousandth of what the kinetic energy makes it.
@@ -35,14 +37,28 @@ class SampledMotion(Run):
 
     system: Equations
     values: Values
-    q: Array
-    v: Array
     tol: float
     engine: Engine
     scales: Scales
     states: Array  # of the integration, with time and mode
     local: float
     switched: Switched
+
+    @property
+    def q(self) -> Array:
+        """The coordinates, (n, N)."""
+        return self.states[:, : len(self.system.c.q)]
+
+    @cached_property
+    def v(self) -> Array:
+        """Their velocities, (n, N)."""
+        return velocities_along(self.system, self.values, self.states, self.t)
+
+    @property
+    def u(self) -> Array:
+        """The velocities of the system's own, (n, m), or v."""
+        n = len(self.system.c.q)
+        return self.states[:, n : n + len(self.system.speeds)]
 
     def summary(self) -> dict[str, str]:
         """What moves, and how well its motion is known, name → words."""
@@ -98,16 +114,14 @@ class SampledMotion(Run):
 
     def read(self: Kind, times: Array, states: Array) -> Kind:
         """The run at other times, at which its states are known."""
-        n = self.q.shape[1]
         errors = self.errors[np.minimum(np.searchsorted(self.t, times), len(self.t) - 1)]
-        return replace(self, t=times, errors=errors, q=states[:, :n], v=states[:, n : 2 * n], states=states)
+        return replace(self, t=times, errors=errors, states=states)
 
     def quantities(self) -> dict[str, Quantity]:
         """Coordinates, velocities, energy and, under constraints, their violation."""
-        c = self.system.c
-        held = {
-            str(s): Quantity(column, ("t",), "") for s, column in zip((*c.q, *c.v), (*self.q.T, *self.v.T), strict=True)
-        }
+        c, system = self.system.c, self.system
+        names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
+        held = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
         held["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
             held["drift"] = Quantity(self.drift, ("t",), "")
@@ -128,7 +142,7 @@ class SampledMotion(Run):
             "local": self.local,
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
-            "modes": self.states[:, 2 * self.q.shape[1] :].tolist(),
+            "modes": self.states[:, len(self.system.c.q) + len(self.system.speeds) :].tolist(),
         }
 
 
@@ -140,6 +154,7 @@ def digest_of(system: Equations) -> str:
         system.rolling,
         system.dissipation,
         system.forces,
+        *([system.velocities] if system.velocities else []),
     )
     return sha256("; ".join(map(str, parts)).encode()).hexdigest()
 

@@ -24,8 +24,8 @@ from lagrotor.mechanics.running.programs import (
     function_program,
     motion_program,
     parameter_values,
-    start_program,
 )
+from lagrotor.mechanics.running.singular import mass_at, rows_at
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.dop853 import dop853_steps
@@ -103,8 +103,8 @@ class Switched:
     """A system with events: its smooth part, the surfaces of its jumps, the events, the values of the parameters, the splines
     among them, and the events as they were given.
 
-    scale (2 N,): of each component, for the solver. While it is run: the phases that it was in, the endings of its runs, and the
-    times between which a step may hide an event.
+    scale (N + m,): of each component, for the solver. While it is run: the phases that it was in, the endings of its runs, and
+    the times between which a step may hide an event.
     """
 
     system: Equations
@@ -124,6 +124,11 @@ class Switched:
         return len(self.system.c.q)
 
     @property
+    def size(self) -> int:
+        """N + m, of q and u."""
+        return self.n + len(self.system.speeds)
+
+    @property
     def smooth(self) -> bool:
         """Whether nothing switches."""
         return not (self.surfaces or self.events or self.splines)
@@ -138,13 +143,13 @@ class Switched:
         return tuple(e for e in self.events if isinstance(e, Impact))
 
     def mode(self, state: Array) -> ContactMode:
-        parts = tuple(int(x) for x in np.rint(state[2 * self.n + 1 :]))
+        parts = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
         signs, closed = len(self.surfaces), len(self.surfaces) + len(self.impacts)
         return ContactMode(parts[:signs], parts[signs:closed], parts[closed:-1], parts[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
         """(q, v, t, mode): what a run carries from stage to stage."""
-        return np.concatenate([y[: 2 * self.n], [time], mode.signs, mode.closed, mode.pieces, [mode.ended]])
+        return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, mode.pieces, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
         """Expressions at one moment, of the motion of `system`."""
@@ -181,6 +186,7 @@ class Switched:
             (*base.rolling, *held),
             base.dissipation.xreplace(still),
             tuple(e.xreplace(still) for e in base.forces),
+            velocities=base.velocities,
         )
         lam, first = system.multipliers, len(base.constraints)
         conditions: list[tuple[str, int, sp.Expr]] = []
@@ -211,7 +217,7 @@ def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Even
         in_pieces(system, events, values) if isinstance(values, Mapping) else (system, events, ())
     )
     smooth, surfaces = without_jumps(whole)
-    return Switched(smooth, values, surfaces, followed, np.ones(2 * len(system.c.q)), splines, events)
+    return Switched(smooth, values, surfaces, followed, np.ones(len(system.c.q) + len(system.speeds)), splines, events)
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
@@ -251,11 +257,11 @@ def march(
     """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
 
     Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
-    observe: called with the time at which a phase began, the ends of each step since then, and its dense output (m,) → (m, 2 N).
+    observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
     Raises StopError with what was
     reached, where the solver stops.
     """
-    end, y, now, mode, spent = float(times[-1]), start[: 2 * h.n], float(times[0]), h.mode(start), 0
+    end, y, now, mode, spent = float(times[-1]), start[: h.size], float(times[0]), h.mode(start), 0
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
     parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
@@ -271,14 +277,14 @@ def march(
         try:
             stretch, hit = _smooth(h, y, now, mode, times[times > now], local, budget - spent, observe, habit)
         except StopError as stop:
-            reached = stop.reached or Stretch(np.empty((0, 2 * h.n)), y, 0)
+            reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
             last = h.state(reached.end, now + stop.at, mode)
             so_far = Stretch(np.concatenate(parts), last, spent + stop.evaluations, tuple(jumps))
             raise StopError(now + stop.at, stop.reason, so_far, cause=stop.cause) from None
         spent += stretch.evaluations
         add(stretch.states)
-        y = stretch.end[: 2 * h.n]
+        y = stretch.end[: h.size]
         if hit is None:
             now = end
             break
@@ -406,7 +412,7 @@ def polish(functions: Any, k: int, t: float, left: float, right: float) -> float
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
     kind, i = hit.kind, hit.i
-    mode, v = at.mode, at.y[h.n : 2 * h.n]
+    mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface":
         mode = mode.with_sign(i, _sign_beyond(h, at, i))
     elif kind in ("above", "below"):
@@ -446,15 +452,15 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     there was no velocity of approach."""
     mode = at.mode.with_gap(i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
-    values = start_program(system).along(h.numbers(mode))(at.y[None], np.array([at.t]))[:, 0]
-    M, _, G, speeds = np.split(values, np.cumsum([n * n, len(system.constraints), n * len(system.multipliers)]))
-    G = G.reshape(-1, n)
-    row = len(h.system.constraints) + sum(mode.closed[:i])
+    numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
+    G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
+    speeds = h.evaluate(system, [system.residual[k] for k in system.left], at._replace(mode=mode))
+    row = system.left.index(len(h.system.constraints) + sum(mode.closed[:i]))
     change = -speeds
     gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[n:])
     change[row] *= 1 if gentle else 1 + e
-    W = np.linalg.solve(M.reshape(n, n), G.T)
-    return np.asarray(at.y[n : 2 * n] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
+    W = np.linalg.solve(M, G.T)
+    return np.asarray(at.y[n : h.size] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:

@@ -1,6 +1,7 @@
 """The equations of motion as generated programs: state → its derivative, in stages that never multiply out.
 
-The state is (q, v), with t as a last component where time enters explicitly. The mass matrix is factored by L D Lᵀ, the
+The state is (q, u), u the velocities of one's own or v, with t as a last component where time enters explicitly. The
+mass matrix is factored by L D Lᵀ, the
 constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
 """
 
@@ -25,13 +26,15 @@ from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t
+from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
-from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
+from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
 from lagrotor.numerics.printers import compile_program, make_rhs
 
 Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
+_REDUCED = 600  # operations of a Lagrangian up to which it is written in velocities of one's own
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
@@ -72,7 +75,7 @@ class Generated:
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any]) -> Callable[[Array, Array], Array]:
-        """(states (n, ≥ 2 N), q and v first; times (n,)) → outputs (k, n), for a program in q, v and t."""
+        """(states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
         function, parameters, d = self.function, parameter_values(self, values), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -87,18 +90,18 @@ class Generated:
 
 @lru_cache(maxsize=64)
 def motion_program(system: Equations) -> Generated:
-    """The program of a system's right-hand side, (q, v[, t]) → (v, a[, 1]).
+    """The program of a system's right-hand side, (q, u[, t]) → (v, u'[, 1]).
 
     Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
     """
-    stages, a, _ = constrained_motion(system)
-    states = state_symbols(system)
-    return _program(states, stages, [*system.c.v, *a, *[sp.S.One] * (len(states) - 2 * len(a))], moving=True)
+    stages, rates, _ = motion_of_speeds(system)
+    clock = [sp.S.One] * depends_on_time(system)
+    return _program(state_symbols(system), stages, [*system.c.v, *rates, *clock], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """The state of a motion: q, v and, where the time enters, t."""
-    return (*system.c.q, *system.c.v, *((t,) if depends_on_time(system) else ()))
+    """The state of a motion: q, u and, where the time enters, t."""
+    return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
 
 
 def _program(
@@ -109,11 +112,13 @@ def _program(
     moving: it is evaluated so often that common parts are worth the search.
     """
     stages, outputs, functions = _with_calls(stages, outputs)
-    own = {name for name, _ in stages}
-    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own
+    own = dict.fromkeys(name for name, _ in stages)
+    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own.keys()
     parameters = tuple(sorted(used - {*states}, key=str))
     rename: dict[Any, Any] = {
-        s: sp.Symbol(f"y{i}_", real=True) for i, s in enumerate((*states, *parameters)) if not _is_plain(str(s))
+        s: sp.Symbol(f"y{i}_", real=True)
+        for i, s in enumerate((*states, *parameters, *(s for s in own if not s.name.startswith("_"))))
+        if not _is_plain(str(s))
     }
     rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
 
@@ -122,7 +127,7 @@ def _program(
 
     program = Program(
         (*(rename.get(s, s) for s in (*states, *parameters)), *functions),
-        tuple((name, put_in(e)) for name, e in stages),
+        tuple((rename.get(name, name), put_in(e)) for name, e in stages),
         tuple(put_in(e) for e in outputs),
         shared=not moving or len(stages) > MANY,
     )
@@ -148,40 +153,72 @@ def _with_calls(
     return stages, outputs, {symbol: jet for jet, symbol in made.items()}
 
 
+def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array, times: Array) -> Array:
+    """v (n, N) at states (n, ≥ N + m), q and u first."""
+    if system.kinematics is None:
+        return states[:, len(system.c.q) : 2 * len(system.c.q)]
+    return function_program(system, *system.c.v).along(values)(states, times).T
+
+
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """(q, v, t) → the rows of G, one after another."""
-    return function_program(system, *system.rows)
+    """(q, u, t) → the rows of the constraints that multipliers keep, for u', one after another."""
+    return function_program(system, *rows_left(system)[0])
 
 
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
-    """(q, v, t) → M, one row after another."""
-    return function_program(system, *system.mass)
+    """(q, u, t) → the mass matrix of u', one row after another."""
+    return function_program(system, *balance(system)[0])
 
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """(q, v, t) → M, g, G and G v + b, one row after another."""
-    return function_program(system, *system.mass, *system.constraints, *system.rows, *system.residual)
+    """(q, u, t) → M, g, ∂g/∂q, and of the constraints that multipliers keep, the rows for u' and the residuals.
+
+    M is the mass matrix in the velocities v, and the unit matrix of u for those of one's own.
+    """
+    h, M = len(system.constraints), system.mass if system.kinematics is None else sp.eye(len(system.speeds))
+    residual = [system.residual[i] for i in system.left]
+    return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
+
+
+def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
+    """The rows and γ of the constraints that multipliers keep, for u'."""
+    given = system.kinematics
+    if given is None:
+        return system.rows, system.gamma
+    every = list(range(len(system.c.q)))
+    G, gamma = system.rows.extract(list(given.left), every), system.gamma.extract(list(given.left), [0])
+    return G * given.B, G * given.alpha + gamma
 
 
 @lru_cache(maxsize=256)
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
-    """(q, v, t) → expressions in q, v, t, the accelerations and the multipliers of a motion."""
-    states = (*system.c.q, *system.c.v, t)
-    if not set().union(*(e.free_symbols for e in expressions)) & {*system.c.a, *system.multipliers}:
-        return _program(states, (), expressions)
+    """(q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
+    states = (*system.c.q, *system.speeds, t)
+    symbols = set().union(*(e.free_symbols for e in expressions))
+    if not symbols & {*system.c.a, *system.multipliers}:
+        return _program(states, velocity_stages(system), expressions)
     stages, a, lam = constrained_motion(system)
     made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
     return _program(states, stages, [e.xreplace(made) for e in expressions])
+
+
+def velocity_stages(system: Equations) -> list[Stage]:
+    """v, made of velocities of one's own."""
+    given = system.kinematics
+    if given is None:
+        return []
+    made = [(v, e) for v, e in zip(system.c.v, given.velocity, strict=True) if v != e]
+    return [*given.stages, *made]
 
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
     """(q, v, t) → the Jacobi integral."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
-    if tree is None:
+    if tree is None or system.kinematics is not None:
         return function_program(system, system.energy)
     keep = Stages()
     energy = tree_energy(tree, joints(tree, keep), system.c, keep)
@@ -196,20 +233,58 @@ def _is_plain(name: str) -> bool:
 
 
 def depends_on_time(system: Equations) -> bool:
-    """Whether t is in the Lagrangian, a force, the friction or a constraint."""
-    expressions = (system.lagrangian, system.dissipation, *system.forces, *system.constraints, *system.rolling)
+    """Whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
+    own = [e for _, e in system.velocities]
+    expressions = (system.lagrangian, system.dissipation, *system.forces, *system.constraints, *system.rolling, *own)
     return any(t in e.free_symbols for e in expressions)
 
 
 def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, accelerations and multipliers made of them: of a tree of bodies by its recursion, else from the mass matrix."""
-    G = system.rows
+    """Stages, and accelerations and multipliers of all constraints made of them.
+
+    Those of constraints that velocities of one's own keep are what is missing in M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ.
+    """
+    stages, rates, lam = motion_of_speeds(system)
+    given = system.kinematics
+    if given is None:
+        return stages, rates, lam
+    a = given.B * sp.Matrix(rates) + given.alpha
+    multipliers = dict(zip(given.left, lam, strict=True))
+    if given.used:
+        held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
+        missing = given.inverse.T * (system.mass * a + system.bias - system.push - held)
+        multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
+    return stages, list(a), [multipliers[i] for i in range(len(multipliers))]
+
+
+def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
+    """Stages, and u' and the multipliers that are left made of them: of a tree of bodies by its recursion, else from the mass
+    matrix."""
+    G, gamma = rows_left(system)
     if (by_tree := tree_motion(system)) is not None:
-        return under_constraints(*by_tree, G, system.gamma)
-    added, weight, M = inertia(system)
-    push = system.push - system.bias - G.T * weight * system.gamma
-    stages, solved = solve_symmetric(M, push.row_join(G.T), "_m")
-    return under_constraints([*added, *stages], solved, G, system.gamma)
+        return under_constraints(*by_tree, G, gamma)
+    (_, push), (added, weight, M) = balance(system), inertia(system)
+    stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T), "_m")
+    return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma)
+
+
+@lru_cache(maxsize=64)
+def balance(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
+    """M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
+
+    For velocities of one's own as they are projected, or by the equations of Boltzmann and Hamel: whichever takes fewer
+    operations.
+    """
+    M, push, given = system.mass, system.push - system.bias, system.kinematics
+    if given is None:
+        return M, push
+    projected = given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
+    if given.stages or sp.count_ops(system.L) > _REDUCED:
+        return projected
+    M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
+    put = dict(zip(system.c.v, given.velocity, strict=True))
+    reduced = M, given.B.T * system.push.xreplace(put) - h
+    return min(projected, reduced, key=lambda form: operations(function_program(system, *form[0], *form[1]).program))
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -217,6 +292,8 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     where constraints must bind what no mass moves with."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
+        return None
+    if system.kinematics is not None:
         return None
     keep, G = Stages(), system.rows
     push = system.push + rest_forces(tree, system.c)
@@ -239,7 +316,7 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
     Raises SingularError where the constraints do not bind it.
     """
-    M, G = system.mass, system.rows
+    (M, _), (G, _) = balance(system), rows_left(system)
     if _regular(system, M):
         return [], sp.zeros(G.rows, G.rows), M
     if (mean := M.trace() / M.rows) != 0:
@@ -254,22 +331,22 @@ def _regular(system: Equations, matrix: sp.Matrix) -> bool:
     """Whether a symmetric matrix has full rank at one of some random states on the constraints; where it has no value, it is
     taken to."""
     program = function_program(system, *matrix, *system.constraints, *jacobian(system.constraints, system.c.q))
-    letters = (*system.c.q, *system.c.v, t, *(p for p in program.parameters if not isinstance(p, Jet)))
+    letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
     calls = [
         lambda *at, k=k: np.cos(sum(at) + k)
-        for k in range(len(program.parameters) + 1 + 2 * len(system.c.q) - len(letters))
+        for k in range(len(program.parameters) + 1 + len(system.c.q) + len(system.speeds) - len(letters))
     ]
-    n, h = len(system.c.q), len(system.constraints)
+    n, h, m = len(system.c.q), len(system.constraints), matrix.rows
     ranks = []
     for point in points(letters, _STATES):
         at = np.array([float(point[s]) for s in letters])
         for _ in range(_NEWTON if h else 1):
             with np.errstate(all="ignore"):
                 found = np.array(program.function(*at, *calls), float)
-            M, g, slope = np.split(found, [n * n, n * n + h])
+            M, g, slope = np.split(found, [m * m, m * m + h])
             if np.isfinite(found).all():
                 at[:n] -= np.linalg.pinv(slope.reshape(h, n)) @ g
-        M = M.reshape(n, n)
+        M = M.reshape(m, m)
         size = np.sqrt(np.abs(np.diag(M)))
         if np.isfinite(M).all():
             M = M / np.outer(size, size) if size.all() else M
@@ -300,23 +377,26 @@ def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[
 def projection_program(system: Equations) -> Generated:
     """One Newton step of the state onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b).
 
-    Rolling constraints bind velocities alone.
+    Rolling constraints bind velocities alone. With velocities of one's own, along Gᵀ: M = 1.
     """
-    G, n = system.rows, len(system.c.q)
-    added, _, M = inertia(system)
-    stages, W = solve_symmetric(M, G.T, "_m")
-    stages = [*added, *stages]
-    place = sp.Matrix([*system.constraints, *[0] * len(system.rolling)])
-    h = len(system.constraints)
-    moves = sp.zeros(n, 2)
+    G, n, h = system.rows, len(system.c.q), len(system.constraints)
+    if system.kinematics is None:
+        added, _, M = inertia(system)
+        stages, W = solve_symmetric(M, G.T, "_m")
+        stages, across, V = [*added, *stages], G, W
+    else:
+        across, _ = rows_left(system)
+        stages, W, V = velocity_stages(system), G.T, across.T
+    moves, speeds = sp.zeros(n, 1), sp.zeros(len(system.speeds), 1)
     if h:
-        more, x = constraint_solve(G[:h, :] * W[:, :h], place[:h, :], "_h")
-        stages, moves[:, 0] = [*stages, *more], W[:, :h] * x
-    more, x = constraint_solve(G * W, system.residual, "_s")
-    moves[:, 1] = W * x
-    state = sp.Matrix([*system.c.q, *system.c.v]) - moves[:, 0].col_join(moves[:, 1])
+        more, x = constraint_solve(G[:h, :] * W[:, :h], sp.Matrix(system.constraints), "_h")
+        stages, moves = [*stages, *more], W[:, :h] * x
+    if across.rows:
+        more, x = constraint_solve(across * V, system.residual.extract(list(system.left), [0]), "_s")
+        stages, speeds = [*stages, *more], V * x
+    state = sp.Matrix([*system.c.q, *system.speeds]) - moves.col_join(speeds)
     states = state_symbols(system)
-    return _program(states, [*stages, *more], [*state, *states[len(state) :]])
+    return _program(states, stages, [*state, *states[len(state) :]])
 
 
 def tangent_motion(given: Generated) -> Generated:

@@ -16,7 +16,7 @@ from lagrotor.mechanics.running.flow import (
     scaled_rhs,
     to_units,
 )
-from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values
+from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, velocities_along
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.segment import Segment, StopError, Stretch
 
@@ -28,7 +28,7 @@ _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordina
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """turn: the time (s) in which the motion typically turns. sizes (2 N,): the largest value of each coordinate and velocity,
+    """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
     not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
     neighbouring motions are drawn together so fast that a run may be by a stiff method.
     """
@@ -70,15 +70,15 @@ def motion_scales(
     if smooth and (system.forces or system.dissipation != 0):
         program = motion_program(system)
         bare = program.rhs(*parameter_values(program, values))
-        some = states[:: max(1, len(states) // 8)]
-        stiff = min(_rates(bare, state, len(system.c.q)).real.min() for state in some) * span < -_STIFF
+        n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
+        stiff = min(_rates(bare, state, n, n + len(system.speeds)).real.min() for state in some) * span < -_STIFF
     return Scales(turn, _sizes(system, values, states, turn), stretch.evaluations, bool(stiff))
 
 
 def _coarsely(system: Equations, values: Values, start: Array, span: float) -> Integrate:
-    n, program = len(system.c.q), motion_program(system)
+    n, m, program = len(system.c.q), len(system.speeds), motion_program(system)
     bare = program.rhs(*parameter_values(program, values))
-    scale = np.append(first_sizes(bare, start, span, n), np.ones(len(start) - 2 * n))
+    scale = np.append(first_sizes(bare, start, span, n, m), np.ones(len(start) - n - m))
     project = projection_of(system, values) if system.multipliers else None
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
@@ -101,24 +101,25 @@ def _coarsely(system: Equations, values: Values, start: Array, span: float) -> I
     return motion
 
 
-def first_sizes(bare: Rhs, start: Array, span: float, n: int) -> Array:
+def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
     """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
-    velocities = np.asarray(bare(0.0, start), float)[: 2 * n]
-    q, v, a = start[:n], start[n : 2 * n], np.nan_to_num(velocities[n:], posinf=0.0, neginf=0.0)
-    rate = max(float(np.abs(_rates(bare, start, n)).max()), 1 / span)
-    places = np.maximum.reduce([np.abs(q), np.abs(v) / rate, np.abs(a) / rate / rate])
-    speeds = np.maximum.reduce([np.abs(v), np.abs(a) / rate, np.abs(q) / span])
+    known = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
+    q, u, v, a = start[:n], start[n : n + m], known[:n], known[n:]
+    rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
+    places, speeds = np.maximum(np.abs(q), np.abs(v) / rate), np.maximum(np.abs(u), np.abs(a) / rate)
+    if m == n:
+        places, speeds = np.maximum(places, np.abs(a) / rate / rate), np.maximum(speeds, np.abs(q) / span)
     return np.concatenate([_without_zeros(places), _without_zeros(speeds)])
 
 
-def _rates(bare: Rhs, state: Array, n: int) -> NDArray[np.complex128]:
+def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
     """The eigenvalues of the linear motion about a state, 1/s; zero where it is not finite."""
-    known, slope = np.asarray(bare(0.0, state), float)[: 2 * n], np.zeros((2 * n, 2 * n))
-    for j in range(2 * n):
-        step = 1e-6 * (np.abs(state[:n] if j < n else state[n : 2 * n]).max() or 1.0)
+    known, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
+    for j in range(size):
+        step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
         moved = state.copy()
         moved[j] += step
-        slope[:, j] = (np.asarray(bare(0.0, moved), float)[: 2 * n] - known) / step
+        slope[:, j] = (np.asarray(bare(0.0, moved), float)[:size] - known) / step
     return np.asarray(np.linalg.eigvals(slope) if np.isfinite(slope).all() else [0.0], complex)
 
 
@@ -129,24 +130,28 @@ def _without_zeros(sizes: Array) -> Array:
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
     """The largest value of each component of states (m, d), with its least."""
-    n, jacobi = len(system.c.q), energy_program(system).along(values)
-    q, v = states[:, :n], states[:, n : 2 * n]
-    times = states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states))
+    n, m, jacobi = len(system.c.q), len(system.speeds), energy_program(system).along(values)
+    q, u = states[:, :n], states[:, n : n + m]
+    times = states[:, n + m] if states.shape[1] > n + m else np.zeros(len(states))
 
-    def energy(v: Array) -> Array:
-        return jacobi(np.hstack([q, v]), times)[0]
+    def energy(u: Array) -> Array:
+        return jacobi(np.hstack([q, u]), times)[0]
 
-    largest = np.abs(states[:, : 2 * n]).max(0)
-    at_rest, moving = energy(0 * v), energy(v)
+    largest = np.abs(states[:, : n + m]).max(0)
+    at_rest, moving = energy(0 * u), energy(u)
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
-    least = np.zeros(n)
+    least = np.zeros(m)
     for i, speed in enumerate(np.where(largest[n:] > 0, largest[n:], 1.0)):
-        along = 0 * v + speed * np.eye(n)[i]
+        along = 0 * u + speed * np.eye(m)[i]
         mass = np.nanmedian(energy(along) + energy(-along) - 2 * at_rest) / speed**2
         least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
     speeds = np.maximum(largest[n:], least)
-    places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
-    speeds = np.where(speeds > 0, speeds, places * 2 * np.pi / turn)
+    if system.kinematics is None:
+        places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
+        speeds = np.where(speeds > 0, speeds, places * 2 * np.pi / turn)
+    else:
+        v = np.abs(velocities_along(system, values, states, times)).max(0)
+        places = np.maximum(largest[:n], v * turn / (2 * np.pi))
     places, speeds = _positive(places), _positive(speeds)
     return np.concatenate([places, speeds])
 

@@ -35,7 +35,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     if len(run.t) < 2:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
-    section, n = with_values(expression("crossings: section", section), run.values), run.q.shape[1]
+    section, size = with_values(expression("crossings: section", section), run.values), run.switched.size
     value = function_program(run.system, section).along(run.values)
     touch = max(run.tol, _LEAST) * _change(run, section)
     passages: list[tuple[float, int, Array]] = []
@@ -54,7 +54,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
             at, near = begun + since, _ONE * (right - left)
             if at > run.t[0] + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
-                passages.append((at, int(way), curve(np.array([since]))[0][: 2 * n]))
+                passages.append((at, int(way), curve(np.array([since]))[0][:size]))
         side = float(values(np.array([right]))[0, 0])
 
     # A run without events is followed in one phase, with the time among its states.
@@ -73,7 +73,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             if near_end and passages[-1][1] == -way:
                 passages.pop()  # the next piece begins before it
             elif not near_end:
-                passages.append((float(b), way, full[i + 1][: 2 * n]))
+                passages.append((float(b), way, full[i + 1][:size]))
     if hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
@@ -83,10 +83,10 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         )
     kept = [(t, y) for t, way, y in passages if direction in (0, way)]
     times = np.array([t for t, _ in kept])
-    tail = run.states.shape[1] - 2 * n
-    rows = np.array([y for _, y in kept]).reshape(-1, 2 * n)
+    tail = run.states.shape[1] - size
+    rows = np.array([y for _, y in kept]).reshape(-1, size)
     before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
-    more = run.states[before, 2 * n :].copy()
+    more = run.states[before, size:].copy()
     if tail:
         more[:, 0] = times
     return run.read(times, np.hstack([rows, more]))
@@ -101,7 +101,10 @@ def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direct
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:
     """The most by which a section changes where each component of the state changes by its size."""
-    symbols = (*run.system.c.q, *run.system.c.v)
+    symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
+    if run.system.kinematics is not None:
+        moving = [v for v in run.system.c.v if v not in symbols]
+        symbols, sizes = (*symbols, *moving), np.append(sizes, [np.abs(run.evaluate(v)).max() for v in moving])
     program = function_program(run.system, *(derivative(section, s) for s in symbols))
     slopes = program.along(run.values)(run.states, run.t)
-    return float((np.abs(slopes).T @ run.scales.sizes).max())
+    return float((np.abs(slopes).T @ sizes).max())

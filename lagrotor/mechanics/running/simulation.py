@@ -13,7 +13,7 @@ from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_pictures, sections
-from lagrotor.mechanics.running.admission import check_inertia, check_values
+from lagrotor.mechanics.running.admission import check_inertia, check_pole, check_values
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
@@ -65,8 +65,8 @@ class SystemRun(SampledMotion):
                 raise InputError(
                     f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give its own"
                 )
-            q, v = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, c.v))
-            states = np.hstack([q, v, np.array(about["modes"], float).reshape(len(q), -1)])
+            q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
+            states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
             values = {str(name): float(value) for name, value in about["values"].items()} | more
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
@@ -77,13 +77,13 @@ class SystemRun(SampledMotion):
         if (
             not np.isfinite(states).all()
             or len(states) != len(saved.fields["t"])
-            or scales.sizes.shape != (2 * len(c.q),)
+            or scales.sizes.shape != (len(c.q) + len(system.speeds),)
         ):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
         h = replace(with_events(system, values, given), scale=powers_of_two(scales.sizes))
         return SystemRun(
-            **saved.fields, system=system, values=values, q=q, v=v, tol=tol, engine=engine, scales=scales, states=states,
+            **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
         )  # fmt: skip
 
@@ -98,7 +98,7 @@ def simulate_system(
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
 ) -> SystemRun:
-    """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s.
+    """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s; v0 (m,) are u for velocities of one's own.
 
     values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable, callables
     (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: no step passes one of its knots,
@@ -121,7 +121,7 @@ def simulate_system(
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
     h, n = with_events(system, values, given), len(system.c.q)
-    q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
+    q, v = state_vector("q0", q0, n), state_vector("v0", v0, len(system.speeds), system)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
@@ -131,6 +131,7 @@ def simulate_system(
             _check_impact(event, float(at_start[0]), float(at_start[1]), times[0])
     if system.multipliers:
         q, v = _on_constraints(system, values, q, v, times[0])
+    check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
@@ -154,8 +155,8 @@ def simulate_system(
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
         t=estimate.t, errors=estimate.errors, horizon=estimate.horizon, evaluations=estimate.evaluations + scales.evaluations,
-        ending=estimate.ending, system=system, values=values, q=estimate.states[:, :n], v=estimate.states[:, n : 2 * n], tol=tol,
-        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
+        ending=estimate.ending, system=system, values=values, tol=tol, engine=engine,
+        scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
     if system.multipliers:
@@ -177,7 +178,7 @@ def _check_impact(impact: Impact, gap: float, restitution: float, begin: float) 
 
 def _up_to_its_end(run: SystemRun) -> SystemRun:
     """The run up to where an event ended it, with the state there as its last."""
-    h, n = run.switched, run.q.shape[1]
+    h = run.switched
     if h.hidden:
         a, b = h.hidden[0]
         warnings.warn(
@@ -195,7 +196,7 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
         ]
         return replace(run, ending=replace(run.ending, reason="; ".join(rest))) if rest else run
     k = int(np.argmax(ended > 0))
-    at, ending = float(run.states[k, 2 * n]), h.endings[ended[k] - 1]
+    at, ending = float(run.states[k, h.size]), h.endings[ended[k] - 1]
     k += k == 0 or at > run.t[k - 1]  # the state of the end is the last sample
     kept = run.read(np.append(run.t[: k - 1], at), run.states[:k])
     if ending.kind != "event" or "accumulate" in ending.reason:
@@ -221,14 +222,15 @@ def _warn_of_dependence(run: SystemRun) -> None:
     product of the rows of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then
     det(G(t) G(t')ᵀ) < 0 for times before and after it."""
     rows = run.system.rows
-    if len(run.t) < 2 or not rows.free_symbols & {*run.system.c.q, time}:
+    if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
         return
     from scipy.interpolate import CubicHermiteSpline
 
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
     q = CubicHermiteSpline(run.t, run.q, run.v)(fine)
-    G = rows_program(run.system).along(run.values)(np.hstack([q, 0 * q]), fine)
-    G = G.T.reshape(-1, *rows.shape)
+    still = np.zeros((len(fine), len(run.system.speeds)))
+    G = rows_program(run.system).along(run.values)(np.hstack([q, still]), fine)
+    G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
     turned = np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0
     if turned.any():
         at = fine[int(np.argmax(turned))]

@@ -19,7 +19,6 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 
 def singular_position(system: Equations, values: Mapping[Any, Any], start: Array) -> Callable[[Array], str]:
     """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state."""
-    n = len(system.c.q)
     known = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(known > 0, known, 1.0)
 
@@ -29,46 +28,48 @@ def singular_position(system: Equations, values: Mapping[Any, Any], start: Array
         least, direction = _least(mass_at(system, values, state) / np.outer(scale, scale))
         first, _ = _least(mass_at(system, values, start) / np.outer(scale, scale))
         if first > 0 and least < _SINGULAR * first:
-            names = ", ".join(str(q) for q, part in zip(system.c.q, direction, strict=True) if abs(part) > _TAKES_PART)
+            moving = system.c.q if system.kinematics is None else system.speeds
+            names = ", ".join(str(q) for q, part in zip(moving, direction, strict=True) if abs(part) > _TAKES_PART)
             return (
                 f"the mass matrix has there {scientific(max(least, 0.0) / first, 1)} of its least eigenvalue at the start, along "
                 f"{names}: a pole of these coordinates. Angles about three different axes, turned('xyz'), have none where those "
                 "of 'zxz' and 'zyz' do, and the reverse; points x, y, z under a constraint have none at all"
             )
-        if system.multipliers and (cosine := _dependence(system, values, state)) < _SINGULAR:
+        if system.left and (cosine := _dependence(system, values, state)) < _SINGULAR:
             return f"the constraints are dependent there: the least singular value of their normals is {scientific(cosine, 1)}"
         return ""
 
-    return words if n else lambda state: ""
+    return words
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """M at a state, (N, N); of a tree of bodies from the energy, which is quadratic in the velocities."""
-    n, program = len(system.c.q), energy_program(system)
+    """M of u' at a state, (m, m); of a tree of bodies from the energy, which is quadratic in the velocities."""
+    n, m = len(system.c.q), len(system.speeds)
     if not system.bodies:
-        return _at(mass_program(system), system, values, state).reshape(n, n)
-    units = np.eye(n)
-    pairs = (units[:, None] + units[None]).reshape(-1, n)
-    v = np.vstack([np.zeros(n), units, -units, pairs, -pairs])
-    states = np.hstack([np.tile(state[:n], (len(v), 1)), v])
-    E = program.along(values)(states, np.full(len(v), _time(state, n)))[0]
-    alone = (E[1 : n + 1] + E[n + 1 : 2 * n + 1]) / 2 - E[0]
-    both = ((E[2 * n + 1 : 2 * n + 1 + n * n] + E[2 * n + 1 + n * n :]) / 2 - E[0]).reshape(n, n)
+        return _at(mass_program(system), system, values, state).reshape(m, m)
+    units = np.eye(m)
+    pairs = (units[:, None] + units[None]).reshape(-1, m)
+    u = np.vstack([np.zeros(m), units, -units, pairs, -pairs])
+    states = np.hstack([np.tile(state[:n], (len(u), 1)), u])
+    E = energy_program(system).along(values)(states, np.full(len(u), _time(state, system)))[0]
+    alone = (E[1 : m + 1] + E[m + 1 : 2 * m + 1]) / 2 - E[0]
+    both = ((E[2 * m + 1 : 2 * m + 1 + m * m] + E[2 * m + 1 + m * m :]) / 2 - E[0]).reshape(m, m)
     return np.asarray(both - alone[:, None] - alone[None])
 
 
 def rows_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """G at a state, (k, N)."""
-    found = _at(rows_program(system), system, values, state) if system.multipliers else np.zeros(0)
-    return found.reshape(system.rows.shape)
+    """The rows of the constraints that multipliers keep, for u', at a state, (k, m)."""
+    found = _at(rows_program(system), system, values, state) if system.left else np.zeros(0)
+    return found.reshape(len(system.left), len(system.speeds))
 
 
 def _at(program: Generated, system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    return program.along(values)(state[None], np.array([_time(state, len(system.c.q))]))
+    return program.along(values)(state[None], np.array([_time(state, system)]))
 
 
-def _time(state: Array, n: int) -> float:
-    return float(state[2 * n]) if len(state) > 2 * n else 0.0
+def _time(state: Array, system: Equations) -> float:
+    size = len(system.c.q) + len(system.speeds)
+    return float(state[size]) if len(state) > size else 0.0
 
 
 def _least(matrix: Array) -> tuple[float, Array]:

@@ -11,28 +11,32 @@ from lagrotor.mechanics.running.programs import parameter_values, start_program
 
 
 def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
-    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
+    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t; (q, u) for velocities of
+    one's own, in the metric of their numbers.
 
     Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
     """
-    n, h = len(system.c.q), len(system.constraints)
-    q, v = state_vector("q0", q0, n), state_vector("v0", v0, n)
+    n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
+    q, v = state_vector("q0", q0, n), state_vector("v0", v0, m, system)
     given = start_program(system)
     rest = (t, *parameter_values(given, values, "consistent"))
-    ends = np.cumsum([n * n, h, n * len(system.multipliers)])
+    ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
-    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array]:
-        """M, g, G and G v + b."""
+    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
+        """M, g, ∂g/∂q, G and G u + b."""
         with np.errstate(all="ignore"):
             numbers = np.array(given.function(*np.concatenate([at, rates, rest])), float)
-        M, g, G, off = np.split(numbers, ends)
-        return M.reshape(n, n), g, G.reshape(-1, n), off
+        M, g, slope, G, off = np.split(numbers, ends)
+        return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), off
 
     if h:
-        metric_there = metric(parts(q, v)[0], parts(q, v)[2][:h])
-        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2][:h], q, metric_there)
+        M, _, slope, _, _ = parts(q, v)
+        metric_there = metric(M, slope) if system.kinematics is None else None
+        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2], q, metric_there)
         q = np.asarray(placed, float)
-    mass, _, slope, wanted = parts(q, np.zeros(n))  # wanted: b, so that G v + b = 0
+    mass, _, _, slope, wanted = parts(q, np.zeros(m))  # wanted: b, so that G u + b = 0
+    if not system.left:
+        return q, v
     mass = metric(mass, slope)
     particular = -np.linalg.pinv(slope) @ wanted
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
@@ -45,12 +49,15 @@ def metric(mass: Array, slope: Array) -> Array:
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
-def state_vector(name: str, given: ArrayLike, n: int) -> Array:
+def state_vector(name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
+    """n finite numbers; of velocities where a system is given."""
     vector = _real(given)
     if vector is None:
         raise InputError(f"simulate: {name} = {given!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
-        raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, one for each coordinate")
+        own = system is not None and system.kinematics is not None
+        each = f"of {', '.join(map(str, system.speeds))}" if system and own else "one for each coordinate"
+        raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, {each}")
     return vector
 
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression
-from lagrotor.mechanics.running.admission import check_values
+from lagrotor.mechanics.running.admission import check_pole, check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -81,15 +81,16 @@ def state_space(
     start = point_state("linearise", system, at, known)
     motion = motion_slope("linearise", motion_program(system), known, inputs)
     rate, J, B = motion(start)
-    n = len(system.c.q)
+    n, d = len(system.c.q), len(start)
     size = max(1.0, float(np.abs(start).max()))
     if not np.isfinite(J).all():
         raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
-    least = _STEADY * size * float(np.abs(J[n : 2 * n]).max()) + _ROUNDING
+    least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
-        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(system.c.a, rate[n:], strict=True) if abs(x) > least)
+        rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
+        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
         raise SingularError(f"linearise: {dict(at)} is no steady motion: {left} is left over; start from one")
-    later = start + np.concatenate([start[n:], np.zeros(n)]) / size
+    later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     if np.abs(motion(later)[1] - J).max() > _SAME * max(1.0, float(np.abs(J).max())):
         raise InputError(
             "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
@@ -97,23 +98,24 @@ def state_space(
         )
     free, T = tangent_space("linearise", system, known, start)
     _, C, D = motion_slope("linearise", function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
-    states = tuple(s for s, own in zip((*system.c.q, *system.c.v), free, strict=True) if own)
-    return StateSpace(states, J[free] @ T, B[free], C[:, : 2 * n] @ T, D)
+    states = tuple(s for s, own in zip((*system.c.q, *system.speeds), free, strict=True) if own)
+    return StateSpace(states, J[free] @ T, B[free], C[:, :d] @ T, D)
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
     """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
     c = system.c
-    point = by_symbol(at, (*c.q, *c.v))
+    point = by_symbol(at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
     moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # which may have other names there
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
         raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
-    if strangers := [str(s) for s in point if s not in {*c.q, *c.v}]:
+    if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
+        names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
-            f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities; others are values"
+            f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
         )
-    given = [point.get(s, 0) for s in (*c.q, *c.v)]
+    given = [point.get(s, 0) for s in (*c.q, *system.speeds)]
     inside = {s for e in map(sp.sympify, given) for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(values, inside).items() if s in inside}
     try:
@@ -126,11 +128,12 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         n = len(c.q)
         near = np.concatenate(consistent(system, values, start[:n], start[n:], time))
         if np.abs(near - start).max() > _OFF * (1 + np.abs(start).max()):
-            shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *c.v), near, strict=True) if x)
+            shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
                 f"{where}: the point is off the constraints; the nearest on them is {shown or 'zero'}"
             )
         start = near
+    check_pole(where, system, values, np.append(start, time))
     return start
 
 
@@ -173,14 +176,14 @@ def motion_slope(
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Which of the states are independent, and T (2 N, free) that gives all of them."""
-    d = len(state)
+    """Which of the states are independent, and T (N + m, free) that gives all of them."""
+    d, n = len(state), len(system.c.q)
     if not system.multipliers:
         return np.ones(d, bool), np.eye(d)
     from scipy.linalg import qr
 
-    n, h = d // 2, len(system.constraints)
-    bound = function_program(system, *system.constraints, *system.residual)
+    h = len(system.constraints)
+    bound = function_program(system, *system.constraints, *(system.residual[i] for i in system.left))
     slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, :d]
     held = np.zeros(0, int)
     for rows, first in (

@@ -95,7 +95,7 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
     given = (events,) if isinstance(events, Event | Impact) else events
     if not isinstance(given, Sequence) or not all(isinstance(each, Event | Impact) for each in given):
         raise InputError(f"simulate: events = {events!r} must be Event(section) or Impact(gap), or several in a tuple")
-    c, n = system.c, len(system.c.q)
+    c, n = system.c, len(system.speeds)
     for each in given:
         if isinstance(each, Impact):
             if wrong := each.gap.free_symbols & {*c.v, *c.a}:
@@ -104,7 +104,7 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
                 raise InputError(f"Impact: the gap {each.gap} contains no coordinate: no impact changes it")
         elif each.velocities is not None and len(each.velocities) != n:
             raise InputError(
-                f"Event: {len(each.velocities)} velocities after it, for {n} coordinates: give one for each"
+                f"Event: {len(each.velocities)} velocities after it, for {n} of the system: give one for each"
             )
         if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a, *system.multipliers}):
             raise InputError(
