@@ -30,6 +30,7 @@ from lagrotor.numerics.codegen import Stage, solve_symmetric
 
 Pairs = tuple[tuple[sp.Symbol, sp.Expr], ...]
 _SMALL = 3  # rows up to which a block is inverted by its adjugate
+_SHORT = 100  # operations of what is factored and reduced
 _STATES = 3  # random ones, at which ranks are read off
 _ROUNDING = 1e-9  # of the largest entry of a row, what is left of it where it depends on others
 
@@ -174,8 +175,8 @@ def inverse_of(K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates) -> tuple[l
             own = block.T * sp.diag(*(1 / e for e in lengths))
             factors += lengths
         elif len(rows) <= _SMALL:
-            determinant = shortest(block.det(method="berkowitz"))
-            own = (block.adjugate(method="berkowitz") / determinant).applyfunc(shortest)
+            determinant = _reduced(block.det(method="berkowitz"))
+            own = (block.adjugate(method="berkowitz") / determinant).applyfunc(_reduced)
             factors.append(determinant)
         else:
             made, normal = solve_symmetric(gram, sp.eye(len(rows)), f"_k{number}")
@@ -184,10 +185,11 @@ def inverse_of(K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates) -> tuple[l
             solved, list(range(n))
         )
         for i, line in enumerate((own * right).tolist()):
-            inverse[columns[i], :] = sp.Matrix([[shortest(e) for e in line]])
+            inverse[columns[i], :] = sp.Matrix([[_reduced(e) for e in line]])
         solved += columns
     moving = {*c.q, t}
-    poles = [f for e in factors for f in sp.Mul.make_args(sp.factor(e)) if f.free_symbols & moving]
+    factors = [f for e in factors if _written(e) for f in sp.Mul.make_args(sp.factor(e))]
+    poles = [f for f in factors if f.free_symbols & moving]
     return stages, inverse, list(dict.fromkeys(f.base if f.is_Pow else f for f in poles))
 
 
@@ -219,6 +221,15 @@ def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
         first.append((sorted(block), sorted(across)))
         rows -= block
     return [*first, *reversed(last)]
+
+
+def _written(e: Any) -> bool:
+    """Whether it is short enough to be factored and reduced."""
+    return bool(sp.count_ops(e) <= _SHORT)
+
+
+def _reduced(e: sp.Expr) -> sp.Expr:
+    return shortest(e) if _written(e) else e
 
 
 def _on(e: sp.Expr, held: Sequence[sp.Expr], c: Coordinates) -> sp.Expr:
