@@ -91,8 +91,22 @@ class Equations:
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
-        """The velocities as pairs, and put in where an expression has them."""
-        pairs = check_velocities(self.c, self.velocities)
+        """The velocities as pairs, those of ball joints among them, and put in where an expression has them."""
+        joints = self._ball_joints()
+        given = dict(check_velocities(self.c, self.velocities))
+        turned = {q: joint for joint in joints for q in joint.quaternion}
+        if joints and not given:
+            for q, v in zip(self.c.q, self.c.v, strict=True):
+                given |= turned[q].own_velocities if q in turned else {v: v}
+        for joint in joints:
+            given |= joint.own_velocities
+            if joint.unit_length not in self.constraints:
+                object.__setattr__(self, "constraints", (*self.constraints, joint.unit_length))
+                if self.names:
+                    first = len(self.constraints) - 1
+                    unit = f"unit {joint.quaternion[0]}"
+                    object.__setattr__(self, "names", (*self.names[:first], unit, *self.names[first:]))
+        pairs = check_velocities(self.c, given)
         own = {u: e for u, e in pairs if u != e}
         object.__setattr__(self, "velocities", pairs)
         if not own:
@@ -102,6 +116,11 @@ class Equations:
         object.__setattr__(self, "dissipation", self.dissipation.xreplace(own))
         if hasattr(self.lagrangian, "xreplace"):
             object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(own))
+
+    def _ball_joints(self) -> list[Any]:
+        """The frames of ball joints that carry bodies, from the ground outward."""
+        steps = (frame for body in self.bodies for frame in reversed(body.frame.to_the_ground))
+        return list(dict.fromkeys(frame for frame in steps if frame.omega))
 
     def _name(self, part: str, given: Mapping[Any, Any]) -> None:
         """Take the names of constraints or of rolling; those of the other part are numbers unless it is named, too."""
@@ -177,8 +196,9 @@ class Equations:
         """How v follows from velocities of one's own, where there are any."""
         if not self.velocities:
             return None
-        rolling = range(len(self.constraints), len(self.residual))
-        return kinematics(self.c, tuple(self.velocities), self.constraints, self.residual, rolling)
+        units = [self.constraints.index(joint.unit_length) for joint in self._ball_joints()]
+        first = [*units, *range(len(self.constraints), len(self.residual))]
+        return kinematics(self.c, tuple(self.velocities), self.constraints, self.residual, first)
 
     @property
     def left(self) -> tuple[int, ...]:

@@ -16,6 +16,7 @@ Hamel, Theoretische Mechanik (1949), §§ 235–242; Kane & Levinson, Dynamics: 
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -196,13 +197,15 @@ def inverse_of(K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates) -> tuple[l
 def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
     """Rows and columns of the blocks of K, made triangular: rows with one unknown first, columns with one row last."""
     rows, columns = {*range(K.rows)}, {*range(K.rows)}
+    across = {i: {j for j in columns if K[i, j] != 0} for i in rows}
+    down = {j: {i for i in rows if j in across[i]} for j in columns}
     first, last = list[tuple[list[int], list[int]]](), list[tuple[list[int], list[int]]]()
 
     def unknowns(i: int) -> list[int]:
-        return [j for j in sorted(columns) if K[i, j] != 0]
+        return sorted(across[i] & columns)
 
     def users(j: int) -> list[int]:
-        return [i for i in sorted(rows) if K[i, j] != 0]
+        return sorted(down[j] & rows)
 
     while rows:
         if single := next((([i], unknowns(i)) for i in sorted(rows) if len(unknowns(i)) == 1), None):
@@ -213,12 +216,12 @@ def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
             break
         rows, columns = rows - {*single[0]}, columns - {*single[1]}
     while rows:
-        block, across, fresh = set[int](), set[int](), {min(rows)}
+        block, held, fresh = set[int](), set[int](), {min(rows)}
         while fresh:
             block |= fresh
-            across |= {j for i in fresh for j in columns if K[i, j] != 0}
-            fresh = {i for i in rows - block if any(K[i, j] != 0 for j in across)}
-        first.append((sorted(block), sorted(across)))
+            held |= set().union(*(unknowns(i) for i in fresh))
+            fresh = set[int]().union(*(users(j) for j in held)) - block
+        first.append((sorted(block), sorted(held)))
         rows -= block
     return [*first, *reversed(last)]
 
@@ -242,12 +245,14 @@ def _on(e: sp.Expr, held: Sequence[sp.Expr], c: Coordinates) -> sp.Expr:
 
 def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
     """The matrix in numbers at some random states, where it has a value."""
+    unknown = matrix.atoms(sp.Derivative, sp.core.function.AppliedUndef)
+    plain = matrix.xreplace({f: sp.Symbol(f"_f{i}", real=True) for i, f in enumerate(sorted(unknown, key=str))})
+    letters = sorted(plain.free_symbols, key=str)
+    function = sp.lambdify(letters, plain.tolist(), "math", cse=True, dummify=True)
     found = []
-    for point in points(matrix.free_symbols, _STATES):
-        try:
-            found.append([[float(e.xreplace(point).evalf(20)) for e in matrix.row(i)] for i in range(matrix.rows)])
-        except TypeError:
-            continue
+    for point in points(letters, _STATES):
+        with suppress(ArithmeticError, ValueError):
+            found.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in letters))])
     return found
 
 

@@ -23,7 +23,6 @@ from lagrotor.errors import SingularError
 from lagrotor.mechanics.bodies.joints import Joint
 from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
 from lagrotor.mechanics.bodies.trees import ZERO, Pair
-from lagrotor.mechanics.lagrangian import Coordinates
 
 Column = list[sp.Expr]
 
@@ -47,7 +46,9 @@ class Factor:
     x: Column
 
 
-def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence[Column], keep: Stages) -> list[Column]:
+def tree_accelerations(
+    chain: Sequence[Joint], speeds: Sequence[sp.Symbol], torques: Sequence[Column], keep: Stages
+) -> list[Column]:
     """M⁻¹ (τ − h) for the first column of joint forces, velocities and field included, and M⁻¹ τ for the others.
 
     Raises SingularError where a coordinate moves no mass.
@@ -63,7 +64,7 @@ def tree_accelerations(chain: Sequence[Joint], c: Coordinates, torques: Sequence
             D = keep(s[0].dot(U[0]) + s[1].dot(U[1]))
             if D == 0:
                 raise SingularError(
-                    f"simulate: the mass matrix is singular: {c.v[number]} moves no mass; use fewer coordinates, or give the "
+                    f"simulate: the mass matrix is singular: {speeds[number]} moves no mass; use fewer coordinates, or give the "
                     "bodies that it turns an inertia"
                 )
             inverse = keep(1 / D)

@@ -12,7 +12,6 @@ import sympy as sp
 
 from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
 from lagrotor.mechanics.bodies.trees import ZERO, Mass, Pair, Tree, TreeLink
-from lagrotor.mechanics.lagrangian import Coordinates
 
 _EYE = sp.eye(3)
 _STILL = zeros(3, 3)
@@ -175,15 +174,15 @@ def _centripetal(w: Small, keep: Stages) -> Small:
     return Small(rows)
 
 
-def tree_energy(tree: Tree, chain: Sequence[Joint], c: Coordinates, keep: Stages) -> sp.Expr:
+def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
     """v·∂L/∂v − L, in stages, with the velocities (ω, v) of the links.
 
     Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With v* the
     velocity that time alone gives, T₂ − T₀ is ½ m (v − 2 v*)·v, and likewise for the turning. Goldstein §2.7.
     """
-    total, fields, depths = -tree.rest.subs(dict.fromkeys(c.v, 0)), list[Small](), list[sp.Expr]()
+    total, fields, depths = -tree.rest.subs(dict.fromkeys(speeds, 0)), list[Small](), list[sp.Expr]()
     moving = _velocities(chain, [joint.rate for joint in chain], keep)
-    by_time = [(_at_rest(u, c), _at_rest(d, c)) for u, d in (joint.link.rate for joint in chain)]
+    by_time = [(_at_rest(u, speeds), _at_rest(d, speeds)) for u, d in (joint.link.rate for joint in chain)]
     driven = _velocities(chain, by_time, keep)
     for joint, (w, v), (w_t, v_t) in zip(chain, moving, driven, strict=True):
         parent = joint.link.parent
@@ -198,8 +197,8 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], c: Coordinates, keep: Stages
     return total
 
 
-def _at_rest(rate: Small, c: Coordinates) -> Small:
-    return rate.each(lambda e: e.subs(dict.fromkeys(c.v, 0)))
+def _at_rest(rate: Small, speeds: Sequence[sp.Symbol]) -> Small:
+    return rate.each(lambda e: e.subs(dict.fromkeys(speeds, 0)))
 
 
 def _velocities(chain: Sequence[Joint], rates: Sequence[Pair], keep: Stages) -> list[Pair]:

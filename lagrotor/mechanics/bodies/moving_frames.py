@@ -30,27 +30,31 @@ class MovingFrame:
     """The ground, or a frame reached from its parent.
 
     axis, amount: the step from the parent: a turn by the angle `amount` about axis 0, 1, 2; a shift by the vector
-    `amount` (axis None); or a rotation matrix.
+    `amount` (axis None); or a rotation matrix. quaternion, omega: of a ball joint, see `named_joints`.
     """
 
     c: Coordinates
     parent: "MovingFrame | None" = None
     axis: int | None = None
     amount: Any = None
+    quaternion: tuple[sp.Symbol, ...] = ()
+    omega: tuple[sp.Symbol, ...] = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(f"Frame: {self.c!r} must be Coordinates: Frame(coordinates('phi theta psi'))")
-        check_names("Frame", self.c.q, self.c.v, [frame.amount for frame in self._to_the_ground])
+        check_names("Frame", self.c.q, self.c.v, [frame.amount for frame in self.to_the_ground])
 
     @property
-    def _to_the_ground(self) -> "list[MovingFrame]":
+    def to_the_ground(self) -> "list[MovingFrame]":
         """This frame, its parent, and so on."""
-        return [self] if self.parent is None else [self, *self.parent._to_the_ground]
+        return [self] if self.parent is None else [self, *self.parent.to_the_ground]
 
     def __repr__(self) -> str:
         if self.parent is None:
             return "Frame(ground)"
+        if self.omega:
+            return f"Frame(turned by the quaternion {self.quaternion})"
         if self.axis is not None:
             return f"Frame(turned about {AXES[self.axis]} by {self.amount})"
         return f"Frame({'turned' if self.amount.cols == 3 else 'moved'} by {self.amount.tolist()})"
@@ -92,9 +96,25 @@ class MovingFrame:
         """u: the turn's own angular velocity, in this frame's axes."""
         if self.axis is not None:
             return sp.eye(3)[:, self.axis] * total_derivative(self.amount, self.c)
+        if self.omega:
+            return sp.Matrix(list(self.own_velocities.values()))
         R = self.rotation
         spin = R.T * R.applyfunc(lambda e: total_derivative(e, self.c))
         return sp.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
+
+    @property
+    def own_velocities(self) -> dict[sp.Symbol, sp.Expr]:
+        """ω of a ball joint by its names: 2 E(q) q'."""
+        if not self.omega:
+            return {}
+        (a, b, c, d), rates = self.quaternion, [self.c.v[self.c.q.index(q)] for q in self.quaternion]
+        rows = ((-b, a, d, -c), (-c, -d, a, b), (-d, c, -b, a))
+        return {w: 2 * sp.Add(*map(sp.Mul, row, rates)) for w, row in zip(self.omega, rows, strict=True)}
+
+    @property
+    def unit_length(self) -> sp.Expr:
+        """|q|² − 1 of a ball joint, which stays zero."""
+        return sp.Add(*(q**2 for q in self.quaternion), -1)
 
     @cached_property
     def angular_velocity(self) -> sp.Matrix:

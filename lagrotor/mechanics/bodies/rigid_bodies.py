@@ -16,6 +16,7 @@ from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies import named_joints
 from lagrotor.mechanics.bodies.contacts import Contact, contact
 from lagrotor.mechanics.bodies.force_elements import push, torque
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
@@ -137,7 +138,8 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame(MovingFrame):
     """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one; `push` and `torque` give the
-    generalised forces of a force at one of its points, and of a torque on it.
+    generalised forces of a force at one of its points, and of a torque on it. Joints by name lead to others, too, and close
+    loops: see `named_joints`.
 
     c = coordinates("phi theta psi")
     top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
@@ -147,6 +149,10 @@ class Frame(MovingFrame):
     body = make_body
     push = push
     torque = torque
+    weld, pin, prismatic, screw = named_joints.weld, named_joints.pin, named_joints.prismatic, named_joints.screw
+    cylindrical, universal, planar = named_joints.cylindrical, named_joints.universal, named_joints.planar
+    ball, free = named_joints.ball, named_joints.free
+    coincides, keeps_axis = named_joints.coincides, named_joints.keeps_axis
 
 
 @dataclass(frozen=True)

@@ -38,8 +38,8 @@ class TreeLink:
     """A joint and what it carries.
 
     parent: its number, −1 for the ground. shift: the link's origin from the parent's, in the parent's axes. rotation, then a
-    turn by `angle` about `axis`, if any: components in the link → in the parent. coordinates: the numbers of the joint's own.
-    columns: s_j for each of them; rate: the relative velocity; swing: its derivative without accelerations.
+    turn by `angle` about `axis`, if any: components in the link → in the parent. coordinates: the numbers of its own
+    velocities. columns: s_j for each of them; rate: the relative velocity; swing: its derivative without accelerations.
     """
 
     parent: int
@@ -94,7 +94,7 @@ def tree_of(system: Equations) -> Tree | None:
     complete = not fields or {body for body, _ in fallen} == {*kinetic}
     if len({*kinetic}) != len(kinetic) or len(kinetic) + len(fallen) != len(L.terms) or len(fields) > 1 or not complete:
         return None
-    links = _links(system.c, kinetic)
+    links = _links(system, kinetic)
     if links is None:
         return None
     field = sp.Matrix(next(iter(fields))) if fields else sp.zeros(3, 1)
@@ -114,12 +114,12 @@ def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
 
 
 class _NoTreeError(Exception):
-    """A step by coordinates that another joint has, or by velocities."""
+    """A step by coordinates that another joint has, or by velocities; a velocity of one's own that is no joint's."""
 
 
-def _links(c: Coordinates, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
+def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
     """The links on the way to the bodies; None where they do not make a tree of joints."""
-    walk = _Walk(c)
+    walk = _Walk(system)
     try:
         for body in bodies:
             number, d, R = walk.place_of(body.frame)
@@ -127,7 +127,7 @@ def _links(c: Coordinates, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
                 walk.masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
     except _NoTreeError:
         return None
-    if len(walk.used) != len(c.q):
+    if len(walk.used) != len(system.c.q) or len(walk.turned) != len(system.speeds):
         return None
     return _distribute(
         [replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)]
@@ -169,9 +169,11 @@ def _split(mass: Mass, link: TreeLink) -> tuple[Mass, Mass]:
 class _Walk:
     """The links found so far, and of each frame the link that carries it with the fixed shift and rotation from there."""
 
-    def __init__(self, c: Coordinates) -> None:
-        self.c = c
-        self.number = {q: i for i, q in enumerate(c.q)}
+    def __init__(self, system: Equations) -> None:
+        c = self.c = system.c
+        self.rate = dict(zip((*c.q, t), (*c.v, sp.S.One), strict=True))
+        self.number = {u: i for i, u in enumerate(system.speeds)}
+        self.turned: list[sp.Symbol] = []
         self.moving = {*c.q, *c.v, t}
         self.links: list[TreeLink] = []
         self.masses: list[list[Mass]] = []
@@ -193,11 +195,18 @@ class _Walk:
             return (parent, d + R * frame.amount, R) if is_shift else (parent, d, R * frame.rotation)
         if moving & ({*self.c.v} | self.used):
             raise _NoTreeError
-        own = tuple(sorted(self.number[q] for q in moving - {t}))
+        places = sorted(moving - {t}, key=self.c.q.index)
+        speeds = frame.omega or tuple(self.rate[q] for q in places)
+        if not {*speeds} <= self.number.keys():
+            raise _NoTreeError
         self.used |= moving - {t}
-        columns, rate, swing = _velocities(
-            frame, [*(self.c.q[i] for i in own), t], [*(self.c.v[i] for i in own), sp.S.One]
-        )
+        self.turned += speeds
+        own = tuple(self.number[u] for u in speeds)
+        if frame.omega:
+            columns = (*((unit(k, sp.S.One), ZERO) for k in range(3)), (ZERO, ZERO))
+            rate, swing = (Small.column(*speeds), ZERO), (ZERO, ZERO)
+        else:
+            columns, rate, swing = _velocities(frame, [*places, t], [*speeds, sp.S.One])
         angle = frame.amount if frame.axis is not None else sp.S.Zero
         if is_shift:
             d = d + R * frame.amount

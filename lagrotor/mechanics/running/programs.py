@@ -218,11 +218,11 @@ def velocity_stages(system: Equations) -> list[Stage]:
 def energy_program(system: Equations) -> Generated:
     """(q, v, t) → the Jacobi integral."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
-    if tree is None or system.kinematics is not None:
+    if tree is None:
         return function_program(system, system.energy)
     keep = Stages()
-    energy = tree_energy(tree, joints(tree, keep), system.c, keep)
-    return _program((*system.c.q, *system.c.v, t), keep.made, [energy])
+    energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *system.speeds), keep)
+    return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *keep.made], [energy])
 
 
 def _is_plain(name: str) -> bool:
@@ -293,13 +293,13 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
-    if system.kinematics is not None:
-        return None
-    keep, G = Stages(), system.rows
+    keep, (G, _), given = Stages(), rows_left(system), system.kinematics
     push = system.push + rest_forces(tree, system.c)
+    push = push if given is None else given.B.T * push
     columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
     try:
-        return keep.made, sp.Matrix(tree_accelerations(joints(tree, keep), system.c, columns, keep)).T
+        solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.speeds, columns, keep)).T
+        return [*velocity_stages(system), *keep.made], solved
     except SingularError:
         if not G.rows:
             raise

@@ -1,0 +1,326 @@
+"""Joints by name, each as steps written by hand; ball joints beside Euler angles, closed forms and conservation laws."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.special import ellipj
+
+from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.mechanics import Frame, System, coordinates, motion_program
+from lagrotor.mechanics.bodies.trees import tree_of
+from lagrotor.mechanics.running.programs import function_program
+from lagrotor.numerics import operations
+
+m, l, g, I1, I2, I3 = sp.symbols("m l g I_1 I_2 I_3", positive=True)
+VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I2: 0.4, I3: 0.2}
+GRAVITY = (0, 0, -g)
+
+
+def at(system: System, y: np.ndarray, *expressions: sp.Expr) -> np.ndarray:
+    """Expressions at a state (q, u)."""
+    letters = {str(s): x for s, x in VALUES.items()}
+    return function_program(system, *expressions).along(letters)(y[None], np.zeros(1))[:, 0]
+
+
+def top(inertia: tuple[sp.Expr, ...] = (I1, I2, I3), centre: tuple[sp.Expr, ...] = (0, 0, l)) -> System:
+    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, inertia, centre)
+    return System(body.frame.c, body.kinetic - body.potential(GRAVITY))
+
+
+def numbers(system: System) -> dict[sp.Symbol, float]:
+    """The values of the letters that the system has."""
+    return {s: VALUES[s] for s in VALUES if s in system.L.free_symbols}
+
+
+def of_angles(angles: np.ndarray) -> np.ndarray:
+    """The unit quaternion of turns 'zxz'."""
+    f, h, s = np.asarray(angles) / 2
+    return np.array(
+        [np.cos(f + s) * np.cos(h), np.cos(f - s) * np.sin(h), np.sin(f - s) * np.sin(h), np.sin(f + s) * np.cos(h)]
+    )
+
+
+def branched(ball: bool) -> tuple[System, list[sp.Expr], Frame]:
+    """A cart, on it a body on a ball joint, on this a hinge and a second ball joint; in quaternions, or in Euler's angles."""
+    one, two = ("q0 q1 q2 q3", "e0 e1 e2 e3") if ball else ("f h s", "d n k")
+    c = coordinates(f"x {one} a {two}")
+    by_name = {str(q): q for q in c.q}
+
+    def turned(frame: Frame, names: str, omega: str) -> Frame:
+        return frame.ball(names, omega) if ball else frame.turned("zxz", [by_name[n] for n in names.split()])
+
+    cart = Frame(c).prismatic(by_name["x"], "x")
+    first = turned(cart.moved(0, l, 0), one, "p q r")
+    arm = first.moved(l, 0, l / 2).turned("y", by_name["a"])
+    last = turned(arm.moved(0, 0, -l), two, "w1 w2 w3")
+    bodies = [
+        cart.body(m),
+        first.body(m, (I1, I2, I3), (l / 3, 0, l)),
+        arm.body(m / 2, (I2, I3, I1), (0, l / 2, 0)),
+        last.body(m, (I3, I1, I2), (0, l / 4, -l)),
+    ]
+    L = sum((b.kinetic - b.potential(GRAVITY) for b in bodies), sp.S.Zero)
+    return System(c, L), [first, last], last
+
+
+def relative(frame: Frame) -> sp.Matrix:
+    """The angular velocity of three turns together, in the axes that they lead to."""
+    one, two, three = frame.parent.parent, frame.parent, frame
+    return three.rotation.T * (two.rotation.T * one.own_rate + two.own_rate) + three.own_rate
+
+
+def test_a_tree_with_ball_joints_moves_as_in_eulers_angles() -> None:
+    """At random states: the accelerations of a point of the last body, the energy, the rates of both angular velocities."""
+    (quaternions, turned, last), (angles, twins, other) = branched(True), branched(False)
+    assert tree_of(quaternions) is not None and not quaternions.left
+    rng = np.random.default_rng(1)
+    for _ in range(3):
+        euler = np.concatenate([rng.uniform(0.3, 1.2, 8), rng.uniform(-1, 1, 8)])
+        w = [at(angles, euler, *relative(frame)) for frame in twins]
+        q = [euler[:1], of_angles(euler[1:4]), euler[4:5], of_angles(euler[5:8])]
+        y = np.concatenate([*q, euler[8:9], w[0], euler[12:13], w[1]])
+
+        def seen(frame: Frame) -> list[sp.Expr]:
+            place, c = frame.place((l, l / 2, 0)), frame.c
+            speed = place.jacobian(c.q) * sp.Matrix(c.v)
+            return [*place, *speed, *(speed.jacobian(c.q) * sp.Matrix(c.v) + place.jacobian(c.q) * sp.Matrix(c.a))]
+
+        np.testing.assert_allclose(
+            at(quaternions, y, *seen(last)), at(angles, euler, *seen(other)), rtol=1e-9, atol=1e-9
+        )
+        for frame, wanted in zip(turned, w, strict=True):
+            np.testing.assert_allclose(at(quaternions, y, *frame.own_rate), wanted, atol=1e-12)
+
+
+STEPS = st.tuples(st.sampled_from(["ball", "turn", "slide"]), st.integers(0, 2), st.integers(0, 3))
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.lists(STEPS, min_size=2, max_size=4), st.integers(0, 100))
+def test_random_trees_with_ball_joints_keep_energy_and_momentum(steps: list, seed: int) -> None:
+    """On a free base without a field: energy, momentum and angular momentum about the centre of the ground."""
+    names = ["x", "y", "z", *(f"b{i}" for i in range(4))]
+    for k, (kind, *_) in enumerate(steps):
+        names += [f"q{k}_{i}" for i in range(4)] if kind == "ball" else [f"q{k}"]
+    c = coordinates(names)
+    frames = [Frame(c).free("x y z", "b0 b1 b2 b3", omega="b_1 b_2 b_3")]
+    bodies = [frames[0].body(m, (I1, I2, I3), (0, l / 3, 0))]
+    for k, (kind, axis, parent) in enumerate(steps):
+        frame = frames[parent % len(frames)].moved(l, 0, -l / 2)
+        if kind == "ball":
+            frame = frame.ball([f"q{k}_{i}" for i in range(4)], [f"w{k}_{i}" for i in range(3)])
+        else:
+            q = c.q[names.index(f"q{k}")]
+            frame = frame.pin(q, "xyz"[axis]) if kind == "turn" else frame.prismatic(q, "xyz"[axis])
+        frames.append(frame)
+        bodies.append(frame.body(m, (I2, I1, I3), (l / 2, 0, l / 4)))
+    system = System(c, sum((b.kinetic for b in bodies), sp.S.Zero))
+    assert tree_of(system) is not None
+    rng = np.random.default_rng(seed)
+    q0 = rng.uniform(-0.5, 0.5, len(names))
+    for i, name in enumerate(names):
+        if name == "b0" or name.endswith("_0"):
+            q0[i : i + 4] /= np.linalg.norm(q0[i : i + 4])
+    u0 = rng.uniform(-1, 1, len(system.speeds))
+    values = {s: VALUES[s] for s in (m, l, I1, I2, I3)}
+    run = system.simulate(values, q0, u0, np.linspace(0, 1, 6), 1e-8)
+
+    def along(e: sp.Expr) -> np.ndarray:
+        return run.evaluate(e)
+
+    P, N = np.zeros((3, 6)), np.zeros((3, 6))
+    for body in bodies:
+        R = sp.Matrix.hstack(*(body.frame.place(list(e)) - body.frame.place() for e in np.eye(3, dtype=int)))
+        rows = np.array([[along(e) for e in R.row(i)] for i in range(3)])
+        v = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.velocity]))
+        spin = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.inertia * body.frame.angular_velocity]))
+        place = np.array([along(e) for e in body.frame.place(body.centre)])
+        P += VALUES[m] * v
+        N += VALUES[m] * np.cross(place.T, v.T).T + spin
+    scale = np.abs(run.energy).max()
+    assert np.ptp(run.energy) < 1e-6 * scale and run.drift.max() < 1e-12
+    assert np.ptp(P, axis=1).max() < 1e-6 * (1 + np.abs(P).max()) and np.ptp(N, axis=1).max() < 1e-6 * (
+        1 + np.abs(N).max()
+    )
+
+
+def test_a_top_started_at_its_pole_runs_as_quickly_as_any_other() -> None:
+    """Evaluations from upright, and from a tilt at which Euler's angles are at their best; upright these have a pole."""
+    system = top((I1, I1, I3))
+    values, times = numbers(system), np.linspace(0, 5, 11)
+    upright = system.simulate(values, (1, 0, 0, 0), (0.3, 0, 30), times)
+    tilted = system.simulate(values, of_angles(np.array([0, 1.2, 0])), (0.3, 0, 30), times)
+    assert upright.evaluations < 1.3 * tilted.evaluations
+    assert np.ptp(upright.energy) < 1e-7 * abs(upright.energy[0]) and upright.drift.max() < 1e-13
+    body = Frame(c := coordinates("phi theta psi")).turned("zxz", c.q).body(m, (I1, I1, I3), (0, 0, l))
+    angles = System(c, body.kinetic - body.potential(GRAVITY))
+    twin = angles.simulate(values, (0, 1.2, 0), (0, 0.3, 30), times)
+    heights = [run.evaluate(run.system.bodies[0].frame.place((0, 0, 1))[2]) for run in (tilted, twin)]
+    assert np.abs(heights[0] - heights[1]).max() < 1e-7
+    general = Frame(c).turned("zxz", c.q).body(m, (I1, I2, I3), (0, 0, l))
+    by_angles = System(c, general.kinetic - general.potential(GRAVITY))
+    assert operations(motion_program(top()).program) < operations(motion_program(by_angles).program)
+
+
+def test_a_free_body_turns_by_jacobis_elliptic_functions() -> None:
+    """I1 > I2 > I3 about its long axis, Landau & Lifshitz, Mechanics, §37."""
+    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I2, I3))
+    system = System(body.frame.c, body.kinetic)
+    A, B, C = 0.5, 0.4, 0.2
+    w1, w3, times = 0.3, 2.0, np.linspace(0, 20, 41)
+    run = system.simulate({I1: A, I2: B, I3: C}, (1, 0, 0, 0), (w1, 0, w3), times, 1e-10)
+    # M² < 2 E B: the axis of the least inertia is circled.
+    E2, M2 = A * w1**2 + C * w3**2, (A * w1) ** 2 + (C * w3) ** 2
+    assert M2 < E2 * B
+    tau = times * np.sqrt((B - C) * (E2 * A - M2) / (A * B * C))
+    k2 = (A - B) * (M2 - E2 * C) / ((B - C) * (E2 * A - M2))
+    sn, cn, dn, _ = ellipj(tau, k2)
+    wanted = np.stack([w1 * cn, np.sqrt((M2 - E2 * C) / (B * (B - C))) * sn, w3 * dn], 1)
+    signs = np.sign(run.u[1] * wanted[1])
+    np.testing.assert_allclose(run.u, wanted * signs, atol=1e-7)
+
+
+def test_a_symmetric_body_precesses_regularly() -> None:
+    """Its axis turns about the angular momentum M at M/I1."""
+    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I1, I3))
+    system = System(body.frame.c, body.kinetic)
+    A, C, u = 0.5, 0.8, np.array([0.4, 0, 3.0])
+    times = np.linspace(0, 10, 21)
+    run = system.simulate({I1: A, I3: C}, (1, 0, 0, 0), u, times, 1e-10)
+    M = np.array([A * u[0], 0, C * u[2]])
+    axis, e, rate = M / np.linalg.norm(M), np.array([0, 0, 1.0]), np.linalg.norm(M) / A
+    cos, sin = np.cos(rate * times)[:, None], np.sin(rate * times)[:, None]
+    wanted = e * cos + np.cross(axis, e) * sin + axis * (axis @ e) * (1 - cos)
+    seen = np.stack([run.evaluate(x) for x in body.frame.place((0, 0, 1))], 1)
+    np.testing.assert_allclose(seen, wanted, atol=1e-7)
+
+
+def test_a_spherical_pendulum_swings_through_its_pole() -> None:
+    """Hung on a ball joint, from rest: through the lowest place as a plane pendulum does, where angles from it have a pole."""
+    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I1, I3), (0, 0, -l))
+    hung = System(body.frame.c, body.kinetic - body.potential(GRAVITY))
+    values, times = {s: VALUES[s] for s in (m, l, g, I1, I3)}, np.linspace(0, 4, 17)
+    run = hung.simulate(values, (np.cos(0.5), np.sin(0.5), 0, 0), (0, 0, 0), times)
+    c = coordinates("theta")
+    J = I1 + m * l**2
+    plane = System(c, J * c.v[0] ** 2 / 2 + m * g * l * sp.cos(c.q[0]))
+    twin = plane.simulate({s: VALUES[s] for s in (m, l, g, I1)}, (1.0,), (0,), times)
+    np.testing.assert_allclose(run.u[:, 0], twin.v[:, 0], atol=1e-6)
+
+
+A_, S_, B_ = sp.symbols("a s b", real=True)
+TILT = sp.atan(sp.Rational(3, 4))
+NAMED: dict[str, tuple[Callable[[Frame], Frame], Callable[[Frame], Frame]]] = {
+    "pin": (lambda f: f.pin(A_, "y").pin(B_), lambda f: f.turned("yz", [A_, B_])),
+    "a pin about a direction": (
+        lambda f: f.pin(A_, (0, 3, 4)).prismatic(B_, "x"),
+        lambda f: f.turned("xzx", [-TILT, A_, TILT]).moved(B_, 0, 0),
+    ),
+    "prismatic": (
+        lambda f: f.prismatic(A_, (3, 0, 4)).pin(B_, "x"),
+        lambda f: f.moved(3 * A_ / 5, 0, 4 * A_ / 5).turned("x", B_),
+    ),
+    "cylindrical": (lambda f: f.cylindrical(A_, B_, "x"), lambda f: f.moved(A_, 0, 0).turned("x", B_)),
+    "universal": (lambda f: f.universal(A_, B_), lambda f: f.turned("xy", [A_, B_])),
+    "screw": (
+        lambda f: f.screw(A_, l, "y").prismatic(B_),
+        lambda f: f.moved(0, l * A_ / (2 * sp.pi), 0).turned("y", A_).moved(0, 0, B_),
+    ),
+    "weld": (
+        lambda f: f.pin(A_).weld((l, 0, 0), "x", sp.pi / 3).pin(B_),
+        lambda f: f.turned("z", A_).moved(l, 0, 0).turned("x", sp.pi / 3).turned("z", B_),
+    ),
+    "planar": (
+        lambda f: f.planar(A_, B_, S_, "x"),
+        lambda f: f.moved(0, A_, B_).turned("x", S_),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_a_joint_by_name_moves_as_its_steps(name: str) -> None:
+    c = coordinates("a b s" if name == "planar" else "a b")
+
+    def of(make: Callable[[Frame], Frame]) -> System:
+        body = make(Frame(c).turned("x", sp.pi / 7)).body(m, (I1, I2, I3), (l / 2, l, l / 4))
+        return System(c, body.kinetic - body.potential(GRAVITY))
+
+    by_name, by_steps = (of(make) for make in NAMED[name])
+    assert (tree_of(by_name) is not None) == (name != "screw")  # whose two steps share a coordinate
+    y = np.random.default_rng(3).uniform(0.2, 1, 2 * len(c.q))
+    np.testing.assert_allclose(at(by_name, y, *c.a, by_name.energy), at(by_steps, y, *c.a, by_steps.energy), rtol=1e-9)
+
+
+def test_loops_are_closed_by_joints() -> None:
+    """A four-bar linkage in the plane, and the same by a pin, whose axis is kept as it is; its twin in one angle."""
+    c = coordinates("a b d")
+    crank = Frame(c).pin(c.q[0], "y")
+    coupler = crank.moved(l, 0, 0).pin(c.q[1], "y")
+    rocker = Frame(c).moved(2 * l, 0, 0).pin(c.q[2], "y")
+    bodies = [f.body(m, (0, I2, 0), (l / 2, 0, 0)) for f in (crank, coupler, rocker)]
+    L = sum((b.kinetic - b.potential(GRAVITY) for b in bodies), sp.S.Zero)
+    closed = coupler.coincides(rocker, (2 * l, 0, 0), (l, 0, 0))
+    assert len(closed) == 2
+    system = System(c, L, closed)
+    values = {s: VALUES[s] for s in (m, l, g, I2)}
+    q0, v0 = system.consistent(values, (-1.2, 1.0, -1.5), (0.5, 0, 0))
+    run = system.simulate(values, q0, v0, np.linspace(0, 1, 11))
+    assert run.drift.max() < 1e-11 and np.ptp(run.energy) < 1e-6 * np.abs(run.energy).max()
+    ends = [
+        np.stack([run.evaluate(e) for e in f.place(p)], 1) for f, p in ((coupler, (2 * l, 0, 0)), (rocker, (l, 0, 0)))
+    ]
+    assert np.abs(ends[0] - ends[1]).max() < 1e-11
+
+
+def test_a_loop_of_ball_joints_moves_as_a_pendulum_about_the_line_of_its_ends() -> None:
+    """A rod on two ball joints at the ends of a line, closed by `coincides`, swings about that line."""
+    c = coordinates("q0 q1 q2 q3")
+    swing = Frame(c).ball("q0 q1 q2 q3", omega="p q r")
+    body = swing.body(m, (I1, I2, I3), (l / 2, 0, -l))
+    held = swing.coincides(Frame(c).moved(l, 0, 0), (l, 0, 0))
+    with pytest.raises(SingularError, match="dependent"):
+        System(c, body.kinetic, (*held, *held)).simulate(
+            {s: VALUES[s] for s in (m, l, I1, I2, I3)}, (1, 0, 0, 0), (0, 0, 0), (0, 1)
+        )
+    # Two of the three components bind the axis; the third follows from them.
+    system = System(c, body.kinetic - body.potential(GRAVITY), held[1:])
+    values = {s: VALUES[s] for s in (m, l, g, I1, I2, I3)}
+    run = system.simulate(values, (np.cos(0.4), np.sin(0.4), 0, 0), (0, 0, 0), np.linspace(0, 2, 9))
+    e = coordinates("theta")
+    twin = System(e, (I1 + m * l**2) * e.v[0] ** 2 / 2 + m * g * l * sp.cos(e.q[0]))
+    plane = twin.simulate({s: VALUES[s] for s in (m, l, g, I1)}, (0.8,), (0,), np.linspace(0, 2, 9))
+    np.testing.assert_allclose(run.u[:, 0], plane.v[:, 0], atol=1e-6)
+    assert np.abs(run.u[:, 1:]).max() < 1e-9 and run.drift.max() < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda f, q: f.ball("q0 q1 q2", "p q r"), "must be 4 names"),
+        (lambda f, q: f.ball("q0 q1 q2 q3", "p q"), "must be 3 names"),
+        (lambda f, q: f.ball("q0 q1 q2 z", "p q r"), "none of the coordinates"),
+        (lambda f, q: f.ball("q0 q1 q2 q2", "p q r"), "different names"),
+        (lambda f, q: f.ball("q0 q1 q2 q3", "p q q1"), "different names"),
+        (lambda f, q: f.ball("q0 q1 q2 q3", "p q r").ball("q0 q1 q2 q3", "u v w"), "another ball joint"),
+        (lambda f, q: f.weld((q[0], 0, 0)), "a weld is fixed"),
+        (lambda f, q: f.pin(q[0], "w"), "axis = 'w'"),
+        (lambda f, q: f.pin(q[0], (0, 0, 0)), "not zero"),
+        (lambda f, q: f.prismatic(q[0], (q[1], 0, 0)), "in numbers"),
+        (lambda f, q: f.universal(q[0], q[1], "xx"), "two different letters"),
+        (lambda f, q: f.pin("a"), "no expression"),
+        (lambda f, q: f.coincides(f, (l, 0, 0), (l, 0, 0)), "binds no coordinate"),
+    ],
+)
+def test_what_is_no_joint_is_refused(make: Callable, words: str) -> None:
+    c = coordinates("q0 q1 q2 q3 s")
+    with pytest.raises(InputError, match=words):
+        make(Frame(c), c.q)
+
+
+def test_a_start_off_the_unit_length_is_refused() -> None:
+    with pytest.raises(ConstraintError, match="off the constraints"):
+        top().simulate(VALUES, (1, 0.2, 0, 0), (0, 0, 1), (0, 1))
