@@ -23,6 +23,7 @@ from lagrotor.numerics.segment import Segment, StopError, Stretch
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
 _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
+_LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
 _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
 
 
@@ -140,8 +141,8 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     largest = np.abs(states[:, : n + m]).max(0)
     at_rest, moving = energy(0 * u), energy(u)
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
-    least = np.zeros(m)
-    for i, speed in enumerate(np.where(largest[n:] > 0, largest[n:], 1.0)):
+    least, top = np.zeros(m), float(largest[n:].max()) or 1.0
+    for i, speed in enumerate(np.where(largest[n:] > _LOST * top, largest[n:], top)):
         along = 0 * u + speed * np.eye(m)[i]
         mass = np.nanmedian(energy(along) + energy(-along) - 2 * at_rest) / speed**2
         least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
@@ -150,8 +151,9 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
         places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
         speeds = np.where(speeds > 0, speeds, places * 2 * np.pi / turn)
     else:
-        v = np.abs(velocities_along(system, values, states, times)).max(0)
-        places = np.maximum(largest[:n], v * turn / (2 * np.pi))
+        alone = [0 * u, u, *(0 * u + speed * e for speed, e in zip(speeds, np.eye(m), strict=True))]
+        still, *v = (velocities_along(system, values, np.hstack([q, each]), times) for each in alone)
+        places = np.maximum(largest[:n], np.abs(np.array(v) - still).max((0, 1)) * turn / (2 * np.pi))
     places, speeds = _positive(places), _positive(speeds)
     return np.concatenate([places, speeds])
 
