@@ -6,7 +6,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Event, Impact, System, coordinates, motion_program, t
-from lagrotor.mechanics.running.programs import balance, function_program
+from lagrotor.mechanics.running.programs import equations_of_speeds, function_program
 from lagrotor.numerics import operations
 
 I1, I2, I3, P, m, a, g = sp.symbols("I_1 I_2 I_3 P m a g", positive=True)
@@ -70,7 +70,7 @@ def assert_same_motion(system: System, seed: int = 1) -> None:
 
 def test_a_top_in_its_own_angular_velocities_obeys_eulers_equations() -> None:
     system = top()
-    M, push = balance(system)
+    M, push = equations_of_speeds(system)
     assert sp.diag(I1, I2, I3) == M
     _, theta, psi = system.c.q
     torque = P * sp.sin(theta) * sp.Matrix([sp.cos(psi), -sp.sin(psi), 0])
@@ -92,7 +92,7 @@ def test_fewer_velocities_than_coordinates_use_the_constraints_up(make: object) 
 
 def test_chaplygins_sleigh_has_its_equations() -> None:
     """u' = a w², w' = −m a u w / (I + m a²): Neimark & Fufaev, ch. III."""
-    M, push = balance(sleigh())
+    M, push = equations_of_speeds(sleigh())
     found = M.LUsolve(push)
     wanted = sp.Matrix([a * w**2, -m * a * u * w / (I1 + m * a**2)])
     assert (found - wanted).applyfunc(sp.simplify).is_zero_matrix

@@ -75,8 +75,8 @@ def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any = "z") -> Kind:
     return _about("planar", frame, normal, lambda it: it.moved(x, y, 0).turned("z", angle))
 
 
-def ball(frame: Kind, quaternion: Any, omega: Any) -> Kind:
-    """Turned by a unit quaternion, four of the coordinates by name, scalar first; omega: names of the angular velocities about
+def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
+    """Turned by a unit quaternion: four of the coordinates by name, scalar first; omega: names of the angular velocities about
     the axes of the turned frame, which are velocities of the system in place of those of the four.
 
     Raises InputError for what is no such name.
@@ -105,7 +105,7 @@ def ball(frame: Kind, quaternion: Any, omega: Any) -> Kind:
 def free(frame: Kind, place: Any, quaternion: Any, omega: Any) -> Kind:
     """Shifted by three coordinates along its axes, and turned as `ball`: six degrees of freedom."""
     x, y, z = (_coordinate("free", frame, name) for name in _names("free: place", place, 3))
-    return ball(frame.moved(x, y, z), quaternion, omega)
+    return ball_joint(frame.moved(x, y, z), quaternion, omega)
 
 
 def coincides(

@@ -151,7 +151,7 @@ class Frame(MovingFrame):
     torque = torque
     weld, pin, prismatic, screw = named_joints.weld, named_joints.pin, named_joints.prismatic, named_joints.screw
     cylindrical, universal, planar = named_joints.cylindrical, named_joints.universal, named_joints.planar
-    ball, free = named_joints.ball, named_joints.free
+    ball, free = named_joints.ball_joint, named_joints.free
     coincides, keeps_axis = named_joints.coincides, named_joints.keeps_axis
 
 

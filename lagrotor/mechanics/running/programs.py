@@ -169,7 +169,7 @@ def rows_program(system: Equations) -> Generated:
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
     """(q, u, t) → the mass matrix of u', one row after another."""
-    return function_program(system, *balance(system)[0])
+    return function_program(system, *equations_of_speeds(system)[0])
 
 
 @lru_cache(maxsize=64)
@@ -263,13 +263,13 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     G, gamma = rows_left(system)
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma)
-    (_, push), (added, weight, M) = balance(system), inertia(system)
+    (_, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
     stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T), "_m")
     return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma)
 
 
 @lru_cache(maxsize=64)
-def balance(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
+def equations_of_speeds(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     """M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
 
     For velocities of one's own as they are projected, or by the equations of Boltzmann and Hamel: whichever takes fewer
@@ -316,7 +316,7 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
     Raises SingularError where the constraints do not bind it.
     """
-    (M, _), (G, _) = balance(system), rows_left(system)
+    (M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, M):
         return [], sp.zeros(G.rows, G.rows), M
     if (mean := M.trace() / M.rows) != 0:
