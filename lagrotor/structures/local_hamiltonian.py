@@ -1,0 +1,212 @@
+"""The Hamiltonian of a structure about upright as a polynomial, through any order, derived from its exact Lagrangian.
+
+With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freedom that the bars leave and p their momenta,
+
+    L = ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i) − V,       H = ½ (p − a)·m⁻¹ (p − a) + V.
+
+The second sum is the spins' part, whose force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which its
+constraint |d|² = ℓ² gives as a series in q: u = Z q + rows⁺ s(q), where s ← s + (|d|² − ℓ²)/2ℓ gains an order at each step.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import comb
+
+import numpy as np
+from scipy.special import binom
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, polynomial, total, variable
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array, Coefficients, coefficients
+from lagrotor.structures.small_motion import bar_rows, small_motion
+
+Row = list[Polynomial]
+
+
+@dataclass(frozen=True, eq=False)
+class LocalHamiltonian:
+    """H/(inertia rate²) = parts[0] + f parts[1] + f² parts[2] with all spins multiplied by f, in q and p/(inertia rate).
+
+    q = basisᵀ u, with the basis (2N, n) of `small_motion`; mass (n, n): of p = mass q'/rate at upright. rate in rad/s.
+    """
+
+    parts: tuple[Polynomial, Polynomial, Polynomial]
+    basis: Array
+    mass: Array
+    rate: float
+
+    def at_spins(self, factor: float) -> Polynomial:
+        """The Hamiltonian with all spins multiplied."""
+        return total([self.parts[0], *(self.parts[k].times(factor**k) for k in (1, 2) if factor)])
+
+
+@lru_cache(maxsize=16)
+def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
+    """The Hamiltonian about upright through an order.
+
+    Raises InputError where a bar is not as long as its tips are apart when upright, or friction acts.
+    """
+    linear, c = small_motion(s), coefficients(s)
+    if linear.damping.any() or c.decay.any():
+        raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
+    n = linear.freedoms
+    axes = _axes(c, linear.basis, order)
+    inertia = float(np.abs(linear.mass).max())
+    rate = float(np.sqrt(np.abs(linear.stiffness).max() / inertia)) or c.rate
+    J = [[[f.derivative(b) for f in axis] for b in range(n)] for axis in axes]
+    mass = _mass(c, J, order - 2, inertia)
+    vector = [
+        total(
+            [_turn(axis, J[i][b], order - 1).times(-c.G[i] / (inertia * rate)) for i, axis in enumerate(axes) if c.G[i]]
+            or [_none(n)]
+        )
+        for b in range(n)
+    ]
+    V = _potential(c, axes, order).times(1 / (inertia * rate**2))
+    inverse = _inverse(mass, order - 2)
+    momenta = [variable(n + b, 2 * n, kind=float) for b in range(n)]
+    rows = [[_lifted(f) for f in row] for row in inverse]
+    a = [_lifted(f) for f in vector]
+    by_p = [total([rows[i][j].product(momenta[j], order - 1) for j in range(n)]) for i in range(n)]
+    by_a = [total([rows[i][j].product(a[j], order - 1) for j in range(n)]) for i in range(n)]
+    parts = (
+        total([*(momenta[i].product(by_p[i], order) for i in range(n)), _lifted(V).times(2.0)]).times(0.5),
+        total([a[i].product(by_p[i], order) for i in range(n)]).times(-1.0),
+        total([a[i].product(by_a[i], order) for i in range(n)]).times(0.5),
+    )
+    return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate)
+
+
+def _axes(c: Coefficients, basis: Array, order: int) -> list[Row]:
+    """x, y, z of each axis as polynomials in q, through the order; exact through order − 1 in x and y."""
+    q = [variable(k, basis.shape[1], kind=float) for k in range(basis.shape[1])]
+    rows = bar_rows(c)
+    back, bound, free = np.linalg.pinv(rows), [_none(len(q))] * len(rows), [_combined(row, q) for row in basis]
+    axes = [_axis(free[k : k + 2], order) for k in range(0, len(free), 2)]
+    for _ in range(2, order) if len(rows) else ():
+        bound = [f + _off(c, axes, b, order - 1) for b, f in enumerate(bound)]
+        moved = [f + _combined(row, bound) for f, row in zip(free, back, strict=True)]
+        axes = [_axis(moved[k : k + 2], order) for k in range(0, len(free), 2)]
+    return axes
+
+
+def _combined(numbers: Array, row: Row) -> Polynomial:
+    """The sum of polynomials, each times its number."""
+    return total(
+        [f.times(number) for number, f in zip(numbers, row, strict=True) if number] or [_none(row[0].variables)]
+    )
+
+
+def _axis(xy: Row, order: int) -> Row:
+    """x, y and z = sqrt(1 − x² − y²)."""
+    return [*xy, _of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
+
+
+def _of_square(xy: Row, series: list[float], order: int) -> Polynomial:
+    """sum_k series_k (x² + y²)^k."""
+    square = xy[0].product(xy[0], order) + xy[1].product(xy[1], order)
+    result = constant(series[-1], square.variables, float)
+    for value in reversed(series[:-1]):
+        result = result.product(square, order) + constant(value, square.variables, float)
+    return result
+
+
+def _off(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
+    """(|d|² − ℓ²)/2ℓ of a bar."""
+    i, j = c.i[b], c.j[b]
+    upright = c.feet[j] - c.feet[i]
+    d = [
+        axes[j][k].times(c.R[j]) - axes[i][k].times(c.R[i]) + constant(upright[k], axes[i][k].variables, float)
+        for k in range(3)
+    ]
+    square = total([part.product(part, order) for part in d])
+    return (square - constant(c.ell[b] ** 2, square.variables, float)).times(0.5 / c.ell[b])
+
+
+def _turn(axis: Row, slope: Row, order: int) -> Polynomial:
+    """(x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
+    series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
+    turned = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
+    return turned.product(_of_square(axis[:2], series, order), order)
+
+
+def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> list[Row]:
+    """m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
+    n = len(J[0])
+    pairs = [(i, i, value) for i, value in enumerate(c.A)]
+    pairs += [
+        (i, j, value)
+        for one, other, value in zip(c.i, c.j, c.coupling, strict=True)
+        if value
+        for i, j in ((one, other), (other, one))
+    ]
+    m = [[_none(n)] * n for _ in range(n)]
+    for a in range(n):
+        for b in range(a, n):
+            terms = [
+                f.product(g, order).times(value / inertia)
+                for i, j, value in pairs
+                for f, g in zip(J[i][a], J[j][b], strict=True)
+            ]
+            m[a][b] = m[b][a] = total(terms)
+    return m
+
+
+def _inverse(m: list[Row], order: int) -> list[Row]:
+    """m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + …"""
+    n = len(m)
+    first = np.array([[m[a][b].part(0).coefficients.sum() for b in range(n)] for a in range(n)])
+    over = np.linalg.inv(first)
+    rest = [[m[a][b] - m[a][b].part(0) for b in range(n)] for a in range(n)]
+    start = [[constant(over[a, b], m[0][0].variables, float) for b in range(n)] for a in range(n)]
+    inverse = start
+    for _ in range(order):
+        moved = [
+            [total([rest[a][k].product(inverse[k][b], order) for k in range(n)]) for b in range(n)] for a in range(n)
+        ]
+        inverse = [
+            [
+                start[a][b] - total([moved[k][b].times(over[a, k]) for k in range(n) if over[a, k]] or [_none(n)])
+                for b in range(n)
+            ]
+            for a in range(n)
+        ]
+    return inverse
+
+
+def _potential(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
+    """Weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
+    squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
+    terms = [_none(axes[0][0].variables)]
+    for i, axis in enumerate(axes):
+        terms += [axis[2].times(c.gravity * c.S[i])] if c.gravity * c.S[i] else []
+        terms += [_of_square(axis[:2], squares, order).times(c.hinge[i] / 2)] if c.hinge[i] else []
+    for b, (tip, to) in enumerate(zip(c.brace_tip, c.brace_to, strict=True)):
+        if not c.stiffness[b]:
+            continue
+        n = axes[0][0].variables
+        place = c.feet[tip] - (c.feet[to] if to >= 0 else c.brace_point[b])
+        d = [axes[tip][k].times(c.R[tip]) + constant(place[k], n, float) for k in range(3)]
+        d = [d[k] - axes[to][k].times(c.R[to]) for k in range(3)] if to >= 0 else d
+        longer = (total([part.product(part, order) for part in d]) - constant(c.brace_length[b] ** 2, n, float)).times(
+            1 / c.brace_length[b] ** 2
+        )
+        stretch, power = _none(n), longer
+        for k in range(1, order + 1):
+            stretch, power = (
+                stretch + power.times(float(binom(0.5, k)) * c.brace_length[b]),
+                power.product(longer, order),
+            )
+        terms.append(stretch.product(stretch, order).times(c.stiffness[b] / 2))
+    V = total(terms)
+    return V - V.part(0)
+
+
+def _none(n: int) -> Polynomial:
+    return polynomial({}, n, float)
+
+
+def _lifted(f: Polynomial) -> Polynomial:
+    """A polynomial in q as one in q and p."""
+    return Polynomial(np.hstack([f.exponents, np.zeros_like(f.exponents)]), f.coefficients)
