@@ -8,8 +8,8 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import small_motion
-from lagrotor.structures.standing import spin_threshold
 
 _MOST = 12  # rotors
 _SAME = 1e-9  # relative: spins as near as that are one

@@ -33,17 +33,23 @@ class Modes(Shown):
     """n modes: rates (n,) in rad/s and growth (n,) in 1/s of u = Re(shape e^((growth + i rate) t)), shapes (n, N, 2).
 
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
+    energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
     """
 
     rates: Array
     growth: Array
     shapes: Complex
     topple: int
+    energy_signs: NDArray[np.int64]
 
     def summary(self) -> dict[str, str]:
         """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
         most = range(min(len(self.rates), 12))
-        rows = {f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s" for i in most}
+        signs = {1: "", 0: "", -1: ", of negative energy"}
+        rows = {
+            f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s{signs[int(self.energy_signs[i])]}"
+            for i in most
+        }
         rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
         return rows | rest | {"topple": f"{self.topple} of {len(self.rates)}"}
 
@@ -91,6 +97,12 @@ class SmallMotion:
             return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.freedoms :, :]
         s, vectors = np.linalg.eig(self._first_order)
         return self._in_seconds(s), vectors[..., : self.freedoms, :] + 0j
+
+    def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
+        """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
+        forms = (vectors.conj() * (form @ vectors) for form in (self.mass, self.stiffness))
+        kinetic, elastic = (form.sum(0).real for form in forms)
+        return np.sign(kinetic * roots.imag**2 + elastic).astype(np.int64)
 
     @cached_property
     def _definite(self) -> bool:
@@ -232,4 +244,5 @@ def modes(s: Assembly) -> Modes:
     largest = np.abs(shapes).reshape(len(kept), -1)
     lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), largest.argmax(1)]
     shapes = shapes / lead[:, None, None]
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()))
+    signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
+    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs)

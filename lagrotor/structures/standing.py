@@ -1,69 +1,134 @@
-"""Whether a structure stands upright to first order, why not, and the least factor on all its spins from which on it does.
+"""Whether a structure stands upright, to first order and beyond, why not, and the least factor on its spins to first order.
 
-What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n degrees of
-freedom:
-
-- an odd number of degrees of freedom that fall (det K < 0) falls at any spin (Kelvin; Thomson & Tait, Natural Philosophy, § 345);
-- where all of K is negative it stands from some spin on if and only if det B ≠ 0, and that is the factor
-
-      max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0,
-
-  as above every branch's minimum each branch gives two real rates ω, n in all, and no more exist;
-- with M = a 1 and K = −κ 1 (massless bars, equal loads) that is 2 sqrt(a κ)/β, i β the least root of B.
-
-Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5).
-
-All of this is the linear motion. What spins hold against weight has precessions of negative energy; where a fast rate is the
-sum of two slow ones, the bars' terms of third order can feed all three, and any push then falls in a time that grows as one over
-the push (Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199).
+To first order the theorems of `critical_spins` decide. What spins hold against weight has precessions of negative energy, and
+resonances of third and fourth order between them let it fall all the same: see `resonances`.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array, Complex
+from lagrotor.structures.coefficients import Complex
+from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
+from lagrotor.structures.local_hamiltonian import local_hamiltonian
+from lagrotor.structures.resonances import MOST_FREEDOMS, Resonance, fall_time_along, resonances, signed_rates
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
-_GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
+PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
+_BOUNDED = "every small motion stays bounded"
+
+
+Kind = Literal["never", "to first order", "falls at a resonance", "holds"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Standing(Shown):
-    """Whether it stands to first order, why; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
+    """Whether it stands to first order; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
 
-    critical_spin: the factor on all spins from which on it stands, inf where there is none. All of it linear.
+    critical_spin: the factor on all spins from which on it stands to first order, inf where there is none. A truth value: that of
+    `stands`. `kind` says what lies beyond.
     """
 
     stands: bool
-    why: str
     growth: float
     shape: Complex
     critical_spin: float
+    structure: Assembly
+    first_order: str
 
     def __bool__(self) -> bool:
         return self.stands
 
+    @cached_property
+    def kind(self) -> Kind:
+        """What it does beyond the linear motion:
+
+        - "never": it does not stand to first order, and any push falls or goes on;
+        - "falls at a resonance": from every push of more than PUSH times its natural rate, in some direction, and from
+          smaller ones as `largest_push` says;
+        - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
+        - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back, or
+          there are more degrees of freedom than are expanded.
+        """
+        linear = small_motion(self.structure)
+        if not self.stands:
+            return "never"
+        if linear.freedoms and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
+            return "holds"
+        if linear.damping.any() or linear.freedoms > MOST_FREEDOMS or not len(signed_rates(linear)):
+            return "to first order"
+        return "falls at a resonance" if self.resonance and self.resonance.push() < self._reference else "holds"
+
+    @cached_property
+    def resonance(self) -> Resonance | None:
+        """The resonance that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
+        return next((r for r in resonances(self.structure) if r.falls), None)
+
+    @property
+    def _reference(self) -> float:
+        return PUSH * local_hamiltonian(self.structure).rate
+
+    @property
+    def why(self) -> str:
+        """Why it stands or falls, in words."""
+        if self.kind == "falls at a resonance" and self.resonance:
+            time, least = self.resonance.least_time(self._reference), self.resonance.push()
+            return (
+                f"{self.first_order}, but it falls at a resonance of order {self.resonance.order}, "
+                f"{self.resonance.words()}: from a push of {least:.2g} rad/s on, one of {self._reference:.3g} rad/s in "
+                f"{time:.3g} s or more"
+            )
+        if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
+            return f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s"
+        return self.first_order
+
+    def window(self, push: float) -> tuple[float, float] | None:
+        """The factors on all spins, about these, between which a push of that size (rad/s) may fall; None without a resonance."""
+        return self.resonance.window(push) if self.resonance else None
+
+    def fall_time(self, push: float | ArrayLike) -> float:
+        """When it falls, s. A number: the least time of pushes of that size (rad/s), inf where none falls. Rates (N, 2) of
+        the axes: that of this push from upright, by the normal form, inf where it does not fall in 20 least times."""
+        if not self.stands:
+            return 0.0
+        if self.resonance is None:
+            return inf
+        if np.ndim(push) == 0:
+            return self.resonance.least_time(float(push)) if float(push) > self.resonance.push() else inf  # type: ignore[arg-type]
+        size = float(np.linalg.norm(np.asarray(push, dtype=float)))
+        reach = max(abs(np.dot(k, self.resonance.rates)) for k in self.resonance.vectors)
+        return fall_time_along(self.structure, push, 20 * self.resonance.least_time(size), 1.001 * reach)
+
     def summary(self) -> dict[str, str]:
         """Whether it stands and why, and what spins it needs, name → words."""
         least = "none" if self.critical_spin == inf else f"{self.critical_spin:.6g}"
-        return {"stands": "yes" if self.stands else "no", "why": self.why, "least factor on all spins": least}
+        return {
+            "stands to first order": "yes" if self.stands else "no",
+            "beyond": self.kind,
+            "why": self.why,
+            "least factor on all spins, to first order": least,
+        }
 
 
 def stands(s: Assembly) -> Standing:
-    """Whether the linear motion about upright stays bounded. Raises InputError where upright breaks a bar's length."""
+    """Whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
+
+    Raises InputError where upright breaks a bar's length.
+    """
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     growth, falls = linear.growth, linear.growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
-    return Standing(not falls and not linear.drifts, _why(linear, factor), growth, shape, factor)
+    return Standing(not falls and not linear.drifts, growth, shape, factor, s, _why(linear, factor))
 
 
 def _why(linear: SmallMotion, factor: float) -> str:
-    K = np.linalg.eigvalsh(_unit(linear))
+    K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     n, falling = linear.freedoms, int((K < -1e-12).sum())
     if linear.growth == 0:
         if linear.drifts:
@@ -76,14 +141,13 @@ def _why(linear: SmallMotion, factor: float) -> str:
             else "nothing pulls at it, and spins or friction stop a push"
         )
         if not falling:
-            return f"every small motion stays bounded: {held}"
-        held = f"the spins hold {falling} of {n} degrees of freedom"
-        return f"to first order: {held}; a resonance of higher order may still let a push fall"
+            return f"{_BOUNDED}: {held}"
+        return f"to first order: the spins hold {falling} of {n} degrees of freedom"
     first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
     if falling % 2:
         return first + "an odd number of them, which no spins hold"
     if linear.damping.any():
-        bare = spin_threshold(_frictionless(linear))
+        bare = spin_threshold(replace(linear, damping=np.zeros_like(linear.mass)))
         return first + (
             f"friction undoes what the spins hold; without it they would from {bare:.4g} times these spins on"
             if bare < inf
@@ -92,84 +156,3 @@ def _why(linear: SmallMotion, factor: float) -> str:
     if factor < inf:
         return first + f"the spins are too small: from {factor:.6g} times them on it stands"
     return first + "a motion on which these spins do not act, at any multiple of them"
-
-
-def critical_spin(s: Assembly) -> float:
-    """The factor on all spins from which on the linear motion stays bounded, at every larger one too.
-
-    0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
-    that nothing holds and no spin acts on.
-    Raises InputError where upright breaks a bar's length.
-    """
-    return spin_threshold(small_motion(s))
-
-
-def spin_threshold(linear: SmallMotion) -> float:
-    """`critical_spin` of a linear system."""
-    K = np.linalg.eigvalsh(_unit(linear))
-    falling, factor = int((K < -1e-12).sum()), 0.0
-    if falling:
-        if falling % 2 or np.linalg.eigvalsh(linear.damping)[0] > 0:
-            return inf
-        if falling == len(K) and not linear.damping.any():
-            return _by_branches(linear)
-        factor = _by_scan(linear)
-    return inf if factor < inf and linear.at_spins(2 * factor or 1.0).drifts else factor
-
-
-def _unit(linear: SmallMotion) -> Array:
-    """K in the metric of M, in units of rate²."""
-    root = np.linalg.inv(np.linalg.cholesky(linear.mass))
-    return np.asarray(root @ linear.stiffness @ root.T / linear.rate**2)
-
-
-def _frictionless(linear: SmallMotion) -> SmallMotion:
-    return replace(linear, damping=np.zeros_like(linear.mass))
-
-
-def _by_branches(linear: SmallMotion) -> float:
-    """All of K negative: one over the largest, over ω, of the least positive root h of det(i B − h (ω M + |K|/ω)) = 0."""
-    from scipy.linalg import eigh
-    from scipy.optimize import minimize_scalar
-
-    M, H, K = linear.mass, 1j * linear.gyroscopic, -linear.stiffness
-    size = np.abs(np.linalg.eigvalsh(H)).max()
-    half = len(M) // 2
-    if np.sort(np.abs(np.linalg.eigvalsh(H)))[0] <= 1e-9 * size:
-        return inf
-
-    squares, shapes = eigh(K, M)
-    turned = shapes.T @ H @ shapes  # as M is one and K diagonal there, so is ω M + K/ω
-
-    def least(log_rates: ArrayLike) -> Array:
-        w = np.exp(log_rates)[..., None]
-        over = 1 / np.sqrt(w + squares / w)
-        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * turned * over[..., None, :])[..., half])
-
-    own = np.log(squares) / 2
-    grid = np.linspace(own[0] - 0.5, own[-1] + 0.5, 101)
-    values = least(grid)
-    best = int(np.argmax(values))
-    around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
-    highest = minimize_scalar(lambda at: -least(at), bounds=around, method="bounded", options={"xatol": 1e-10})
-    return float(1 / max(-highest.fun, values[best]))
-
-
-def _by_scan(linear: SmallMotion) -> float:
-    """The largest factor at which growth ends, by scan and bisection; windows narrower than the scan are not seen."""
-    size = np.abs(linear.gyroscopic).max()
-    if size == 0:
-        return inf
-    natural = 2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / size
-    grid = natural * _GRID
-    falls = [linear.at_spins(factor).growth > 0 for factor in grid]
-    if falls[-1]:
-        return inf
-    if not any(falls):
-        return 0.0
-    k = int(np.flatnonzero(falls)[-1])
-    low, high = grid[k], grid[k + 1]
-    while high - low > 1e-12 * high:
-        middle = (low + high) / 2
-        low, high = (middle, high) if linear.at_spins(middle).growth > 0 else (low, middle)
-    return float(high)

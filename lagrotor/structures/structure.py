@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures import characteristic, response, small_motion, standing
+from lagrotor.structures import characteristic, critical_spins, resonances, response, small_motion, standing
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.exact import simulating
 from lagrotor.structures.exact.closing import check_closure
@@ -43,7 +43,10 @@ class Structure(Assembly):
     simulate = simulating.simulate_structure
     modes = small_motion.modes
     stands = standing.stands
-    critical_spin = standing.critical_spin
+    critical_spin = critical_spins.critical_spin
+    spin_intervals = resonances.spin_intervals
+    largest_push = resonances.largest_push
+    resonances = resonances.resonances
     characteristic = characteristic.characteristic
     response = response.response
 

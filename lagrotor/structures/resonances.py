@@ -1,0 +1,379 @@
+"""Resonances at which a structure that its spins hold falls, and from which pushes.
+
+What spins hold against weight has modes of both signs of energy, H = sum_j ω_j |z_j|² + …, ω_j < 0 of the negative ones. Where
+k·ω = δ is small for k_j ≥ 0, |k| = d, the terms of degree d of the normal form, 2 Re P with P of degree d in z alone, feed all
+these modes at once, as what they gain and lose adds up to nothing. With N = sum |z_j|² over them and c the largest |P| at N = 1
+
+    |dN/dt| ≤ 2 d c N^(d/2):   from N₀ = ρ² none falls before  t = 1/(d (d − 2) c ρ^(d−2)),
+
+and along the steepest direction it is that time. Beside the resonance δ N/d + K_d is conserved, K_d all of degree d. With κ its
+largest value at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) where
+
+    |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
+
+All of it is of the terms of degree d; d = 3 are the waves of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the
+actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from math import inf, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical.normal_forms import NormalForm, birkhoff, normal_quadratic
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
+from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.shown import Shown
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array, Complex, finite
+from lagrotor.structures.critical_spins import spin_threshold
+from lagrotor.structures.local_hamiltonian import LocalHamiltonian, local_hamiltonian
+from lagrotor.structures.small_motion import SmallMotion, small_motion
+
+MOST_FREEDOMS = 8  # for which the terms of fourth order are expanded
+_BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
+_NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
+_GROUP = 4.0  # times the least detuning of a group: what is detuned no more is part of it
+_NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
+_FALLEN = 1.0  # the sine of a tilt
+_TRUSTED = 0.1  # the sine of a tilt
+_TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Resonance(Shown):
+    """A resonance of order 3 or 4 that can feed modes of both signs of energy.
+
+    vectors: the k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative energy,
+    with all spins multiplied by `at`. detuning: k·rates of the first, rad/s; per_factor: its slope. growth: c, largest: κ,
+    both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the start, upright, in
+    rad/s; reach: of the steepest push. falls: whether its own terms do not stop it.
+    """
+
+    order: int
+    vectors: tuple[tuple[int, ...], ...]
+    rates: Array
+    at: float
+    detuning: float
+    per_factor: float
+    growth: float
+    largest: float
+    reach: float
+    falls: bool
+
+    @property
+    def factor(self) -> float:
+        """The factor on all spins at which the detuning is zero, by its slope here."""
+        return self.at - self.detuning / self.per_factor if self.per_factor else inf
+
+    def push(self) -> float:
+        """The push (rad/s) below which no start falls by this resonance."""
+        d = self.order
+        barrier = (2 * abs(self.detuning) / (d * d * self.largest)) ** (1 / (d - 2))
+        return sqrt(_BARRIER[d]) * barrier / self.reach
+
+    def window(self, push: float) -> tuple[float, float]:
+        """The factors on all spins between which a push of that size (rad/s) may fall."""
+        d, x = self.order, _BARRIER[self.order]
+        half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
+        return self.factor - half, self.factor + half
+
+    def least_time(self, push: float) -> float:
+        """The time (s) before which no push of that size falls, and after which one does where the detuning is zero."""
+        d = self.order
+        return 1 / (d * (d - 2) * self.growth * (self.reach * push) ** (d - 2))
+
+    def words(self) -> str:
+        """The rates and how they add up."""
+        parts = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
+        sides = [
+            " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in parts if below is side)
+            for side in (False, True)
+        ]
+        return f"{sides[0]} = {sides[1]} rad/s but for {abs(self.detuning):.2g}"
+
+    def summary(self) -> dict[str, str]:
+        """What adds up, how strongly, and where, name → words."""
+        return {
+            "rates": self.words(),
+            "order": str(self.order),
+            "at the factor on all spins": f"{self.factor:.6g}",
+            "coefficient": f"{self.growth:.4g} 1/s",
+            "falls": f"from {self.push():.3g} rad/s on" if self.falls else "no: its own terms stop it",
+        }
+
+
+def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
+    """The rates ω_j of the modes with all spins multiplied, negative where their energy is, ascending; empty where one grows."""
+    here = linear.at_spins(factor)
+    roots, vectors = here.waves
+    if here.growth > 0 or not roots.imag.all():
+        return np.zeros(0)
+    turning = roots.imag > 0
+    return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
+
+
+def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
+    """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes meet first.
+
+    None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, or the degrees
+    of freedom are too many.
+    """
+    linear = small_motion(s)
+    rates = signed_rates(linear, factor)
+    if not len(rates):
+        raise InputError(
+            "resonances: a mode grows, or has the rate zero: there are no modes that could be in resonance"
+        )
+    if not (rates[0] < 0 < rates[-1]):
+        return ()
+    if linear.freedoms > MOST_FREEDOMS:
+        raise InputError(f"resonances: {linear.freedoms} degrees of freedom: at most {MOST_FREEDOMS} are expanded")
+    slope = _slopes(linear, factor)
+    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
+    return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
+
+
+def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: int) -> Iterator[Resonance]:
+    """Groups of vectors of one order whose detunings are near each other."""
+    h = local_hamiltonian(s)
+    vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
+    while vectors:
+        least = max(abs(np.dot(vectors[0], rates)), 1e-9 * rates[-1])
+        group = [k for k in vectors if abs(np.dot(k, rates)) <= _GROUP * least]
+        vectors = [k for k in vectors if k not in group]
+        n = normal_form_of(s, factor, max(abs(np.dot(k, rates)) for k in group) / h.rate * 1.001)
+        resonance = _resonance(n, h, group, rates, slopes, factor)
+        if resonance:
+            yield resonance
+
+
+def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
+    """k ≥ 0 with |k| = order and a small k·rates, of modes of both signs."""
+    near, n = _NEAR * np.abs(rates).max(), len(rates)
+    combinations = combinations_with_replacement(range(n), order)
+    return [tuple(c.count(j) for j in range(n)) for c in combinations if abs(rates[list(c)].sum()) < near]
+
+
+def _resonance(
+    n: NormalForm, h: LocalHamiltonian, group: list[tuple[int, ...]], rates: Array, slopes: Array, at: float
+) -> Resonance | None:
+    """What the normal form says of a group of vectors; None where their terms vanish."""
+    size, order, place = len(rates), sum(group[0]), np.argsort(np.real(n.frequencies), kind="stable")
+    vectors = [tuple(int(k[i]) for i in np.argsort(place)) for k in group]  # in the order of the normal form's modes
+    modes = np.any(vectors, axis=0)
+    part = n.series.part(order)
+    part = part.where(part.exponents[:, np.tile(~modes, 2)].sum(1) == 0)
+    up = part.where(np.array([tuple(e[:size]) in vectors and not e[size:].any() for e in part.exponents], dtype=bool))
+    scale = np.abs(n.series.coefficients).max()
+    if not len(up.coefficients) or np.abs(up.coefficients).max() < _NOTHING * scale:
+        return None
+    falls = order == 3 or any(_outweighs(part, k) for k in vectors)
+    nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
+    over = np.linalg.inv(n.vectors)[:size][modes, size:] @ h.mass / h.rate
+    lead = total([up, _conjugate(up)]) if order == 3 else part
+    return Resonance(
+        order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
+        float(np.dot(nearest, slopes)), h.rate * _largest(up, modes), h.rate * _largest(lead, modes),
+        float(np.linalg.norm(over, 2)), falls,
+    )  # fmt: skip
+
+
+def _conjugate(f: Polynomial) -> Polynomial:
+    n = f.variables // 2
+    return Polynomial(np.hstack([f.exponents[:, n:], f.exponents[:, :n]]), f.coefficients.conj())
+
+
+def _outweighs(part: Polynomial, k: tuple[int, ...]) -> bool:
+    """Whether 2 |P| exceeds the actions' own terms along |z_j|² = k_j."""
+    n = len(k)
+    own = sum(c.real * float(np.prod(np.array(k, float) ** e[:n])) for e, c in part.terms.items() if e[:n] == e[n:])
+    feeding = part.terms.get((*k, *(0,) * n), 0)
+    return 2 * abs(feeding) * float(np.prod(np.array(k, float) ** (np.array(k) / 2))) > abs(own)
+
+
+def _largest(f: Polynomial, modes: Any) -> float:
+    """The largest |f| at sum |z_j|² = 1, w = z̄, of the modes of a mask: ascent from some starts."""
+    from scipy.optimize import minimize
+
+    m, n = int(modes.sum()), f.variables // 2
+    draw = np.random.default_rng(0)
+
+    def value(x: Array) -> float:
+        z = np.zeros(n, dtype=complex)
+        z[modes] = (x[:m] + 1j * x[m:]) / np.linalg.norm(x)
+        return -abs(f.at(np.concatenate([z, z.conj()])))
+
+    return max(-minimize(value, draw.standard_normal(2 * m), method="BFGS").fun for _ in range(8))
+
+
+def _slopes(linear: SmallMotion, factor: float) -> Array:
+    """d rates / d factor."""
+    step = 1e-5 * factor
+    near = [signed_rates(linear, factor + sign * step) for sign in (-1, 1)]
+    if not all(map(len, near)):
+        return np.full(linear.freedoms, np.nan)
+    return (near[1] - near[0]) / (2 * step)
+
+
+@lru_cache(maxsize=16)
+def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
+    """The normal form of a structure about upright with all spins multiplied, in units of its `LocalHamiltonian`."""
+    H = local_hamiltonian(s, order).at_spins(factor)
+    n, A = H.variables // 2, np.zeros((H.variables, H.variables))
+    for e, c in H.part(2).terms.items():
+        i, j = (k for k, m in enumerate(e) for _ in range(m))
+        A[i, j] += c
+        A[j, i] += c
+    bracket = np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
+    normal = normal_coordinates(A, bracket)
+    rows = [
+        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
+        for row in normal.vectors
+    ]
+    parts = [Polynomial(p.exponents, p.coefficients + 0j).substitute(rows, order) for d, p in H.parts.items() if d > 2]
+    quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
+    return birkhoff(total([quadratic, *parts]), normal.weights, order, detuning, normal.vectors)
+
+
+def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
+    """When the push with the axes' rates (N, 2), rad/s, from upright falls by the normal form of fourth order, s.
+
+    inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s.
+    """
+    from scipy.integrate import solve_ivp
+
+    h = local_hamiltonian(s)
+    n = normal_form_of(s, 1.0, detuning / h.rate)
+    size = len(n.frequencies)
+    push = finite("fall_time: push", rates)
+    if push.shape != (len(s.joints), 2):
+        raise InputError(
+            f"fall_time: push must be a number or rates ({len(s.joints)}, 2) in rad/s, not of shape {push.shape}"
+        )
+    momentum = h.mass @ (h.basis.T @ push.ravel()) / h.rate
+    start = np.linalg.inv(n.vectors) @ np.concatenate([0 * momentum, momentum])
+    begin = np.array([f.at(start) for f in _new_coordinates(n)])[:size]
+    steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
+    turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
+    slow = n.series - polynomial(
+        {tuple(int(i in (j, size + j)) for i in range(2 * size)): w for j, w in enumerate(turning)}, 2 * size
+    )
+    slopes = [slow.derivative(size + j) for j in range(size)]
+    tilts = 2 * np.abs(h.basis @ n.vectors[:size, :size]).reshape(-1, 2, size)
+
+    def flow(_: float, z: Complex) -> Complex:
+        point = np.concatenate([z, z.conj()])
+        return np.array([-1j * f.at(point) for f in slopes])
+
+    def fallen(_: float, z: Complex) -> float:
+        return float(np.hypot(*np.moveaxis(tilts @ np.abs(z), 1, 0)).max()) - _FALLEN
+
+    fallen.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(
+        flow, (0, longest * h.rate), begin, events=fallen, rtol=1e-7, atol=1e-10 * np.abs(begin).max(), method="DOP853"
+    )
+    return float(run.t[-1]) / h.rate if run.status == 1 else inf
+
+
+def _new_coordinates(n: NormalForm) -> list[Polynomial]:
+    """The normal form's coordinates as polynomials of those of the quadratic part, through third order."""
+    new = [variable(j, 2 * len(n.frequencies)) for j in range(2 * len(n.frequencies))]
+    for generator in reversed([g for g in n.generators if len(g.coefficients)]):
+        new = [lie_transform(f, generator.times(-1), n.weights, 3) for f in new]
+    return new
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LargestPush(Shown):
+    """value: the largest push (rad/s) from which no start falls; behind: what the number comes from, in words.
+
+    A push is the root of the sum of squares of all axes' rates at the start, upright. inf never occurs: where no resonance is
+    near, the value is that which tilts an axis by 0.1 at most, as far as the expansion is trusted.
+    """
+
+    value: float
+    behind: str
+    resonance: Resonance | None
+
+    def __float__(self) -> float:
+        return self.value
+
+    def summary(self) -> dict[str, str]:
+        """The push and what lies behind it, name → words."""
+        return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
+
+
+def largest_push(s: Assembly) -> LargestPush:
+    """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
+
+    0 where it does not stand to first order. Raises InputError as `resonances` does.
+    """
+    if small_motion(s).growth > 0:
+        return LargestPush(0.0, "it falls to first order", None)
+    first = next((r for r in resonances(s) if r.falls), None)
+    trusted = _trusted_push(s)
+    if first is None or first.push() > trusted:
+        return LargestPush(
+            trusted, f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}", first
+        )
+    return LargestPush(first.push(), f"a resonance of order {first.order}: {first.words()}", first)
+
+
+def _trusted_push(s: Assembly) -> float:
+    """The push (rad/s) from which no axis tilts by more than `_TRUSTED` in the linear motion."""
+    h, n = local_hamiltonian(s), normal_form_of(s)
+    size = len(n.frequencies)
+    over = np.linalg.inv(n.vectors)[:size, size:] @ h.mass / h.rate
+    tilts = 2 * np.abs(h.basis @ n.vectors[:size, :size]) @ np.abs(over)
+    return float(_TRUSTED / np.linalg.norm(tilts.reshape(-1, 2, size), axis=(1, 2)).max())
+
+
+def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
+    """The factors on all spins, from the critical one on, at which no push of that size (rad/s) falls, as intervals.
+
+    The last one ends at inf. Empty where no spins hold it. Raises InputError as `resonances` does.
+    """
+    if not push > 0:
+        raise InputError(f"spin_intervals: push = {push!r} must be a rate above zero, rad/s")
+    low = spin_threshold(small_motion(s))
+    if low == inf:
+        return ()
+    kept = []
+    for start, end in sorted(r.window(push) for _, r in resonant_factors(s)):
+        if start > low:
+            kept.append((low, start))
+        low = max(low, end)
+    return (*kept, (low, inf))
+
+
+def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
+    """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does."""
+    from scipy.optimize import brentq
+
+    linear = small_motion(s)
+    least = spin_threshold(linear)
+    if not 0 < least < inf:
+        return ()
+    factors = least * np.geomspace(1 + 1e-6, _TOP, 400)
+    tracks = [(f, rates) for f in factors if len(rates := signed_rates(linear, f))]
+    roots = set()
+    for order in orders:
+        n = linear.freedoms
+        for c in combinations_with_replacement(range(n), order):
+            sums = [rates[list(c)].sum() for _, rates in tracks]
+            for k in np.flatnonzero(np.sign(sums[:-1]) * np.sign(sums[1:]) < 0):
+                low, high = tracks[k][0], tracks[k + 1][0]
+                root = brentq(lambda f, c=c: signed_rates(linear, f)[list(c)].sum(), low, high, xtol=1e-13 * low)
+                roots.add((round(root, 9), order))
+    found = []
+    for root, order in sorted(roots):
+        at = [r for r in resonances(s, root, (order,)) if abs(r.detuning) < 1e-6 * np.abs(r.rates).max() and r.falls]
+        found += [(root, r) for r in at]
+    return tuple(found)
