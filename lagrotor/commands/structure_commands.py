@@ -84,11 +84,15 @@ def _summary(s: Any) -> dict[str, Any]:
     standing, modes = s.stands(), s.modes()
     return summary | {
         "stands": standing.stands,
+        "kind": standing.kind,
         "why": standing.why,
         "growth": standing.growth,
         "critical_spin": standing.critical_spin if standing.critical_spin < math.inf else None,
         "topple": modes.topple,
-        "modes": [{"rate": float(w), "growth": float(g)} for w, g in zip(modes.rates, modes.growth, strict=True)],
+        "modes": [
+            {"rate": float(w), "growth": float(g), "energy_sign": int(sign)}
+            for w, g, sign in zip(modes.rates, modes.growth, modes.energy_signs, strict=True)
+        ],
     }
 
 
@@ -103,6 +107,14 @@ def _table(summary: dict[str, Any]) -> str:
     factor = summary["critical_spin"]
     least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
     modes = enumerate(summary["modes"], 1)
-    rows += [("least spin", least), ("degrees of freedom", f"{freedoms}; modes that grow: {summary['topple']}")]
-    rows += [(f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s") for k, m in modes]
+    rows.insert(0, ("standing", summary["kind"]))
+    rows += [
+        ("least spin, to first order", least),
+        ("degrees of freedom", f"{freedoms}; modes that grow: {summary['topple']}"),
+    ]
+    energies = {1: "", 0: "", -1: ", of negative energy"}
+    rows += [
+        (f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s{energies[m['energy_sign']]}")
+        for k, m in modes
+    ]
     return table(("structure", ""), rows)

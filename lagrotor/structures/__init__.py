@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from lagrotor.structures.gallery import example as example
     from lagrotor.structures.pattern_search import sign_patterns as sign_patterns
     from lagrotor.structures.pictures import draw_plan as draw_plan
+    from lagrotor.structures.resonances import Resonance as Resonance
+    from lagrotor.structures.resonances import normal_form_of as normal_form_of
+    from lagrotor.structures.resonances import resonant_factors as resonant_factors
+    from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
     from lagrotor.structures.waves.bloch import bloch as bloch
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
     from lagrotor.structures.waves.dispersion import dispersion as dispersion

@@ -33,8 +33,8 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, finite
 from lagrotor.structures.critical_spins import spin_threshold
-from lagrotor.structures.local_hamiltonian import LocalHamiltonian, local_hamiltonian
 from lagrotor.structures.small_motion import SmallMotion, small_motion
+from lagrotor.structures.upright_hamiltonian import LocalHamiltonian, local_hamiltonian
 
 MOST_FREEDOMS = 8  # for which the terms of fourth order are expanded
 _BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
@@ -43,6 +43,7 @@ _GROUP = 4.0  # times the least detuning of a group: what is detuned no more is 
 _NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
 _FALLEN = 1.0  # the sine of a tilt
 _TRUSTED = 0.1  # the sine of a tilt
+_MOST_STEPS = 8  # of the search for the edge of a window
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
 
 
@@ -76,13 +77,13 @@ class Resonance(Shown):
         """The push (rad/s) below which no start falls by this resonance."""
         d = self.order
         barrier = (2 * abs(self.detuning) / (d * d * self.largest)) ** (1 / (d - 2))
-        return sqrt(_BARRIER[d]) * barrier / self.reach
+        return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """The factors on all spins between which a push of that size (rad/s) may fall."""
+        """The factors on all spins between which a push of that size (rad/s) may fall, by the slope and the terms here."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
-        return self.factor - half, self.factor + half
+        return float(self.factor - half), float(self.factor + half)
 
     def least_time(self, push: float) -> float:
         """The time (s) before which no push of that size falls, and after which one does where the detuning is zero."""
@@ -199,18 +200,24 @@ def _outweighs(part: Polynomial, k: tuple[int, ...]) -> bool:
 
 
 def _largest(f: Polynomial, modes: Any) -> float:
-    """The largest |f| at sum |z_j|² = 1, w = z̄, of the modes of a mask: ascent from some starts."""
+    """The largest |f| at sum |z_j|² = 1, w = z̄, of the modes of a mask, f homogeneous: ascent from some starts."""
     from scipy.optimize import minimize
 
-    m, n = int(modes.sum()), f.variables // 2
+    m, powers, order = int(modes.sum()), f.exponents[:, np.tile(modes, 2)], int(f.exponents[0].sum())
     draw = np.random.default_rng(0)
 
-    def value(x: Array) -> float:
-        z = np.zeros(n, dtype=complex)
-        z[modes] = (x[:m] + 1j * x[m:]) / np.linalg.norm(x)
-        return -abs(f.at(np.concatenate([z, z.conj()])))
+    def lower(x: Array) -> tuple[float, Array]:
+        """−|f|/|x|^d and its gradient."""
+        z, size = x[:m] + 1j * x[m:], float(np.linalg.norm(x))
+        point = np.concatenate([z, z.conj()])
+        terms = f.coefficients * np.prod(point**powers, axis=1)
+        value, (by_z, by_w) = terms.sum(), (terms @ powers / point).reshape(2, m)
+        turn = value.conjugate() / abs(value) if value else 1.0
+        slope = np.concatenate([(turn * (by_z + by_w)).real, -(turn * (by_z - by_w)).imag])
+        return -abs(value) / size**order, (order * abs(value) * x / size**2 - slope) / size**order
 
-    return max(-minimize(value, draw.standard_normal(2 * m), method="BFGS").fun for _ in range(8))
+    starts = draw.standard_normal((8, 2 * m))
+    return float(max(-minimize(lower, x, jac=True, method="BFGS").fun for x in starts))
 
 
 def _slopes(linear: SmallMotion, factor: float) -> Array:
@@ -323,7 +330,7 @@ def largest_push(s: Assembly) -> LargestPush:
         return LargestPush(
             trusted, f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}", first
         )
-    return LargestPush(first.push(), f"a resonance of order {first.order}: {first.words()}", first)
+    return LargestPush(float(first.push()), f"a resonance of order {first.order}: {first.words()}", first)
 
 
 def _trusted_push(s: Assembly) -> float:
@@ -333,6 +340,30 @@ def _trusted_push(s: Assembly) -> float:
     over = np.linalg.inv(n.vectors)[:size, size:] @ h.mass / h.rate
     tilts = 2 * np.abs(h.basis @ n.vectors[:size, :size]) @ np.abs(over)
     return float(_TRUSTED / np.linalg.norm(tilts.reshape(-1, 2, size), axis=(1, 2)).max())
+
+
+def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, float]:
+    """The factors on all spins between which a push of that size (rad/s) may fall by a resonance, from the critical one on.
+
+    Each edge is moved out until the detuning and the terms there let no such push fall.
+    """
+    linear, centre = small_motion(s), resonance.factor
+    least, edges = spin_threshold(linear), []
+    for edge in resonance.window(push):
+        for _ in range(_MOST_STEPS):
+            here = _like(s, linear, resonance, edge) if edge > least else None
+            if here is None or here.push() >= push:
+                break
+            edge = centre + 1.02 * (edge - centre) * (push / here.push()) ** (resonance.order - 2)
+        edges.append(max(float(edge), least))
+    return edges[0], edges[1]
+
+
+def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float) -> Resonance | None:
+    """The resonance of the same vectors at another factor."""
+    rates = signed_rates(linear, factor)
+    found = _of_order(s, rates, _slopes(linear, factor), factor, resonance.order) if len(rates) else iter(())
+    return next((r for r in found if {*r.vectors} & {*resonance.vectors}), None)
 
 
 def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
@@ -346,11 +377,11 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
     if low == inf:
         return ()
     kept = []
-    for start, end in sorted(r.window(push) for _, r in resonant_factors(s)):
+    for start, end in sorted(window_of(s, r, push) for _, r in resonant_factors(s)):
         if start > low:
-            kept.append((low, start))
+            kept.append((float(low), start))
         low = max(low, end)
-    return (*kept, (low, inf))
+    return (*kept, (float(low), inf))
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
@@ -374,6 +405,7 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
                 roots.add((round(root, 9), order))
     found = []
     for root, order in sorted(roots):
-        at = [r for r in resonances(s, root, (order,)) if abs(r.detuning) < 1e-6 * np.abs(r.rates).max() and r.falls]
-        found += [(root, r) for r in at]
+        nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order), None)
+        if nearest and nearest.falls and abs(nearest.detuning) < 1e-6 * np.abs(nearest.rates).max():
+            found.append((root, nearest))
     return tuple(found)

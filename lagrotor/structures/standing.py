@@ -16,9 +16,16 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
-from lagrotor.structures.local_hamiltonian import local_hamiltonian
-from lagrotor.structures.resonances import MOST_FREEDOMS, Resonance, fall_time_along, resonances, signed_rates
+from lagrotor.structures.resonances import (
+    MOST_FREEDOMS,
+    Resonance,
+    fall_time_along,
+    resonances,
+    signed_rates,
+    window_of,
+)
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
+from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
 _BOUNDED = "every small motion stays bounded"
@@ -90,7 +97,7 @@ class Standing(Shown):
 
     def window(self, push: float) -> tuple[float, float] | None:
         """The factors on all spins, about these, between which a push of that size (rad/s) may fall; None without a resonance."""
-        return self.resonance.window(push) if self.resonance else None
+        return window_of(self.structure, self.resonance, push) if self.resonance else None
 
     def fall_time(self, push: float | ArrayLike) -> float:
         """When it falls, s. A number: the least time of pushes of that size (rad/s), inf where none falls. Rates (N, 2) of

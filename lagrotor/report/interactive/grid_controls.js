@@ -3,6 +3,7 @@
 const KINDS = ["plus", "minus", "still", "none"];
 const SIGNS = { plus: "+", minus: "−", still: "0", none: "·" };
 const WORDS = { plus: "spins in the positive sense", minus: "spins in the negative sense", still: "does not spin", none: "empty" };
+const NEAR = 0.02; // of the fast rate: the largest detuning that is spoken of
 const EXAMPLES = { // of each place, from below, left to right; bars along x and along y by the place where they begin
   corner: [["plus", "plus", "none", "none", "plus", "none", "none", "none", "none"], [0], [1]],
   square: [["minus", "plus", "none", "plus", "plus", "none", "none", "none", "none"], [0, 3], [0, 1]],
@@ -15,7 +16,11 @@ function verdict(found, spin) {
   const number = (x) => x.toPrecision(3), freedoms = found.rows.length + found.columns.length;
   if (!freedoms) return ["There is no rotor.", ""];
   if (found.stands) {
-    return ["It stands to first order.", `Its linear motion, of ${freedoms} degrees of freedom, stays bounded from ${number(found.factor)} times these spins on.`];
+    const bounded = `Its linear motion, of ${freedoms} degrees of freedom, stays bounded from ${number(found.factor)} times these spins on.`;
+    const { off, fast, slow } = found.resonance;
+    if (off > NEAR) return ["It stands to first order.", bounded];
+    return ["It stands to first order, near a resonance.", `${bounded} But two slow precessions, of ${slow.map(number).join(" and ")} rad/s, add up to a fast one, `
+      + `of ${number(fast)}: they may feed each other, and any push then falls. Structure(…).stands() decides whether they do.`];
   }
   const falls = `It falls: a small tilt grows e-fold in ${number(1 / found.growth)} s.`;
   if (!spin) return [falls, "Nothing turns."];

@@ -38,6 +38,15 @@ function eigenvalues(given) {
   return A.map((row, i) => row[i]);
 }
 
+// Of modes that the spins hold the rates (β ± sqrt(β² − 4 a κ))/2a, fast ones of positive and slow ones of negative energy: the
+// fast one and the two slow ones that come nearest to fast = slow + slow, as a share of the fast one.
+function nearestResonance(betas, a, kappa) {
+  const root = (beta) => Math.sqrt(Math.max(beta ** 2 - 4 * a * kappa, 0));
+  const fast = betas.map((beta) => (beta + root(beta)) / (2 * a)), slow = betas.map((beta) => (beta - root(beta)) / (2 * a));
+  const all = fast.flatMap((f) => slow.flatMap((s, i) => slow.slice(i).map((other) => ({ off: Math.abs(f - s - other) / f, fast: f, slow: [s, other] }))));
+  return all.reduce((best, one) => (one.off < best.off ? one : best), { off: Infinity });
+}
+
 // spins: of the nine places in rad/s, null where there is no rotor; right, up: places from which a bar goes to the next
 // along x, along y; load: kg on each tip.
 function standing(spins, right, up, load) {
@@ -56,6 +65,7 @@ function standing(spins, right, up, load) {
   return {
     rows, columns, a, kappa, betas, alone, free, growth,
     stands: present.length > 0 && growth === 0, factor: free ? Infinity : needed / least,
+    resonance: growth === 0 ? nearestResonance(betas, a, kappa) : { off: Infinity },
   };
 }
 

@@ -60,6 +60,25 @@ def test_a_board_stands_where_the_structure_does() -> None:
 
 
 @pytest.mark.skipif(NODE is None, reason="node is not installed")
+def test_a_resonance_is_told_where_the_structure_has_it() -> None:
+    """The corner with its middle rotor at rest: at 3/√8 times its critical spins, and at no others; its rates are the modes'."""
+    spins = np.array([1.0, 0.0, 1.0])
+    critical = structure([1, 0, None, None, 1, *[None] * 4], [0], [1], 2.0).critical_spin()
+    source = SOURCE + Path(module.__file__).with_name("grid_controls.js").read_text(encoding="utf-8")
+    words = {}
+    for factor in (1.02, 3 / np.sqrt(8), 1.4):
+        each = (factor * critical * spins).tolist()
+        board = [each[0], each[1], None, None, each[2], None, None, None, None], [0], [1], 2.0
+        found = value_of(
+            f"(() => {{ const f = standing(...{json.dumps(board)}); return [f.resonance, verdict(f, 1)]; }})()", source
+        )
+        rates = structure(*board).modes().rates
+        words[factor] = found[1][0]
+        assert found[0]["fast"] == pytest.approx(rates.max()) and found[0]["slow"] == pytest.approx([rates.min()] * 2)
+    assert ["resonance" in said for said in words.values()] == [False, True, False]
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed")
 def test_the_plan_moves_as_the_structure_does() -> None:
     """A corner of three: its small motion, and that of the exact model from a hundred-thousandth of its push."""
     spins, board = [30.0, 30.0, None, None, 30.0, None, None, None, None], ([0], [1], 2.0)

@@ -1,0 +1,265 @@
+"""Which structures fall by resonances, when, from which pushes and at which spins, held to the exact motion."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from lagrotor import Brace, Link, Rotor, Structure
+from lagrotor.errors import InputError
+from lagrotor.structures import exact_motion, example, local_hamiltonian, resonant_factors, right_hand_side
+from lagrotor.structures.small_motion import bar_rows, small_motion
+
+WEIGHT = {"gravity": 9.81, "load": 2.0}
+CORNER = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)], **WEIGHT}
+SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "bars": [(0, 1), (1, 2), (2, 3), (3, 0)], **WEIGHT}
+DIRECTION = np.array([[0.151, -0.931], [0.151, -0.149], [0.205, -0.149]])  # on the corner's bars, of length 1
+HEAVY = {
+    "joints": [(0, 0), (1, 0.2), (1, 1.3)],
+    "bars": [(0, 1), (1, 2)],
+    "rotor": [Rotor(1, 1, 1, 1), Rotor(1.5, 0.8, 0.7, 1), Rotor(1, 1.3, 1, 0.5)],
+    "link": [Link(1, 0.3, 0.05), Link(1, 0.1, 0.02)],
+    "gravity": 9.81,
+    "load": [2, 1, 0],
+    "hinge": [3, 0, 2],
+    "braces": [Brace(0, (0.3, 0.4, 0.1), 40.0), Brace(0, 2, 15.0)],
+}
+
+
+def at(factor: float, shape, spins) -> Structure:
+    """A structure with `factor` times its critical spins."""
+    s = Structure(**shape, spins=spins)
+    return replace(s, spins=tuple(factor * s.critical_spin() * w for w in s.spins))
+
+
+def exact_fall(s: Structure, rates, longest: float, rtol: float = 1e-8) -> tuple[float, float]:
+    """When an axis of the exact motion tilts by 0.7, inf where none does, and the largest tilt; s."""
+    motion, N = exact_motion(s), len(s.joints)
+    rhs, rate = right_hand_side(motion), motion.c.rate
+    start = np.concatenate([motion.c.upright.ravel(), np.column_stack([rates, np.zeros(N)]).ravel() / rate])
+
+    def fallen(_, y):
+        r = y[: 3 * N].reshape(N, 3)
+        return np.hypot(r[:, 0], r[:, 1]).max() - 0.7
+
+    fallen.terminal = True
+    run = solve_ivp(rhs, (0, longest * rate), start, events=fallen, rtol=rtol, atol=1e-11, method="DOP853")
+    r = run.y[: 3 * N].reshape(N, 3, -1)
+    return (run.t[-1] / rate if run.status == 1 else inf), float(np.hypot(r[:, 0], r[:, 1]).max())
+
+
+def directions(s: Structure, count: int, seed: int = 0):
+    """Rates (N, 2) of length 1 that the bars allow."""
+    basis, rng = small_motion(s).basis, np.random.default_rng(seed)
+    for _ in range(count):
+        v = rng.normal(size=basis.shape[1])
+        yield (basis @ v / np.linalg.norm(v)).reshape(-1, 2)
+
+
+def test_modes_have_the_signs_of_their_energies():
+    """Half of the degrees of freedom that fall have modes of less energy than rest; with springs that hold, none."""
+    top = Structure(joints=[(0, 0)], spins=30, **WEIGHT).modes()
+    assert top.rates[0] < top.rates[1] and top.energy_signs.tolist() == [-1, 1]
+    for name in ("corner", "square", "hexagon", "grid"):
+        signs = example(name).modes().energy_signs
+        assert (signs == -1).sum() == (signs == 1).sum() == len(signs) // 2
+    assert (Structure(**CORNER | {"hinge": 60.0}, spins=20).modes().energy_signs == 1).all()
+    falling = Structure(**CORNER, spins=1).modes()
+    assert falling.energy_signs[falling.growth > 0].tolist() == [0] * falling.topple
+    assert "of negative energy" in repr(top)
+
+
+def exact_accelerations(s: Structure, q, v):
+    """q'' of the exact motion at the freedoms q and their rates v."""
+    motion, linear = exact_motion(s), small_motion(s)
+    back = np.linalg.pinv(bar_rows(motion.c))
+
+    def axes(q):
+        u = linear.basis @ q
+        for _ in range(60):
+            xy = u.reshape(-1, 2)
+            r = np.column_stack([xy, np.sqrt(1 - (xy**2).sum(1))])
+            u = u + back @ (motion.off(r)[len(r) :] / motion.c.ell)
+        return r
+
+    step = 1e-5
+    rates = (axes(q + step * v) - axes(q - step * v)) / (2 * step)
+    return linear.basis.T @ motion.accelerations(0.0, axes(q), rates)[:, :2].ravel()
+
+
+def gap(s: Structure, order: int, eps: float, spins: float = 1.0) -> float:
+    """How far q'' by the expanded Hamiltonian is from the exact one at a state of size eps, relative."""
+    h, rng = local_hamiltonian(s, order), np.random.default_rng(5)
+    H, n = h.at_spins(spins), len(h.mass)
+    slopes = [H.derivative(k) for k in range(2 * n)]
+    x = eps * rng.normal(size=2 * n)
+
+    def flow(x):
+        values = np.array([f.at(x) for f in slopes])
+        return np.concatenate([values[n:], -values[:n]])
+
+    step = 1e-5
+    second = (flow(x + step * flow(x)) - flow(x - step * flow(x)))[:n] / (2 * step) * h.rate**2
+    exact = exact_accelerations(s, x[:n], flow(x)[:n] * h.rate)
+    return float(np.abs(second - exact).max() / np.abs(exact).max())
+
+
+@pytest.mark.parametrize("order", [3, 4])
+@pytest.mark.parametrize("which", ["corner", "heavy"])
+def test_the_expanded_hamiltonian_moves_as_the_exact_structure_to_its_order(which, order):
+    s = Structure(**CORNER, spins=[30, 5, -20]) if which == "corner" else Structure(**HEAVY, spins=[20, -13, 31])
+    coarse, fine = gap(s, order, 0.04), gap(s, order, 0.02)
+    assert np.log2(coarse / fine) > order - 1.3
+    assert gap(s, order, 0.02, spins=1.01) > 10 * fine  # the twin: of other spins
+
+
+@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+def test_corner_and_square_fall_at_their_resonance(shape, spins):
+    found = at(1.0607, shape, spins).stands()
+    assert found and found.kind == "falls at a resonance" and "falls at a resonance of order 3" in found.why
+    assert found.resonance.rates == pytest.approx(small_rates(found.structure) * np.array([-1, -1, 1, 1]))
+    rate = local_hamiltonian(found.structure).rate
+    assert found.resonance.rates / rate == pytest.approx([-0.70703, -0.70703, 1.41437, 1.41437], abs=1e-5)
+    assert abs(found.resonance.detuning) / rate == pytest.approx(3.2e-4, rel=0.01)
+    low, high = found.window(0.01 * rate)
+    assert low < 1 < high and high - low < 0.02
+    assert found.fall_time(0.01 * rate) * rate == pytest.approx(100, rel=0.2)
+    assert found.fall_time(0.02 * rate) == pytest.approx(found.fall_time(0.01 * rate) / 2)
+
+
+def small_rates(s: Structure):
+    return np.sort(s.modes().rates)
+
+
+def test_equal_spins_on_the_same_corner_hold_at_the_same_factor():
+    """Two rates add up to a third there, too, but the coefficient vanishes."""
+    equal = at(1.0607, CORNER, [1, 1, 1])
+    found, rate = equal.stands(), local_hamiltonian(equal).rate
+    assert found.kind == "holds" and found.resonance.push() > 0.1 * rate
+    assert found.fall_time(0.02 * rate) == inf and found.fall_time(0.02 * rate * DIRECTION) == inf
+    assert exact_fall(equal, 0.08 * rate * next(directions(equal, 1)), 30 / rate, 1e-6)[0] == inf
+    other = at(1.0607, CORNER, [1, 0, 1])
+    assert exact_fall(other, 0.08 * rate * next(directions(other, 1)), 30 / rate, 1e-6)[0] < inf
+
+
+def test_the_corner_falls_from_any_push_in_a_time_as_one_over_it():
+    """The runs of the issue: start speeds of 0.02, 0.01, 0.005 along one direction, 75, 153, 306."""
+    s = at(1.0607, CORNER, [1, 0, 1])
+    found, rate = s.stands(), local_hamiltonian(s).rate
+    for speed, time in ((0.02, 75), (0.01, 153), (0.005, 306)):
+        along = found.fall_time(speed * rate * DIRECTION) * rate
+        assert along == pytest.approx(time, rel=0.02)
+        assert found.fall_time(speed * rate) * rate < along
+    exact, _ = exact_fall(s, 0.02 * rate * DIRECTION, 90 / rate)
+    assert exact * rate == pytest.approx(found.fall_time(0.02 * rate * DIRECTION) * rate, abs=3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+def test_the_law_in_many_directions(shape, spins):
+    """No exact run falls before the least time, each falls, and the normal form says when."""
+    s = at(1.0607, shape, spins)
+    found, rate = s.stands(), local_hamiltonian(s).rate
+    for push in directions(s, 8, seed=3):
+        for speed in (0.02, 0.01):
+            said = found.fall_time(speed * rate * push) * rate
+            exact = exact_fall(s, speed * rate * push, 400 / rate)[0] * rate
+            assert found.fall_time(speed * rate) * rate < exact < inf
+            assert exact == pytest.approx(said, abs=0.04 * said + 6)
+
+
+@pytest.mark.slow
+def test_of_fourth_order_it_falls_more_slowly():
+    """Three slow rates in a fast one: the time grows as one over the square of the push."""
+    s = at(1.0607, CORNER, [1, 0, 1])
+    (factor, resonance), rate = resonant_factors(s, (4,))[0], local_hamiltonian(s).rate
+    s = replace(s, spins=tuple(factor * w for w in s.spins))
+    push = next(directions(s, 1))
+    times = [exact_fall(s, p * rate * push, 4500 / rate)[0] * rate for p in (0.06, 0.03)]
+    assert resonance.least_time(0.03 * rate) == pytest.approx(4 * resonance.least_time(0.06 * rate))
+    assert resonance.least_time(0.06 * rate) * rate < times[0] and times[1] / times[0] == pytest.approx(4, rel=0.25)
+
+
+def test_beside_the_resonance_a_small_push_stays_and_a_large_one_falls():
+    """|δ| against 18 c ρ: outside the window of a push nothing falls, well inside it something does."""
+    s = at(1.0607, CORNER, [1, 0, 1])
+    rate = local_hamiltonian(s).rate
+    push = 0.02 * rate
+    low, high = s.stands().window(push)
+    assert low < 1 < high
+    for factor, falls in ((0.999 * low, False), (0.7 + 0.3 * high, True), (1.001 * high, False)):
+        beside = replace(s, spins=tuple(factor * w for w in s.spins))
+        ends = [exact_fall(beside, push * v, 130 / rate, 1e-7)[0] for v in directions(beside, 2)]
+        assert bool(min(ends) < inf) is falls
+        assert bool(beside.stands().fall_time(push) == inf) is not falls
+
+
+def test_spin_intervals_leave_out_the_windows_and_begin_at_the_critical_spins():
+    s = at(1.0607, CORNER, [1, 0, 1])
+    rate = local_hamiltonian(s).rate
+    narrow, wide = s.spin_intervals(0.005 * rate), s.stands().window(0.02 * rate)
+    assert narrow[0][0] == pytest.approx(s.critical_spin()) and narrow[-1][1] == inf
+    assert len(narrow) == 3 and not any(low < 1 < high for low, high in narrow)
+    assert wide[0] < narrow[0][1] < 1 < narrow[1][0] < wide[1]
+    # The second window is that of 1 : 3, at the factor where three slow rates are a fast one.
+    rates = small_rates(replace(s, spins=tuple(np.mean([narrow[1][1], narrow[2][0]]) * w for w in s.spins)))
+    assert rates[-1] / rates[0] == pytest.approx(3, abs=1e-3)
+    assert Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, 10], **WEIGHT).spin_intervals(0.1) == ()
+    with pytest.raises(InputError, match="above zero"):
+        s.spin_intervals(0)
+
+
+def test_what_lies_behind_the_largest_push():
+    s = at(1.07, CORNER, [1, 0, 1])
+    found, rate = s.largest_push(), local_hamiltonian(s).rate
+    assert "order 3" in found.behind and float(found) == found.value == found.resonance.push()
+    assert 0.001 < found.value / rate < 0.03
+    assert at(0.95, CORNER, [1, 0, 1]).largest_push().value == 0
+    top = Structure(joints=[(0, 0)], spins=60, **WEIGHT).largest_push()
+    assert "no resonance" in top.behind and top.value > 0
+
+
+@pytest.mark.slow
+def test_no_exact_run_falls_from_the_largest_push():
+    """Structures and spins drawn at random, four directions each."""
+    rng = np.random.default_rng(11)
+    tried = 0
+    while tried < 12:
+        shape = [CORNER, SQUARE, {"joints": [(0, 0), (1, 0.3)], **WEIGHT}][rng.integers(3)]
+        more = {
+            "load": rng.uniform(0, 3, len(shape["joints"])).tolist(),
+            "link": Link(1, rng.uniform(0, 0.5), rng.uniform(0, 0.1)),
+        }
+        s = Structure(**shape | more, spins=(30 * rng.normal(size=len(shape["joints"]))).tolist())
+        if not 0 < s.critical_spin() < 1e3:
+            continue
+        tried += 1
+        s = replace(s, spins=tuple(rng.uniform(1.02, 1.6) * s.critical_spin() * w for w in s.spins))
+        push, rate = s.largest_push().value, local_hamiltonian(s).rate
+        for v in directions(s, 4, seed=tried):
+            assert exact_fall(s, push * v, 200 / rate, 1e-7)[0] == inf
+
+
+def test_kinds_of_what_stands_and_what_does_not():
+    assert Structure(**CORNER, spins=1).stands().kind == "never"
+    assert Structure(**CORNER, spins=1).stands().fall_time(0.1) == 0
+    hanging = Structure(**CORNER | {"hinge": 60.0}, spins=20).stands()
+    assert hanging.kind == "holds" and hanging.fall_time(0.1) == inf and "stays bounded" in hanging.why
+    assert Structure(joints=[(0, 0)], spins=[10]).stands().kind == "to first order"
+    many = [(k, j) for k in range(3) for j in range(2)]
+    assert Structure(joints=many, spins=60, **WEIGHT).stands().kind == "to first order"
+    assert "holds" in repr(example("corner").stands())
+
+
+def test_what_cannot_be_said_is_refused():
+    s = at(1.0607, CORNER, [1, 0, 1])
+    with pytest.raises(InputError, match="friction"):
+        local_hamiltonian(replace(s, friction=0.1))
+    with pytest.raises(InputError, match="a mode grows"):
+        Structure(**CORNER, spins=1).resonances()
+    with pytest.raises(InputError, match="at most"):
+        Structure(joints=[(k, j) for k in range(3) for j in range(2)], spins=60, **WEIGHT).resonances()
+    with pytest.raises(InputError, match=r"push must be"):
+        s.stands().fall_time([1.0, 2.0])
