@@ -106,9 +106,11 @@ class Standing(Shown):
             return 0.0
         if self.resonance is None:
             return inf
-        if np.ndim(push) == 0:
-            return self.resonance.least_time(float(push)) if float(push) > self.resonance.push() else inf  # type: ignore[arg-type]
         size = float(np.linalg.norm(np.asarray(push, dtype=float)))
+        if size <= self.resonance.push():
+            return inf
+        if np.ndim(push) == 0:
+            return self.resonance.least_time(size)
         reach = max(abs(np.dot(k, self.resonance.rates)) for k in self.resonance.vectors)
         return fall_time_along(self.structure, push, 20 * self.resonance.least_time(size), 1.001 * reach)
 
