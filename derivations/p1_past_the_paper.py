@@ -1,10 +1,10 @@
 # %% [markdown]
 # # What the paper has, what holds
 #
-# **Objective.** One row for each of the ten subjects of the theory past the paper: what the paper has, what holds and to
+# **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t10, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t10 and n6, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -25,7 +25,10 @@ t7 = PAPER.scripts.run("derivations", "t7_duration")
 t8 = PAPER.scripts.run("derivations", "t8_toppling")
 t9 = PAPER.scripts.run("derivations", "t9_twist")
 t10 = PAPER.scripts.run("derivations", "t10_conserved")
-Omega_0, energy, wander, growth, power = (sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda"))
+n6 = PAPER.scripts.run("derivations", "n6_resonances")
+Omega_0, energy, wander, growth, power, reached = (
+    sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho")
+)
 
 
 def equal(left: sp.Basic, right: sp.Basic) -> sp.Eq:
@@ -136,6 +139,18 @@ rows = (
         ("E, G_1, G_2 and P, and along the paired precession no other; B holds, A does not",),
         f"drift over 3 s at most {max(t10['drift'].values()):.1e}; A swings as r_0 to the {t10['order']:.2f}",
         FigureLink("t10"),
+    ),
+    (
+        "what spins hold",
+        "none",
+        (
+            "stands to first order, and falls from any push where two slow precessions add up to a fast one; the largest push "
+            "that stays, c the coefficient of third order:",
+            equal(reached, n6["edge"]),
+        ),
+        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: times as the push to the "
+        f"{n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
+        FigureLink("n6"),
     ),
 )
 

@@ -316,6 +316,11 @@ PAST = [
     *[("n5", f"in the middle of the gap the waves are at a border: {name}", lambda d, name=name: (np.abs(
         d[f"{name}_place"] - 0.5)[np.abs(d[f"{name}_rates"] - d[f"{name}_gap"].mean()) < 0.04] > 0.3).all(),
        (f"{name}_place", wider(0.5))) for name in ("springs", "bars")],
+    ("n6", "outside its window no push fell, in the inner third each did", lambda d: d["falls outside the window"] == 0
+     and d["runs outside the window"] >= 4 and d["stays in its inner third"] == 0,
+     ("ends", lambda ends: np.where(np.isfinite(ends), np.inf, 1))),
+    ("n6", "times fall as one over the push, above the least", lambda d: abs(d["slope of the times"] + 1) < 0.1
+     and d["exact over least, smallest"] > 1 and d["largest distance from the normal form"] < 6, ("exact", swapped)),
 ]  # fmt: skip
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
@@ -338,7 +343,7 @@ PLOTS = {  # key → panels, entries of the legend
     **{"23": (2, 5), "24": (3, 3), "25": (5, 4), "26": (3, 2), "27": (5, 4), "28": (4, 4)},
     **{"t1": (2, 6), "t2": (3, 6), "t3": (2, 12), "t4": (3, 4), "t5": (2, 9)},
     **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12), "b2": (4, 8)},
-    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3)},
+    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3), "n6": (2, 6)},
 }
 # Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
 # and n4 claim is held by a few orbits and runs in theory/test_paired_series and structures/test_damped.

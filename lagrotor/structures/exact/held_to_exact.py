@@ -1,11 +1,16 @@
-"""The linear results compared with the exact motion: the growth of a falling one, the distance of a bounded one."""
+"""What is said of the motion about upright compared with the exact one: growth, boundedness, the time of a fall."""
+
+from math import inf
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact.exact_motion import exact_motion
 from lagrotor.structures.exact.simulating import simulate_structure
+from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
@@ -53,6 +58,31 @@ def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: i
     n = linear.freedoms
     size = np.abs(exact[:n, 0]).max()
     return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
+
+
+def measured_fall(
+    s: Assembly, rates: ArrayLike, longest: float, tilt: float = 0.95, tol: float = 1e-9
+) -> tuple[float, float]:
+    """(time, s, at which an axis of the exact motion first tilts by the sine `tilt`, inf where none does; the largest tilt).
+
+    From upright with the axes' rates (N, 2), rad/s, for at most the `longest` time; tol: of each step, relative.
+    """
+    from scipy.integrate import solve_ivp
+
+    motion, N = exact_motion(s), len(s.joints)
+    rhs, rate = right_hand_side(motion), motion.c.rate
+    upright = motion.c.upright
+    start = motion.project(np.concatenate([upright, np.column_stack([rates, np.zeros(N)]) / rate]).ravel())
+
+    def tilts(states: Array) -> Array:
+        return np.asarray(np.hypot(*motion.axes_and_rates(states)[0][..., :2].swapaxes(0, 2)).max(0))
+
+    def fallen(_: float, y: Array) -> float:
+        return float(tilts(y)[0]) - tilt
+
+    fallen.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(rhs, (0, longest * rate), start, events=fallen, rtol=tol, atol=1e-3 * tol, method="DOP853")
+    return (float(run.t[-1]) / rate if run.status == 1 else inf), float(tilts(run.y.T).max())
 
 
 def _freedoms(linear: SmallMotion, axes: Array, rates: Array) -> Array:
