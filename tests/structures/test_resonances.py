@@ -135,7 +135,7 @@ def test_the_corner_falls_from_any_push_in_a_time_as_one_over_it():
         along = found.fall_time(speed * rate * DIRECTION) * rate
         assert along == pytest.approx(time, rel=0.02)
         assert found.fall_time(speed * rate) * rate < along
-    exact, _ = measured_fall(s, 0.02 * rate * DIRECTION, 90 / rate)
+    exact, _ = measured_fall(s, 0.02 * rate * DIRECTION, 90 / rate, tilt=0.7)
     assert exact * rate == pytest.approx(found.fall_time(0.02 * rate * DIRECTION) * rate, abs=3)
 
 
