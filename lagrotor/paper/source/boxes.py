@@ -75,7 +75,7 @@ _DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", 
 _OPERATORS = {
     "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "cdot": "cdot", "times": "times", "pm": "pm", "mp": "mp", "div": "/",
     "ast": "*",
-    "bullet": "cdot", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
+    "bullet": "bullet", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
     "×": "times",
     "odot": "odot", "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
 }  # fmt: skip
@@ -101,7 +101,7 @@ class FormulaError(Exception):
         self.at, self.what, self.help = at, what, help_
 
 
-@dataclass
+@dataclass(slots=True)
 class Box:
     """One thing as it is printed, from `at` to `end` in the LaTeX.
 

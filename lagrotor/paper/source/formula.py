@@ -34,6 +34,8 @@ def _lowered(row: list[Box]) -> Iterator[str]:
         held = [*(box.sub or []), *(box.sup or [])]
         if box.kind == "bracket" and {box.name, box.closing} & {"|", r"\langle", r"\rangle", "<", ">"}:
             held += box.parts[0]
+        if box.kind == "binomial":
+            held += [each for part in box.parts for each in part]
         yield from (each.name for each in held if each.kind == "letter")
 
 

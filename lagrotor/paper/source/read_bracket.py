@@ -9,7 +9,7 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_advection
 from lagrotor.paper.source.read_scripts import index_parts, power_of
 from lagrotor.paper.source.read_statements import read_statement
-from lagrotor.paper.source.rows import all_boxes, strip, without_thin
+from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import arguments
 
@@ -20,7 +20,14 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     content = without_thin(box.parts[0])
     if pair == ("(", ")") and len(content) > 2 and content[-1].kind == "nabla" and content[-2].name == "cdot":
         return read_advection(reader, row, place)
-    if pair == ("(", ")") and box.sub and box.sup is None and len(content) == 1 and content[0].kind == "fraction":
+    if (
+        pair == ("(", ")")
+        and box.sub
+        and box.sup is None
+        and len(content) == 1
+        and content[0].kind == "fraction"
+        and derivative_mark(content[0])
+    ):
         held = [reader.expression(part) for part in arguments(box.sub)]  # (∂S/∂E)_{N,V}
         return Call("at_constant", (reader.expression(content), *held)), place + 1
     if pair == (".", "|") or (pair == ("[", "]") and box.sub and box.sup):
@@ -197,8 +204,8 @@ def read_accent(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         return power_of(reader, Call("rate", (inner,)), box), place + 1
     if box.name == "ddot":
         return power_of(reader, Call("rate", (Call("rate", (inner,)),)), box), place + 1
-    if box.name == "bar":
-        return power_of(reader, Call("mean", (inner,)), box), place + 1
+    if box.name == "bar":  # a mean, a conjugate
+        return power_of(reader, Call("bar", (inner,)), box), place + 1
     if box.name == "vec" and isinstance(inner, Call) and all(isinstance(a, Letter) for a in inner.args):
         names = "".join(a.name for a in inner.args if isinstance(a, Letter))
         return Letter(f"{names}vec", True), place + 1

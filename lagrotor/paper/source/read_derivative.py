@@ -141,7 +141,7 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
     if rest[0].kind == "bracket":
         reader.guesses.append("a derivative acts on the bracket that follows it, not on what is behind")
         return node, len(row) - len(rest) + behind
-    if any(b.kind == "fraction" and derivative_mark(b) for b in rest):
+    if any(b.kind == "fraction" and derivative_mark(b) for b in rest) or any(b.kind == "partial" for b in rest[1:]):
         raise FormulaError(
             box.at, "how far the derivative reaches is open", "write brackets around what is differentiated"
         )

@@ -302,7 +302,7 @@ def _numbers_apart(row: list[Box], place: int) -> None:
         return
     if box.kind == "number" and before.kind == "number":
         raise FormulaError(box.at, "two numbers stand side by side", "write \\cdot between them")
-    if box.kind == "bracket" and before.kind in ("root", "group", "bracket", "accent") and _is_argument(box):
+    if box.kind == "bracket" and before.kind in ("root", "group", "accent") and _is_argument(box):
         why = "whether what stands before the bracket is a function is open"
         raise FormulaError(box.at, why, "write the argument behind its letter, or \\cdot")
     if box.kind == "number" and before.kind in ("letter", "root", "group"):

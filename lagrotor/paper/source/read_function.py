@@ -23,6 +23,9 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     node = _applied(reader, name, box, inner)
     if box.sup is None:
         return node, behind
+    if box.name not in FUNCTIONS:
+        why = f"whether {box.name} has an upper index or a power is open"
+        raise FormulaError(box.at, why, "write brackets around what is raised")
     power = reader.expression(box.sup)
     if power == Call("negative", (number(1),)):
         inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}

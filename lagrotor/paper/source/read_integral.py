@@ -7,6 +7,7 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import is_differential, read_differential
 from lagrotor.paper.source.rows import derivative_mark, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
+from lagrotor.paper.source.usage import simple_argument
 
 
 def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -27,6 +28,9 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         else:
             inner, differential = _taken_out(reader.expression(rest[:end]), box)
             behind, further = place + 1 + end, []
+            if behind < len(row) and row[behind].kind == "bracket" and simple_argument(row[behind].parts[0]):
+                why = "whether the bracket belongs to the differential is open"  # d\nu(x)
+                raise FormulaError(row[behind].at, why, "write the differential last, or \\cdot")
     finally:
         reader.integrating -= 1
     assert isinstance(differential, Call)

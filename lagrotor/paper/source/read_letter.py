@@ -42,6 +42,7 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             if "delta" in reader.notation.bare:
                 raise FormulaError(box.at, "whether delta is Dirac's function or a power is open", "write \\cdot")
             return Call(f"delta__{power}", (inner,)), place + 2
+    _check_scripts(reader, row, place)
     if _may_call(row, place):
         called = is_called(reader, box, row[place + 1])
         if called is None:
@@ -72,6 +73,18 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             )
     node, raised = letter_of(reader, box)
     return (node if raised else power_of(reader, node, box)), place + 1
+
+
+def _check_scripts(reader: FormulaReader, row: list[Box], place: int) -> None:
+    """Raise FormulaError where an index above a function, or one of a difference, may be meant."""
+    box = row[place]
+    above = box.sup[0].name if box.sup and [each.kind for each in box.sup] == ["letter"] else ""
+    if above and box.sub and _may_call(row, place) and mark_of(reader, box) is None:  # P_l^m(x)
+        why = f"whether {above} is an upper index or a power is open"
+        raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
+    along = box.name == "delta" and box.sub is not None and len(box.sub) == 1 and box.sub[0].name in "xyzt"
+    if along and place + 1 < len(row) and row[place + 1].kind in ("letter", "bracket"):
+        raise FormulaError(box.at, "whether delta is a factor or acts on what follows is open", "write \\cdot")
 
 
 def _dimension(row: list[Box], of_vector: bool) -> str | None:

@@ -75,6 +75,9 @@ def _check_power(reader: FormulaReader, box: Box) -> None:
             )
         if set(alike) - set("lmn") or set(alike) & known.lowered:
             reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
+    if len(row) == 1 and row[0].kind == "letter" and row[0].sup and mark_of(reader, row[0]) is not None:
+        why = f"whether the marked {row[0].name} is an upper index or a power is open"
+        raise FormulaError(row[0].at, why, "write brackets around the power")
     names = [b.name for b in row if _is_plain(b)]
     if len(names) == len(row) > 1 and (len(set(names)) < len(names) or set(names) <= set("xyz")):
         why = f"whether {' '.join(names)} are upper indices or a power is open"

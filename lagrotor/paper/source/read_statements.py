@@ -228,7 +228,8 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             sides[-1].append(box)
     if len(sides) > 1 and not strip(sides[0]):
         raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
-    _refuse_open_sums(sides)
+    if reader.lowered & _SUMMED:
+        _refuse_open_sums(sides)
     read: list[Side] = []
     for place, side in enumerate(sides):
         side = strip(side)
@@ -292,7 +293,7 @@ def _is_list(node: Node) -> bool:
 def _side(reader: FormulaReader, row: list[Box]) -> Node:
     if len(row) == 1 and row[0].kind == "text":
         name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
-        if not re.match(r"[A-Za-z]\w*$", name):
+        if not re.match(r"[A-Za-z]\w*$", name) or _DENYING.search(row[0].name):
             raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
         return Letter(name)
     return reader.expression(row)

@@ -75,7 +75,7 @@ def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> 
     rates = 0
     while marks and marks[-1].endswith("dot"):
         rates += len(marks.pop()) - len("ot")
-    stem = {"lambda": "lamda"}.get(box.name, box.name) + box.style + "vec" * ("vec" in box.marks) + "".join(marks)
+    stem = {"lambda": "lamda"}.get(box.name, box.name) + box.style + "vec" * box.marks.count("vec") + "".join(marks)
     stem += "prime" * box.primes
     name = stem + "".join(f"__{part}" for part in raised) + "".join(f"_{part}" for part in index)
     name += f"_{'d' * rates}ot" if rates else ""
@@ -120,6 +120,8 @@ def _index(part: Box) -> list[str] | None:
     if part.kind == "number":
         return [part.name.replace(".", "p")] if "," not in part.name else None
     if part.kind == "text":
+        if "\\" in part.name:
+            return None
         name = "".join(c for c in part.name if c.isalnum())
         return [name] if name and len(name) <= 24 else None
     if part.kind == "infinity":
