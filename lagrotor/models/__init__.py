@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.periodic_orbit import parting as parting
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
+    from lagrotor.models.orbits.upright_orbit import UprightOrbit as UprightOrbit
+    from lagrotor.models.orbits.upright_orbit import upright_orbit as upright_orbit
     from lagrotor.models.spring_link.paper_bodies import join_bar as join_bar
     from lagrotor.models.spring_link.paper_bodies import paper_bodies as paper_bodies
     from lagrotor.models.spring_link.paper_bodies import paper_system as paper_system

@@ -12,16 +12,10 @@ _SHOCKED = (
     "largest "
 )
 
-FREQUENCY_SHIFT = Calibrated(
-    0.5,
-    "(1 + 1/k²) r²: relative shift of the natural rate by a swing of amplitude r; r² for parallel axes is exact",
-    "150 pairs with 0.5 < k < 2, any two spins, 0.01 < r < 0.2, 20 swings; largest 0.8 of it",
-    _RATE + "test_natural_rate",
-)
 LARGEST_SWING = Calibrated(
     0.4,
     "amplitude beyond which the errors below are not estimated",
-    "the same pairs; beyond it runs over 24 swings topple over",
+    "150 pairs with 0.5 < k < 2, any two spins, 20 swings; beyond it runs over 24 swings topple over",
     _RATE + "test_an_amplitude_out_of_range_is_refused",
 )
 FOURTH_ORDER = Calibrated(

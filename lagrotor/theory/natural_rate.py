@@ -6,7 +6,10 @@ from math import hypot, sqrt
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.theory.calibrated_factors import FREQUENCY_SHIFT, LARGEST_SWING
+from lagrotor.theory.calibrated_factors import LARGEST_SWING
+from lagrotor.theory.rate_shift import frequency_shift, opposite_share
+
+FARTHEST_SHIFT = 0.15  # relative shift of the rate, all its terms positive, beyond which the next order is not small
 
 
 @generated(((),))
@@ -52,9 +55,13 @@ def natural_rate(scene: Scene) -> float:
 def natural_rate_error(scene: Scene, amplitude: float) -> float:
     """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
 
-    Of second order in r: 1/2 (1 + 1/k²) r² Omega_0 with a bar (the factor is empirical, `theory.calibrated_factors`); one rotor
-    alone precesses at Omega_0 / cos theta exactly. The swing of opposite spins that turns about the joint line at nu is
-    shifted by −(a + b) nu/(k G) of Omega_0 besides. Raises DomainError unless 0 <= r <= 0.4.
+    With c and share of `theory.rate_shift`, c the shift of the orbit about upright and d = share² sigma/(2 k²) what a swing adds
+    that begins in another phase and so turns about the joint line, and with C what c becomes with all its terms positive,
+
+        Omega_0 ( (|c| + d) r²/(1 − r²) + (C r²)² ).
+
+    One rotor alone precesses at Omega_0 / cos theta exactly. A swing of opposite spins that is made to turn at nu besides is
+    shifted by −(a + b) nu/(k G) of Omega_0 more. Raises DomainError unless 0 <= r <= 0.4 and C r² <= 0.15.
     """
     rate = natural_rate(scene)
     if not 0 <= amplitude <= LARGEST_SWING.value:
@@ -64,8 +71,17 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
         )
     if scene.link is None:
         return rate * (1 / sqrt(1 - amplitude**2) - 1)
-    ratio = scene.link.length / scene.rotor.length
-    return FREQUENCY_SHIFT.value * (1 + 1 / ratio**2) * amplitude**2 * rate
+    if not rate:
+        return 0.0
+    k, sigma, share, square = scene.k, scene.sigma, opposite_share(scene), amplitude**2
+    in_all = 0.5 + 0.75 * share * (abs(sigma - 1) + share * sigma / k**2) + share**2 * abs(sigma**2 - 1) / 4
+    if not in_all * square <= FARTHEST_SHIFT:
+        raise DomainError(
+            f"natural_rate_error: amplitude = {amplitude:g} is too large for this bar: at most "
+            f"{sqrt(FARTHEST_SHIFT / in_all):.2g}; use lagrotor.simulate, or precession_orbit for opposite spins"
+        )
+    turning = share**2 * sigma / (2 * k * k)
+    return rate * ((abs(frequency_shift(scene)) + turning) * square / (1 - square) + (in_all * square) ** 2)
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]
 # Stem → the least number of steps.
 STEPWISE = dict.fromkeys(STEMS, 8) | {"t4_orbit_family": 3, "t7_duration": 5, "t10_conserved": 5}
-# Exact orbits by the hundred, or long runs, after the last step: test_paired_stability and test_slow_motion hold their laws to a
-# few.
-LONG = ("t5_floquet", "t11_slow_motion")
+# Exact orbits by the hundred, long runs or long algebra: tests beside this one hold their
+# laws to a few.
+LONG = ("t5_floquet", "t11_slow_motion", "t12_unequal_spins")
 SCRIPTS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem for stem in STEMS]
 
 
@@ -61,6 +61,12 @@ MUTANTS = [
     ("t11_slow_motion", "return -sum((spin * r.dot", "return sum((spin * r.dot"),
     ("t11_slow_motion", "sp.Rational(3, 8) * SWING**4) / c - kappa", "sp.Rational(1, 8) * SWING**4) / c - kappa"),
     ("t11_slow_motion", "    1 + 2 / att**2 + sp.sqrt", "    1 + 1 / att**2 + sp.sqrt"),
+    ("t12_unequal_spins", "law -= share**2", "law += share**2"),
+    (
+        "t12_unequal_spins",
+        "apart**3 * sigma**2 * (sigma - 5) / (16 * k)",
+        "apart**3 * sigma**2 * (sigma - 5) / (8 * k)",
+    ),
     ("t8_toppling", "e = b * nu**2 - G * nu / k", "e = b * nu**2 + G * nu / k"),
     ("t8_toppling", "(-(G_1 + G_2) * nu, 0, 0)", "(0, 0, 0)"),
     ("t9_twist", "2 * mu_1 * mu_3 - mu_1**2 / 2", "2 * mu_1 * mu_3"),

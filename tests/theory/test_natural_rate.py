@@ -1,14 +1,17 @@
 """The natural rate: known values, the exact model, one rotor, and its error on random pairs."""
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, simulate
-from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.numerics import peak, spectrum
-from lagrotor.theory import natural_rate_error
+from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_frequency, simulate, sweep
+from lagrotor.errors import DomainError, InputError, LagrotorError, LagrotorWarning
+from lagrotor.models import exact_orbit, upright_orbit
+from lagrotor.numerics import measured_order, peak, spectrum
+from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error
 from tests.theory.random_pairs import COUNTS, held, random_pair, swinging
 
 
@@ -45,22 +48,93 @@ def test_the_natural_rate_is_the_exact_model_s(w1: float, w2: float, I1: float, 
     assert x_rate[2] != pytest.approx(x_rate[0], rel=1e-2)
 
 
-@pytest.mark.parametrize("count", COUNTS)
+def any_pair(rng):
+    """A bar from 0.15 to 4 axes long, massless or up to 50 kg, any inertia that a bar can have or none; any two spins, equal,
+    opposite or nearly so, of natural rate 1: one sweep then runs them all."""
+    one, length = random_pair(rng), np.exp(rng.uniform(np.log(0.15), np.log(4)))
+    mass = rng.choice([0, 1]) * np.exp(rng.uniform(np.log(0.01), np.log(50)))
+    length *= one.rotor.length
+    link = Link(length, mass, mass * length**2 * rng.choice([0.0, rng.uniform(0, 1)]))
+    spin, near = rng.choice([-1, 1]), 1 + 0.03 * rng.normal()
+    spins = (spin, rng.choice([-spin, spin, rng.uniform(-1, 1), -spin * near, spin * near]))
+    scale = natural_rate(Scene(spins, one.rotor, link))
+    return Scene((spins[0] / scale, spins[1] / scale), one.rotor, link)
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_natural_rate(count):
-    rng, pairs, refused = np.random.default_rng(1), [], 0
-    while len(pairs) + refused < count:
-        scene, amplitude = random_pair(rng), 10 ** rng.uniform(-2, np.log10(0.2))
-        natural = natural_rate(scene)
-        try:
-            times = np.linspace(0, 20 * 2 * np.pi / natural, 1201)
-            run = simulate(swinging(rng, scene, amplitude), times, "minimal", 1e-10)
-        except LagrotorError:
-            refused += 1  # the bar does not reach, or the pair topples over
-            continue
-        seen = peak(*spectrum(times * natural, run.rates[:, :, 0].mean(0))) * natural
+    """Swings on the linear mode in any phase, over 20 turns. Of amplitudes beyond the range, refused ones are drawn again."""
+    rng, turns, held_so_far = np.random.default_rng(1), 20, 0
+    times = np.linspace(0, turns * 2 * np.pi, 60 * turns + 1)
+    while held_so_far < count:
+        scenes, errors = [], []
+        while len(scenes) < min(500, count - held_so_far):
+            scene, amplitude = any_pair(rng), 10 ** rng.uniform(-2.2, np.log10(0.3))
+            try:
+                errors.append(natural_rate_error(scene, amplitude))
+            except DomainError:
+                continue
+            try:
+                scenes.append(swinging(rng, scene, amplitude))
+            except LagrotorError:
+                errors.pop()  # the bar does not reach
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LagrotorWarning)
+            runs = sweep(scenes, times, 1e-8)
+        seen = [peak(*spectrum(times, rates[:, :, 0].mean(0))) for rates in runs.rates]
         # The spectrum's own error is about 1e-5 of the rate.
-        pairs.append((abs(seen - natural), natural_rate_error(scene, amplitude) + 1e-5 * natural))
-    held(pairs, refused, count, 0.1)
+        held([(abs(one - 1), error + 1e-5) for one, error in zip(seen, errors, strict=True)], 0, len(scenes), 0)
+        held_so_far += len(scenes)
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(2_000, marks=pytest.mark.slow)])
+def test_the_rate_of_an_orbit_about_upright(count):
+    rng, pairs, refused = np.random.default_rng(3), [], 0
+    while len(pairs) < count:
+        scene, amplitude = any_pair(rng), 10 ** rng.uniform(-2, np.log10(0.4))
+        try:
+            error = natural_rate_error(scene, amplitude)
+            if scene.spins[0] == scene.spins[1]:
+                rate = 1 / np.sqrt(1 - amplitude**2)
+            elif scene.spins[0] == -scene.spins[1]:
+                rate = abs(exact_orbit(scene, amplitude).frequency)
+            else:
+                rate = upright_orbit(scene, amplitude).frequency
+        except DomainError:
+            refused += 1
+            continue
+        pairs.append((abs(rate - 1), error + 1e-9))
+    held(pairs, refused, 4 * count, 1)
+
+
+AMPLITUDES = (0.05, 0.07, 0.1)
+
+
+@pytest.mark.parametrize(("spins", "link"), [((9, 2), Link(1.2, 0.3, 0.01)), ((-8, 3), Link(0.6, 0.2, 0.04))])
+def test_the_shift_and_the_drift_of_unequal_spins(spins, link):
+    scene = Scene(spins, link=link)
+    natural = natural_rate(scene)
+    orbits = [upright_orbit(scene, r0) for r0 in AMPLITUDES]
+    for change, least, most in ((0.0, 1.9, 2.1), (0.05, -1, 1)):
+        shift = [
+            abs((orbit.frequency / natural - 1) / r0**2 - frequency_shift(scene) - change)
+            for orbit, r0 in zip(orbits, AMPLITUDES, strict=True)
+        ]
+        assert least < measured_order(AMPLITUDES, shift) < most
+    drift = [
+        abs(orbit.turning / r0**4 / azimuth_drift(scene) - 1) for orbit, r0 in zip(orbits, AMPLITUDES, strict=True)
+    ]
+    assert measured_order(AMPLITUDES, drift) == pytest.approx(2, abs=0.15)
+
+
+def test_the_shift_joins_equal_and_opposite_spins():
+    assert frequency_shift(Scene((7, 7), link=Link(1, 2, 0.1))) == 0.5
+    assert azimuth_drift(Scene((7, 7), link=Link(1, 2, 0.1))) == azimuth_drift(Scene((7, -7))) == 0
+    scene = Scene((7, -7), link=Link(1.3, 0.4, 0.01))
+    series = float(paired_frequency(3)(1e-3, scene.sigma, scene.k)) - 1
+    assert frequency_shift(scene) == pytest.approx(1e6 * series, rel=1e-6)
+    with pytest.raises(InputError, match="needs a bar"):
+        frequency_shift(Scene((7, 3), link=None))
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -75,5 +149,7 @@ def test_natural_rate_of_one_rotor(count):
 
 
 def test_an_amplitude_out_of_range_is_refused():
+    with pytest.raises(DomainError, match=r"too large for this bar: at most 0\.0"):
+        natural_rate_error(Scene((10, -10), link=Link(0.2)), 0.2)
     with pytest.raises(DomainError, match=r"must lie between 0 and 0\.4"):
         natural_rate_error(Scene((10, -10)), 0.5)
