@@ -29,7 +29,7 @@ def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
     """The coordinates and expressions of a `System`, by name.
 
     Raises InputError for what is none of these, for coordinates that are no functions of time, and for a KanesMethod without its
-    bodies, or with another number of speeds than of coordinates.
+    bodies, or whose speeds are not given by its equations.
     """
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
@@ -108,15 +108,11 @@ def _of_speeds(
 
     clock = dynamicsymbols._t
     c, functions = _coordinates(list(q), clock)
-    if len(u) != len(q) or len(kinematic) != len(q):
-        raise InputError(
-            f"from_sympy: {len(u)} speeds and {len(kinematic)} kinematic equations for {len(q)} coordinates: "
-            "as many of each are taken"
-        )
+    if len(kinematic) != len(q):
+        raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
     still = dict.fromkeys(auxiliary, 0)
-    equations = sp.Matrix([*kinematic]).xreplace(still)
-    K = equations.jacobian(list(u))
-    speeds = -K.LUsolve(equations.xreplace(dict.fromkeys(u, 0)))
+    equations = sp.Matrix([*kinematic, *velocity]).xreplace(still)
+    speeds, left = _solved(equations, list(u), functions, clock)
     put = dict(zip(u, speeds, strict=True)) | still
     put |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
         s.diff(clock): 0 for s in auxiliary
@@ -125,7 +121,7 @@ def _of_speeds(
     def plain(e: Any) -> sp.Expr:
         return _plain(sp.sympify(e).xreplace(put), functions, c, clock)
 
-    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(equations))
+    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(equations[: len(q), :]))
     loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
     method.kanes_equations(list(bodies), loads or None)
     energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
@@ -144,9 +140,38 @@ def _of_speeds(
         "c": c,
         "lagrangian": L,
         "constraints": constraints,
-        "rolling": _independent(constraints, [plain(e) for e in velocity], c),
+        "rolling": _independent(constraints, [plain(e) for e in left], c),
         "forces": tuple(forces) if any(forces) else (),
     }
+
+
+def _solved(
+    equations: sp.Matrix, u: list[Any], functions: Sequence[Any], clock: sp.Symbol
+) -> tuple[sp.Matrix, list[sp.Expr]]:
+    """The speeds u in q, q' and t, from the first equations that give them, and the equations that are left to hold.
+
+    Where there are fewer speeds than coordinates, as with a quaternion, some kinematic equations are left; where there are more,
+    the constraints on velocities give them.
+    """
+    from lagrotor.algebra.evidence import points
+
+    K = equations.jacobian(u)
+    letters = {f: sp.Dummy(real=True) for f in functions} | {clock: sp.Dummy(real=True)}
+    seen = K.xreplace(letters)
+    point = next(iter(points(seen.free_symbols)))
+    chosen: list[int] = []
+    for i in range(K.rows):
+        if len(chosen) < len(u) and _rank(seen[[*chosen, i], :].subs(point)) > len(chosen):
+            chosen.append(i)
+    if len(chosen) < len(u):
+        raise InputError("from_sympy: the kinematic equations and the constraints do not give every speed by q'")
+    rest = equations.xreplace(dict.fromkeys(u, 0))
+    speeds = -K[chosen, :].LUsolve(rest[chosen, :])
+    return speeds, [equations[i] for i in range(K.rows) if i not in chosen]
+
+
+def _rank(matrix: sp.Matrix) -> int:
+    return int(matrix.evalf(30).rank(iszerofunc=lambda x: abs(x) < 1e-15)) if matrix.rows else 0
 
 
 def _vanishes(e: sp.Expr) -> bool:
@@ -162,12 +187,9 @@ def _independent(constraints: Sequence[sp.Expr], velocity: Sequence[sp.Expr], c:
     letters = set().union(*(e.free_symbols for e in (*held, *velocity))) - {*c.v}
     point = next(iter(points(letters)))
 
-    def rank(matrix: sp.Matrix) -> int:
-        return int(matrix.subs(point).evalf(30).rank(iszerofunc=lambda x: abs(x) < 1e-15)) if matrix.rows else 0
-
     for e in velocity:
         more = rows.col_join(jacobian([e], c.v))
-        if rank(more) > rank(rows):
+        if _rank(more.subs(point)) > _rank(rows.subs(point)):
             rows, rolling = more, [*rolling, e]
     return tuple(rolling)
 
