@@ -43,7 +43,7 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## The bar in one equation
 #
-# Let $r_1=n\cos h-q\sin h$ and $r_2=n\cos h+q\sin h$ with $q$ a unit vector at right angles to the mean axis $n$. The bar asks
+# Let $r_1=n\cos h-q\sin h$ and $r_2=n\cos h+q\sin h$ with $q$ a unit vector at right angles to the mean axis $n$. The bar needs
 # $k(x_2-x_1)+1-r_1\cdot r_2=2\sin h\,(k\,q_x+\sin h)=0$, that is $q_x=-\sin h/k$: for any $k$, and at any lean, the bar only
 # fixes the inclination of $q$. With the directions across and along the lean,
 

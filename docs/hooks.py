@@ -113,7 +113,9 @@ def reference() -> dict[str, str]:
         names = names_of_face(package / part / "__init__.py")
         entries = [f"::: {module}.{public}" for public, module in sorted(names.items()) if defines(module, public)]
         how = f"`from {name} import {min(names)}` and likewise:" if names else ""
-        pages[f"reference/{part or 'lagrotor'}.md"] = "\n\n".join([f"# {name}", how, *entries]) + "\n"
+        # A name that is searched for is found here before the pages that only mention it.
+        head = f"---\nsearch:\n  boost: 4\n---\n\n# {name}"
+        pages[f"reference/{part or 'lagrotor'}.md"] = "\n\n".join([head, how, *entries]) + "\n"
     return pages
 
 

@@ -210,9 +210,20 @@ def _listed(roots: Roots) -> str:
 
 
 def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, within: Iterable[Any] = ()) -> Decision:
-    """Decide left = right; matrices are equal if every entry is, and unequal if any is. within: as of `decide_zero`.
+    """Decide left = right; matrices are equal if every entry is, and unequal if any is.
 
-    Raises InputError when the two differ in shape, or are no expressions, and for two letters of one name.
+    >>> from sympy import log, symbols
+    >>> x = symbols("x", positive=True)
+    >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
+    ('zero', 'nonzero')
+
+    Args:
+        left: an expression or a matrix.
+        right: likewise.
+        within: inequalities, as of `decide_zero`.
+
+    Raises:
+        InputError: the two differ in shape, or are no expressions; two letters of one name.
     """
     left, right = sympified(left, "decide_equal"), sympified(right, "decide_equal")
     shapes = getattr(left, "shape", ()), getattr(right, "shape", ())

@@ -48,7 +48,12 @@ class Coordinates:
 def coordinates(names: str | Sequence[str]) -> Coordinates:
     """Real symbols for the named coordinates: "theta phi" gives theta, theta_dot, theta_ddot, phi, ...
 
-    Raises InputError when there is no name or a name is repeated.
+    >>> c = coordinates("theta phi")
+    >>> c.q, c.v
+    ((theta, phi), (theta_dot, phi_dot))
+
+    Raises:
+        InputError: there is no name, or one is repeated.
     """
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")

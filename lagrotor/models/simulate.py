@@ -164,9 +164,16 @@ def simulate(
     progress: called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each
     of the runs that are compared begins anew.
 
-    Raises InputError for a bad argument, SingularError where a model's coordinates cannot hold the start,
-    DomainError where a closed form or the normal modes do not hold the scene, IntegrationError where nothing of the run could
-    be computed, or it did not conserve what it must.
+    >>> from lagrotor import Scene, paired_scene
+    >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
+    >>> run.tips.shape, run.error < 1e-9
+    ((2, 3, 3), True)
+
+    Raises:
+        InputError: a bad argument.
+        SingularError: a model's coordinates cannot hold the start.
+        DomainError: a closed form or the normal modes do not hold the scene.
+        IntegrationError: nothing of the run could be computed, or it did not conserve what it must.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")

@@ -35,7 +35,7 @@ ALIKE = Calibrated(
     5 / 6,
     "largest share of the looser run's error that the better one is taken to have, where what they conserve says that it is "
     "not much the better one; SAFETY counts share/(1 − share) times",
-    "120 random systems, seeds 3000 to 3119: of 0.75, two of the four that were told too little still are",
+    "120 random systems, seeds 3000 to 3119: of 0.75, two of the four whose error was estimated too small still are",
     "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
 )
 CHEAPER = Calibrated(

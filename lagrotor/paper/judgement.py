@@ -53,9 +53,13 @@ class _Text:
 def judge_text(
     equation: str, given: Iterable[str] = (), positive: Iterable[str] = (), small: str = "", order: int = 0
 ) -> Judgement:
-    """`judge_text("sqrt(x**2) = x", given=["x >= 0"]).verdict.verdict` is 'holds-if'.
+    """An equation as text, judged; of a chain each member is held against the last.
 
-    Of a chain each member is held against the last.
+    >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
+    read: sqrt(x**2) = x
+    read: x >= 0
+    Abs(x): holds-if
+      x ≥ 0
 
     Args:
         equation: left = right, or a chain of several; also LaTeX.

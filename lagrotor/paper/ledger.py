@@ -35,11 +35,22 @@ _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "u
 
 
 def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
-    """One printed expression held against a derived one: `judge("m*g*l*sin(theta)", derived).verdict`.
+    """One printed expression held against a derived one.
 
-    printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`. given: what may be
-    assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several of these. small, order:
-    where equality is claimed through small**order only. Raises InputError for text that cannot be read.
+    >>> from sympy import Symbol, sqrt
+    >>> x = Symbol("x", real=True)
+    >>> judge(sqrt(x**2), x, given=x >= 0).verdict
+    'holds-if'
+
+    Args:
+        printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`.
+        derived: a sympy expression or matrix, or a `Series`.
+        given: what may be assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several.
+        small: the letter in which equality is claimed through small**order only.
+        order: that order.
+
+    Raises:
+        InputError: text that cannot be read, a premise that is none.
     """
     right, premises = derived if isinstance(derived, Series) else sp.sympify(derived), premises_of(given)
     side = right.expression if isinstance(right, Series) else right

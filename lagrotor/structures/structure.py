@@ -16,7 +16,13 @@ if TYPE_CHECKING:
 class Structure(Assembly):
     """Structure(joints, bars, spins, rotor, link, gravity, load, friction, hinge, braces): see `Assembly`.
 
-    Raises InputError for bars that cannot close, a bar to itself, dependent constraints, no freedom left, loads below zero.
+    >>> from lagrotor.structures import example
+    >>> corner = example("corner")
+    >>> len(corner.joints), len(corner.bars)
+    (3, 2)
+
+    Raises:
+        InputError: bars that cannot close, a bar to itself, dependent constraints, no degree of freedom left, loads below zero.
     """
 
     if TYPE_CHECKING:  # what may be given, which the fields then hold as tuples

@@ -1,0 +1,42 @@
+"""Examples that are run: those of the docstrings of public names, and those of the pages of the documentation."""
+
+import doctest
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import lagrotor
+from lagrotor.faces import names_of_face
+
+PACKAGE = Path(lagrotor.__file__).parent
+DOCS = PACKAGE.parent / "docs"
+MODULES = sorted(
+    {
+        module
+        for face in sorted(PACKAGE.rglob("__init__.py"))
+        for module in names_of_face(face).values()
+        if ">>>" in (PACKAGE.parent / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+    }
+)
+PAGES = [page for page in sorted(DOCS.glob("*.md")) if ">>>" in page.read_text(encoding="utf-8")]
+HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_examples_of_docstrings(module: str) -> None:
+    ran = doctest.testmod(import_module(module), optionflags=HOW)
+    assert ran.attempted and not ran.failed
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_examples_of_pages(page: Path) -> None:
+    ran = doctest.testfile(str(page), module_relative=False, optionflags=HOW, encoding="utf-8")
+    assert ran.attempted and not ran.failed
+
+
+def test_a_wrong_example_would_be_seen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    wrong = tmp_path / "wrong.md"
+    wrong.write_text("```\n>>> 1 + 1\n3\n\n```\n", encoding="utf-8")
+    assert doctest.testfile(str(wrong), module_relative=False).failed
+    assert "Expected" in capsys.readouterr().out
