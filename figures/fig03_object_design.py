@@ -15,7 +15,7 @@ from matplotlib.patches import FancyBboxPatch
 
 from lagrotor.drawing import CORRECTION_COLOUR, MODEL_COLOUR, OKABE_ITO
 from lagrotor.models import RigidBody, RigidBodySystem
-from lagrotor.models.spring_link import paper_bodies, run, system
+from lagrotor.models.spring_link import run, system
 from lagrotor.pictures import arrow, bare
 
 TITLE = "Object design of the rigid-body simulator"
@@ -56,7 +56,7 @@ def data() -> dict[str, np.ndarray]:
         "RigidBody": np.array([field.name for field in fields(RigidBody)]),
         "RigidBodySystem": np.array([signature(RigidBodySystem.__init__, "RigidBodySystem"), *methods]),
         "Force": public(system, ("link_force", "step_limit")),
-        "Runs": np.concatenate([public(paper_bodies, ("paper_system",)), public(run, ("run_steps", "run_solver"))]),
+        "Runs": np.concatenate([public(system, ("paper_system",)), public(run, ("run_steps", "run_solver"))]),
     }
 
 

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 
 from lagrotor.benchmark import chart_constants
-from lagrotor.numerics import estimate_constants, solver_constants
-from lagrotor.numerics.solver_constants import Calibrated
+from lagrotor.numerics import calibrated
+from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.theory import calibrated_factors
 
 
-@pytest.mark.parametrize("room", [solver_constants, calibrated_factors, estimate_constants, chart_constants])
+@pytest.mark.parametrize("room", [calibrated, calibrated_factors, chart_constants])
 def test_a_calibrated_number_names_the_test_that_holds_it(room) -> None:
     numbers = {name: entry for name, entry in vars(room).items() if isinstance(entry, Calibrated)}
     assert numbers

@@ -27,7 +27,7 @@ from lagrotor.numerics.any_run import Ending, Run
 from lagrotor.numerics.estimated_run import EstimatedRun
 from lagrotor.numerics.rotations import turn_about
 from lagrotor.structures import StructureRun
-from lagrotor.structures.exact import simulating as structure_door
+from lagrotor.structures.exact import structure_run as structure_door
 from tests.mechanics.running.references import EXTENDED, drawn, extrapolated
 from tests.structures.extended import exact as exact_structure
 

@@ -1,6 +1,6 @@
 """Numbers of this room that were found by trial: what each one is, what it was calibrated on, and the test that holds it."""
 
-from lagrotor.numerics.solver_constants import Calibrated
+from lagrotor.numerics.calibrated import Calibrated
 
 LONGEST_RUN = Calibrated(
     2.0,

@@ -13,8 +13,8 @@ from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare,
 from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, work_at
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
+from lagrotor.models.spring_link.system import paper_system
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_rate import natural_rate

@@ -6,7 +6,6 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form
-    from lagrotor.models.conserved import conservation_defect as conservation_defect
     from lagrotor.models.linear import linear_error as linear_error
     from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import time_to_wander as time_to_wander
     from lagrotor.models.mean_motion import turning_rate as turning_rate
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
+    from lagrotor.models.model import conservation_defect as conservation_defect
     from lagrotor.models.orbits.continuation import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.continuation import trace_family as trace_family
     from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
     from lagrotor.models.orbits.upright_orbit import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.upright_orbit import upright_orbit as upright_orbit
-    from lagrotor.models.spring_link.paper_bodies import join_bar as join_bar
-    from lagrotor.models.spring_link.paper_bodies import paper_bodies as paper_bodies
-    from lagrotor.models.spring_link.paper_bodies import paper_system as paper_system
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
     from lagrotor.models.spring_link.rigid_body import inertia_transform as inertia_transform
@@ -37,7 +34,10 @@ if TYPE_CHECKING:
     from lagrotor.models.spring_link.run import run_solver as run_solver
     from lagrotor.models.spring_link.run import run_steps as run_steps
     from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem
+    from lagrotor.models.spring_link.system import join_bar as join_bar
     from lagrotor.models.spring_link.system import link_force as link_force
+    from lagrotor.models.spring_link.system import paper_bodies as paper_bodies
+    from lagrotor.models.spring_link.system import paper_system as paper_system
     from lagrotor.models.spring_link.system import printed_link_force as printed_link_force
     from lagrotor.models.spring_link.system import step_limit as step_limit
     from lagrotor.models.sweeps.ensemble import Ensemble as Ensemble

@@ -1,25 +1,90 @@
 """What every integrated model offers: its program, how a scene fills the program's parameters, a start, the axes read back;
-and one integration of it."""
+one integration of it, in units of the scene's own, and what the pair's motion keeps by any model.
+
+Every integration runs in the scene's own units, so that a solver's absolute tolerance means the same for every scene and the
+answer depends on the units of mass, length and time by rounding alone. Every motion keeps its energy less the shock's work, the
+momentum about the joint line, and the lengths of bar and axes: a run that does not, within what its error estimate allows, is
+not the pair's motion, whatever the solver says.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.models.natural_units import typical_rate
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.pulse import COMPANION_STEP
-from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
-from lagrotor.pair.scene import Scene
+from lagrotor.numerics.segment import COMPANION_STEP, OutsideError, Projection, RightHandSide, Stretch
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
+
+
+# Rates of PACE and axes of 1 share an absolute tolerance: rates are held as many times more accurately, as the energy is.
+PACE = 16.0
+
+
+@dataclass(frozen=True)
+class NaturalUnits:
+    """`scene` with R = 1, min(a + b, a − b) = 1 and a typical rate of PACE; the units of rate (rad/s) and inertia (kg m²)."""
+
+    scene: Scene
+    rate: float
+    inertia: float
+
+
+def natural_units(scene: Scene) -> NaturalUnits:
+    """The scene in its own units. At rest, without spins or shock, the unit of rate is 1/s."""
+    inertia, R = min(together_and_apart(scene)), scene.rotor.length
+    rate = typical_rate(scene) / PACE or 1.0
+    rotor, link, shock = scene.rotor, scene.link, scene.shock
+    weight = R * R / inertia
+    in_units = replace(
+        scene,
+        spins=(scene.spins[0] / rate, scene.spins[1] / rate),
+        rotor=Rotor(rotor.mass * weight, 1.0, rotor.I1 / inertia, rotor.I3 / inertia),
+        link=link and Link(link.length / R, link.mass * weight, link.inertia / inertia),
+        shock=shock
+        and Shock(
+            tuple(f * R / inertia / rate**2 for f in shock.force),  # type: ignore[arg-type]
+            shock.at * rate,
+            shock.width * rate,
+            shock.body,
+        ),
+        rates=tuple(tuple(x / rate for x in v) for v in scene.rates),  # type: ignore[arg-type]
+    )
+    return NaturalUnits(in_units, rate, inertia)
+
+
+def together_and_apart(scene: Scene) -> tuple[float, float]:
+    """Inertias a + b = J + m R²/2 of the axes' sum, a − b = J + 2 K R²/ell² of their difference (kg m²)."""
+    if scene.link is None:
+        return scene.rotor.J, scene.rotor.J
+    R, link = scene.rotor.length, scene.link
+    return scene.rotor.J + link.mass * R**2 / 2, scene.rotor.J + 2 * link.inertia * (R / link.length) ** 2
+
+
+def typical_rate(scene: Scene) -> float:
+    """A rate (rad/s) that the motion does not exceed by much: (|G_1| + |G_2|)/I + sqrt(2T/I) and the shock's, I the smaller
+    of the inertias, T the energy of the tilting.
+
+    A pulse adds its impulse over I or, where it is so broad that the rotor turns meanwhile, sqrt(force R / I).
+    """
+    (together, apart), (v1, v2) = together_and_apart(scene), scene.rates
+    inertia = min(together, apart)
+    total, difference = (hypot(*(x + sign * y for x, y in zip(v1, v2, strict=True))) for sign in (1, -1))
+    rate = hypot(sqrt(together / inertia) * total, sqrt(apart / inertia) * difference) / sqrt(2)
+    if scene.shock:
+        torque = hypot(*scene.shock.force) * scene.rotor.length / inertia
+        rate += min(2 * torque * scene.shock.width, sqrt(torque))
+    return rate + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / inertia
+
 
 Array = NDArray[np.float64]
 BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
@@ -194,3 +259,114 @@ def check_range(model: Model, scene: Scene) -> None:
     """Raises SingularError where the model cannot hold the scene's start, OutsideError where it is badly conditioned there."""
     if not np.isfinite(model.rate(scene, False, bounded=True)(0.0, model.start(scene))).all():
         raise OutsideError(0.0)
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_MOST_PANELS = 2_000  # beyond, the work of a broad pulse is not followed
+
+
+def _lower_order() -> Array:
+    """Weights (12,) that integrate polynomials up to the ninth degree, the two nodes in the middle left out."""
+    kept = np.r_[0:5, 7:12]
+    moments = [(1 - (-1) ** (n + 1)) / (n + 1) for n in range(10)]
+    weights = np.zeros(12)
+    weights[kept] = np.linalg.solve(np.vander(_NODES[kept], increasing=True).T, moments)
+    return weights
+
+
+@dataclass(frozen=True, eq=False)
+class PulseNodes:
+    """Gauss–Legendre nodes t (n,) and weights (n,) over the part of the pulse between `begin` and `end` (s).
+
+    lower (n,): weights of lower order; the difference of the two sums bounds the error of the first.
+    """
+
+    t: Array
+    weights: Array
+    lower: Array
+    begin: float
+    end: float
+
+
+def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
+    """Nodes for the shock's work on a scene in natural units; none without shock, or for a pulse of too many turns."""
+    if scene.shock is None:
+        return None
+    begin, end = max(0.0, scene.shock.begin), min(t_end, scene.shock.end)
+    count = int(np.ceil((end - begin) / min(scene.shock.width, 1 / PACE)))
+    if not 0 < count <= _MOST_PANELS:
+        return None
+    edges = np.linspace(begin, end, count + 1)
+    half = np.diff(edges)[:, None] / 2
+    t = (edges[:-1, None] + half * (1 + _NODES)).ravel()
+    return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _lower_order()).ravel(), begin, end)
+
+
+@dataclass(frozen=True, eq=False)
+class Conserved:
+    """Energy T (n,) of the tilting and momentum P (n,) about the joint line, and how much an error of 1 in the axes, and
+    of PACE in the rates, may change each."""
+
+    energy: Array
+    momentum: Array
+    energy_scale: float
+    momentum_scale: float
+
+
+def _conserved(scene: Scene, seen: Observed) -> Conserved:
+    a, b = scene.inertias
+    (r1, r2), (v1, v2) = seen.axes, seen.rates
+    p1, p2 = a * v1 + b * v2, a * v2 + b * v1
+    energy = ((p1 * v1).sum(-1) + (p2 * v2).sum(-1)) / 2
+    turning = np.cross(r1, p1)[:, 0] + np.cross(r2, p2)[:, 0] + seen.momenta[0] * r1[:, 0] + seen.momenta[1] * r2[:, 0]
+    size = float(np.sqrt((p1**2 + p2**2).sum(-1)).max())
+    return Conserved(energy, turning, PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max()))
+
+
+def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
+    """The error of axes and rates that would explain how far a run at times t (n,) is from conserving what it must.
+
+    The scene is in natural units; `nodes`, where there is a shock, are among the times. Without them its work is not known, and
+    what comes after it is held to the first state after it.
+    """
+    found = _conserved(scene, seen)
+    lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
+    if scene.link:
+        k = scene.link.length / scene.rotor.length
+        bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
+        lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
+    defects = [float(np.abs(part).max()) for part in lengths]
+    before, after = np.ones(len(t), bool), np.zeros(len(t), bool)
+    work, turn = (0.0, 0.0), (0.0, 0.0)
+    if scene.shock:
+        before, after = t <= max(scene.shock.begin, t[0]), t >= min(scene.shock.end, nodes.end if nodes else inf)
+    if nodes:
+        work, turn = _received(scene, t, seen, nodes)
+    for values, (received, unsure), scale in (
+        (found.energy, work, found.energy_scale),
+        (found.momentum, turn, found.momentum_scale),
+    ):
+        if scale > 0:
+            off = np.abs(values[before] - values[0])
+            later = values[after] - (values[0] + received if nodes else values[after][:1])
+            defects += [float(part.max(initial=0.0)) / scale for part in (off, np.abs(later) - unsure)]
+    return max(defects)
+
+
+def _received(
+    scene: Scene, t: Array, seen: Observed, nodes: PulseNodes
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Work and angular impulse of the pulse, each with a bound on the error of its quadrature."""
+    assert scene.shock is not None
+    at = np.searchsorted(t, nodes.t)
+    i = scene.shock.body - 1
+    r, v = seen.axes[i, at], seen.rates[i, at]
+    pulse = np.exp(-(((nodes.t - scene.shock.at) / scene.shock.width) ** 2))
+    torque = scene.rotor.length * np.array(scene.shock.force)
+    power, turning = pulse * (v @ torque), pulse * np.cross(r, torque)[:, 0]
+
+    def total(values: Array) -> tuple[float, float]:
+        whole = float(nodes.weights @ values)
+        return whole, abs(whole - float(nodes.lower @ values))
+
+    return total(power), total(turning)

@@ -19,15 +19,25 @@ from lagrotor.errors import (
 )
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.conserved import conservation_defect, pulse_nodes
 from lagrotor.models.linear import linear_error, linear_run
-from lagrotor.models.model import Model, Observed, check_range, constant_momenta, integrate_model
-from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units, typical_rate
+from lagrotor.models.model import (
+    PACE,
+    Model,
+    NaturalUnits,
+    Observed,
+    check_range,
+    conservation_defect,
+    constant_momenta,
+    integrate_model,
+    natural_units,
+    pulse_nodes,
+    typical_rate,
+)
 from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, start_beside
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError, Stretch
-from lagrotor.numerics.solver_constants import Calibrated
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 from lagrotor.shown import scientific

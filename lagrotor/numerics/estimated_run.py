@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.numerics.any_run import Ending
-from lagrotor.numerics.estimate_constants import (
+from lagrotor.numerics.calibrated import (
     ALIKE,
     APART,
     BEYOND,

@@ -8,9 +8,9 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.adams import adams
+from lagrotor.numerics.calibrated import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.segment import (
     Array,
     OutsideError,
@@ -20,8 +20,8 @@ from lagrotor.numerics.segment import (
     SegmentSolver,
     StopError,
     Stretch,
+    segments,
 )
-from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 
 TIGHTEST = 1e-13
 _IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it follows the tolerance by its root alone

@@ -1,13 +1,37 @@
-"""A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns."""
+"""A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns; how a run is cut
+at the edges of a Gaussian pulse exp(−(s/width)²), s the time from its peak."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from itertools import pairwise
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
+
+# Beyond |s| = 6.5 widths a pulse is below the last bit of its peak: exp(−6.5²) = 4e-19.
+PULSE_REACH = 6.5
+# Longest step in a pulse, over its width, of a run's companion: were it 1 as the run's, both might take the same steps and agree.
+COMPANION_STEP = 0.8
+
+
+class _Part(NamedTuple):
+    """A part of a run without a pulse's edge inside; `pulsed`: it lies within the pulse."""
+
+    left: float
+    right: float
+    pulsed: bool
+
+
+def segments(begin: float, end: float, width: float) -> Iterator[_Part]:
+    """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width; 0: there is none."""
+    reach = PULSE_REACH * width
+    cuts = [begin, *(s for s in (-reach, reach) if width and begin < s < end), end]
+    for left, right in pairwise(cuts):
+        yield _Part(left, right, abs(left + right) / 2 < reach)
+
 
 Array = NDArray[np.float64]
 RightHandSide = Callable[[float, Array], list[float]]

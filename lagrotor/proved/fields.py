@@ -245,7 +245,7 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
 
 def _nearest(s: Assembly, tilt: Any, rates: Any) -> Any:
     """Floats on the bars near the tilt and rates."""
-    from lagrotor.structures.exact.simulating import simulate_structure
+    from lagrotor.structures.exact.structure_run import simulate_structure
 
     run = simulate_structure(s, [0.0], tilt, rates)
     return run.axes[:, 0], run.rates[:, 0]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures import characteristic, critical_spins, resonances, response, small_motion, standing
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.exact import simulating
+from lagrotor.structures.exact import structure_run
 from lagrotor.structures.exact.closing import check_closure
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Structure(Assembly):
         super().__post_init__()
         check_closure(self)
 
-    simulate = simulating.simulate_structure
+    simulate = structure_run.simulate_structure
     modes = small_motion.modes
     stands = standing.stands
     critical_spin = critical_spins.critical_spin

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Scene, Trajectory, consistent_scene, simulate
 from lagrotor.errors import LagrotorError
 from lagrotor.models import simulate as simulating
-from lagrotor.models.natural_units import natural_units
+from lagrotor.models.model import natural_units
 from lagrotor.numerics import estimated_run
 from tests.models.test_wide_scenes import RECORDED, SHORT, TRIALS
 from tests.models.wide_scenes import run as run_of

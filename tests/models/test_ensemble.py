@@ -11,7 +11,7 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, swee
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.natural_units import typical_rate
+from lagrotor.models.model import typical_rate
 from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.sweeps.chunk import MODELS, run_chunk
 from lagrotor.models.sweeps.ensemble import started

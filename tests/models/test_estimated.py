@@ -11,8 +11,7 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, 
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import closed_form, conservation_defect, euler, fourier_orbit, minimal, parting
 from lagrotor.models import simulate as simulating
-from lagrotor.models.conserved import pulse_nodes
-from lagrotor.models.natural_units import natural_units, typical_rate
+from lagrotor.models.model import natural_units, pulse_nodes, typical_rate
 from lagrotor.numerics import estimated_run
 from lagrotor.numerics.segment import StopError
 from tests.models.one_integration import observed

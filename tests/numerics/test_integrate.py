@@ -13,9 +13,9 @@ from lagrotor.errors import InputError, IntegrationError
 from lagrotor.numerics import Problem, adams
 from lagrotor.numerics import integrate as module
 from lagrotor.numerics import lsoda as solver
+from lagrotor.numerics.calibrated import DETOUR
 from lagrotor.numerics.integrate import check_tolerance, integrate
 from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
-from lagrotor.numerics.solver_constants import DETOUR
 
 ENOUGH = 1e6
 START = np.array([1.0, 0.0])

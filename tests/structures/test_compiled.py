@@ -11,8 +11,8 @@ import pytest
 from lagrotor import Brace, Link, Structure
 from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact import compiled_motion, segments
-from lagrotor.structures.exact.lines_passed import LineWatch
+from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact.exact_motion import LineWatch
 from lagrotor.structures.exact.written_out import structure_accelerations
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
@@ -113,20 +113,20 @@ LINES = {  # a chain numbered at random, braced; a ring; two chains and a rotor 
 
 @pytest.mark.parametrize("name", LINES)
 def test_so_is_that_in_segments(heyoka, name: str, monkeypatch) -> None:
-    monkeypatch.setattr(segments, "LENGTH", 2)
+    monkeypatch.setattr(compiled_motion, "LENGTH", 2)
     N, driven = len(LINES[name].joints), name == "two"
     s = replace(LINES[name], spins=[3.0 * k - 4 for k in range(N)], gravity=2, friction=0.3)
     motion = exact_motion(s, *[lambda t: np.full((N, 3), np.cos(t)), lambda t: np.array([t, 0.1, 0])] * driven)
     r, v = np.random.default_rng(4).standard_normal((2, N, 3))
     y = np.concatenate([(r / np.linalg.norm(r, axis=1, keepdims=True)).ravel(), v.ravel()])
-    found = segments.right_hand_side_in_segments(motion)(0.7, y)
+    found = compiled_motion.right_hand_side_in_segments(motion)(0.7, y)
     assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
     assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4 or not driven
 
 
 def test_a_singular_position_gives_nan_in_segments(heyoka) -> None:
     motion = exact_motion(Structure([(0, 0), (1, 0)], [(0, 1)]))
-    rhs, y = segments.right_hand_side_in_segments(motion), np.zeros(12)
+    rhs, y = compiled_motion.right_hand_side_in_segments(motion), np.zeros(12)
     y[[2, 5]] = 1
     assert np.isfinite(rhs(0.0, y)).all()
     y[:6] = [1, 0, 0, 1, 0, 0]

@@ -8,10 +8,9 @@ import pytest
 
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact import segments
-from lagrotor.structures.exact.levels import eliminate_in_levels
+from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.saddle import saddle
-from lagrotor.structures.exact.written_out import structure_accelerations
+from lagrotor.structures.exact.written_out import eliminate_in_levels, structure_accelerations
 
 SIZES = (64, 512, 4096)
 
@@ -86,7 +85,7 @@ def test_a_long_chain_moves() -> None:
 
 def segments_of(s: Structure) -> tuple[set[int], float]:
     """The programs of its segments, and how many numbers they give an evaluation and a rotor."""
-    groups = segments._groups(exact_motion(s), False)
+    groups = compiled_motion._groups(exact_motion(s), False)
     given = sum(g.unknowns.shape[1] * (g.programs.forward.nouts + g.programs.back.nouts) for g in groups)
     return {id(g.programs) for g in groups}, given / len(s.joints)
 
@@ -148,7 +147,7 @@ def test_the_operations_of_an_evaluation_grow_at_most_2_2_times_a_doubling(shape
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", [chain, ring])
 def test_they_do_up_to_512_rotors(shape) -> None:
-    """Beyond, a chain is solved in segments."""
+    """Beyond, a chain is solved in compiled_motion."""
     assert max(ratios(shape, Link(), range(3, 10))) < 2.2
 
 

@@ -11,10 +11,9 @@ from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
 from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
 from lagrotor.benchmark.limits.threshold import Limit
 from lagrotor.errors import LagrotorWarning
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import RigidBody
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
+from lagrotor.models.spring_link.system import RigidBodySystem, paper_system, step_limit
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 

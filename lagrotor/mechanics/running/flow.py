@@ -11,10 +11,10 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
+from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
 from lagrotor.numerics.segment import Projection, StopError, Stretch
-from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
 
 Array = NDArray[np.float64]

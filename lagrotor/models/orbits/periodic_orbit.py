@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array, integrate_model
-from lagrotor.models.natural_units import natural_units
+from lagrotor.models.model import Array, integrate_model, natural_units
 from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene

@@ -16,19 +16,17 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.simulate import check_times
-from lagrotor.models.spring_link.paper_bodies import TIP
 from lagrotor.models.spring_link.rigid_body import Array, finite_rotation, inertia_transform
-from lagrotor.models.spring_link.system import RigidBodySystem, link_force, step_limit
+from lagrotor.models.spring_link.system import TIP, RigidBodySystem, link_force, step_limit
 from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.any_run import Ending, Quantity, Run, read_run
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import check_tolerance
-from lagrotor.numerics.pulse import COMPANION_STEP, segments
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
+from lagrotor.numerics.segment import COMPANION_STEP, StopError, Stretch, segments
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
-from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock

@@ -1,19 +1,22 @@
 """Scenes of one kind side by side: the minimal model on arrays, every trajectory with its own step, each held to the contract
-of runs as it is alone."""
+of runs as it is alone; finished ones in a folder, where each file says which sweep it belongs to and is checked before use."""
 
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from hashlib import sha256
 from math import pi
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import IntegrationError, LagrotorError, LagrotorWarning, SingularError
+from lagrotor.about import __version__
+from lagrotor.errors import InputError, IntegrationError, LagrotorError, LagrotorWarning, SingularError
+from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
-from lagrotor.models.model import check_range
-from lagrotor.models.natural_units import PACE, NaturalUnits, natural_units
+from lagrotor.models.model import PACE, NaturalUnits, check_range, natural_units
 from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.any_run import Ending
@@ -21,7 +24,7 @@ from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_r
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
-from lagrotor.pair.trajectory import Trajectory
+from lagrotor.pair.trajectory import UNIT_ERROR, Trajectory
 
 Array = NDArray[np.float64]
 MODELS = ("minimal", "spheres", "none")
@@ -155,3 +158,72 @@ def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
         return into
 
     return Swarm(rates, PACE, at, width)
+
+
+@dataclass(frozen=True)
+class ChunkFolder:
+    """The chunks of one sweep; `sweep` is the digest of its scenes, times, tolerance, chunk size, engine and version."""
+
+    path: Path
+    sweep: str
+
+    def file(self, number: int) -> Path:
+        return self.path / f"chunk-{number:06d}.npz"
+
+    def write(self, number: int, found: Chunk) -> None:
+        arrays = found._asdict()
+        endings = [asdict(ending) for ending in arrays.pop("endings")]
+        write_arrays(self.file(number), {"sweep": self.sweep, "chunk": number, "endings": endings}, arrays)
+
+    def read(self, number: int, shape: tuple[int, ...]) -> Chunk | None:
+        """A finished chunk of this shape; None where there is none or a damaged one, which is run again.
+
+        Raises InputError for a chunk of another sweep.
+        """
+        if not self.file(number).exists():
+            return None
+        try:
+            about, held = read_arrays(self.file(number))
+        except InputError:
+            return None
+        if about.get("sweep") != self.sweep:
+            raise InputError(
+                f"sweep: {self.file(number)} belongs to another sweep (scenes, times, tol, chunk, engine or version "
+                "differ): give an empty folder"
+            )
+        try:
+            found = Chunk(**held, endings=[Ending(**ending) for ending in about["endings"]])
+        except (KeyError, TypeError, InputError):
+            return None
+        return found if about.get("chunk") == number and _is_whole(found, shape) else None
+
+
+def chunk_folder(
+    folder: str | Path, scenes: Sequence[Scene], times: Array, tol: float, chunk: int, engine: str
+) -> ChunkFolder:
+    """The folder of this sweep. Raises InputError where there is none, or where it holds chunks of another sweep."""
+    path = Path(folder)
+    if not path.is_dir():
+        raise InputError(f"sweep: there is no folder {path}: make it first")
+    arguments = repr((tuple(scenes), times.tolist(), tol, chunk, engine, __version__))
+    return ChunkFolder(path, sha256(arguments.encode()).hexdigest())
+
+
+def _is_whole(found: Chunk, shape: tuple[int, ...]) -> bool:
+    """Whether the arrays are those of a chunk of this shape: finite motions of unit axes, NaN only after one that ended early."""
+    n, m = shape[0], shape[2]
+    arrays, wanted = found[:-1], (shape, shape, (n, m), (n,), (n,))
+    if any(part.shape != s for part, s in zip(arrays, wanted, strict=True)) or len(found.endings) != n:
+        return False
+    if any(part.dtype != kind for part, kind in zip(arrays, (float, float, float, np.int64, np.int64), strict=True)):
+        return False
+    done = np.isfinite(found.errors)
+    early = np.array([ending.early for ending in found.endings])
+    return bool(
+        ((found.models >= 0) & (found.models < len(MODELS)) & (found.evaluations >= 0)).all()
+        and (done.all(1) | early).all()
+        and (done[:, :-1] >= done[:, 1:]).all()
+        and all((np.isfinite(part).all((1, 3)) == done).all() for part in (found.axes, found.rates))
+        and (found.errors[done] >= 0).all()
+        and (np.abs(np.linalg.norm(found.axes, axis=-1) - 1) < UNIT_ERROR)[np.repeat(done[:, None], 2, axis=1)].all()
+    )

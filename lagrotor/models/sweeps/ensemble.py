@@ -19,8 +19,7 @@ from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import constant_momenta
 from lagrotor.models.simulate import check_times
-from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, kind_of, run_chunk
-from lagrotor.models.sweeps.chunk_files import chunk_folder
+from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, chunk_folder, kind_of, run_chunk
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene

@@ -9,7 +9,7 @@ from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.exact.simulating import simulate_structure
+from lagrotor.structures.exact.structure_run import simulate_structure
 from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 

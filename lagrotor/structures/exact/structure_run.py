@@ -1,17 +1,26 @@
-"""A structure's run: axes, tips, energy, bars; its plot and its film; written and read back."""
+"""A structure's run: exact motion from a tilt and its rates, with its error estimate; what it holds, its pictures, its file."""
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.numerics.any_run import Quantity, Run, read_run
+from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
+from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
+from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.coefficients import Array, coefficients
-from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures.coefficients import Array, coefficients, finite
+from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, bar_in_line, exact_motion
+from lagrotor.structures.exact.written_out import right_hand_side
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -130,3 +139,185 @@ class StructureRun(Run):
         lines = [*bars, *np.stack([far, tips[c.brace_tip]], 2), *np.stack([feet, tips], 2)]
         rotors = [BAR if spin == 0 else ROTORS[spin < 0] for spin in self.structure.spins]
         return animate_lines(path, times, lines, fps, [*[BAR] * len(bars), *[MARK] * len(far), *rotors])
+
+
+_PATIENCE = Patience(50_000, 2_000 * 2 * pi)
+Integrate = Callable[
+    [Array, Array, float, bool, float], Stretch
+]  # start, times, local error, companion, budget → states
+
+
+def simulate_structure(
+    s: Assembly,
+    t: ArrayLike,
+    tilt: ArrayLike | None = None,
+    rates: ArrayLike | None = None,
+    drive: Drive | None = None,
+    ground: Drive | None = None,
+    tol: float = 1e-9,
+    engine: Engine = "core",
+) -> StructureRun:
+    """The exact motion from its start, which holds at t[0], read at the increasing times t (n,), s.
+
+    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
+    Both are brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and
+    `run.rates[:, 0]` show.
+    drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
+    tol: the largest error of an axis over the whole run, 1e-13 to 0.1; `run.errors` are its estimate, from two runs at two
+    tolerances, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
+    before its last time; it then holds the times up to there. engine: "core", or "fast" with heyoka (`pip install
+    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
+
+    Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
+    where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
+    """
+    times, tol = _times(t), check_tolerance(tol)
+    check_engine(engine)
+    shape, begin = (len(s.joints), 3), float(times[0])
+    drives = _try_drive(drive, "drive", shape, times), _try_drive(ground, "ground", shape[1:], times)
+    motion = exact_motion(s, *(each and each.since(begin) for each in drives))
+    c = motion.c
+    conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
+    evolution = Evolution(
+        _start(motion, tilt, rates),
+        _integration(s, motion, engine),
+        motion.distance,
+        turn=2 * pi,
+        patience=_PATIENCE,
+        project=motion.project,
+        defect=lambda _, states: motion.defect(states, conserved),
+        difference=motion.difference_of_rates,
+        singular=lambda y: bar_in_line(motion, y),
+    )
+    try:
+        run = estimate_run(evolution, c.rate * (times - begin), tol).by_clock(begin, 1 / c.rate)
+    except StopError as stop:  # at a time without unit
+        for each in filter(None, drives):
+            each.refuse()
+        at = begin + stop.at / c.rate
+        raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
+    for each in filter(None, drives) if run.ending.early else ():
+        each.refuse()
+    run.warn_unless_kept("the structure's run", tol)
+    axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
+    return StructureRun(
+        structure=s, t=times[: len(run.t)], axes=axes, rates=c.rate * velocities,
+        momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)), errors=run.errors,
+        horizon=run.horizon, evaluations=run.evaluations, ending=run.ending,
+    )  # fmt: skip
+
+
+def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
+    """The integration of a stretch by what runs the structure fastest, in the time c.rate t since the start."""
+    if engine == "fast" and compiled_motion.runs_by_series(motion):
+        return lambda start, times, local, companion, _: compiled_motion.integrate_series(
+            s, motion, start, times, local, companion
+        )
+    rhs = compiled_motion.compiled_right_hand_side(s, motion) if engine == "fast" else right_hand_side(motion)
+
+    def by_steps(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        watch, begin = LineWatch(motion), float(times[0])
+        problem: Any = Problem(watch.observe(rhs), start, budget, at=-begin, project=motion.project, typical_rate=1.0)
+        try:
+            part = integrate(problem, times - begin, local)
+        except StopError as stop:
+            stop.at += begin
+            raise
+        watch.keep(float(times[-1]), part.end)
+        try:
+            watch.check()
+        except StopError as stop:
+            before = part.states[times < stop.at]
+            stop.reached = Stretch(before, before[-1], part.evaluations)
+            raise
+        return part
+
+    return by_steps
+
+
+def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
+    """The state (r, r'/rate) on the constraints."""
+    N = len(motion.c.R)
+    x = _vectors("tilt", tilt, N)
+    if x.shape[1] == 2:
+        height = 1 - (x**2).sum(1)
+        if (height < 0).any():
+            raise InputError(f"simulate: tilt of rotor {int(np.argmin(height))} exceeds 1, the sine of a right angle")
+        r = np.column_stack([x, np.sqrt(height)])
+    else:
+        r = x / np.linalg.norm(x, axis=1, keepdims=True)
+    r = close_bars(motion, r)
+    v = _vectors("rates", rates, N)
+    if v.shape[1] == 2:
+        safe = np.where(np.abs(r[:, 2]) > 1e-6, r[:, 2], np.inf)
+        v = np.column_stack([v, -(r[:, :2] * v).sum(1) / safe])
+    y = np.concatenate([r.ravel(), v.ravel() / motion.c.rate])
+    start = np.concatenate([r.ravel(), motion.project(y)[3 * N :]])
+    if not np.isfinite(start).all():
+        raise SingularError(
+            "simulate: the constraints are dependent at this tilt (bar and axes in line): start elsewhere"
+        )
+    return start
+
+
+def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
+    if given is None:
+        return np.zeros((N, 2))
+    vectors = finite(f"simulate: {name}", given)
+    if vectors.shape not in ((N, 2), (N, 3)):
+        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
+    if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():
+        raise InputError("simulate: tilt holds a vector of length zero")
+    return vectors
+
+
+@dataclass
+class _TriedDrive:
+    """A drive that gives NaN, and says why, where what was given for it fails or gives no finite array of its shape."""
+
+    given: Drive
+    name: str
+    shape: tuple[int, ...]
+    why: str = ""
+
+    def __call__(self, t: float) -> Array:
+        where = f"simulate: {self.name} at t = {t:g}"
+        try:
+            value = finite(where, self.given(t))
+            if value.shape == self.shape:
+                return value
+            self.why = f"{where} must give an array of shape {self.shape}, not {value.shape}"
+        except InputError as error:
+            self.why = str(error)
+        except Exception as error:
+            self.why = f"{where} fails with {error!r}"
+        return np.full(self.shape, np.nan)
+
+    def since(self, begin: float) -> Drive:
+        """The drive as a function of the time since `begin`."""
+        return lambda t: self(begin + t)
+
+    def refuse(self) -> None:
+        """Raises InputError where it has failed."""
+        if self.why:
+            raise InputError(self.why) from None
+
+
+def _try_drive(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> _TriedDrive | None:
+    """The drive, tried at the times of the run."""
+    if drive is None:
+        return None
+    if not callable(drive):
+        raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
+    tried = _TriedDrive(drive, name, shape)
+    for t in times.tolist():
+        tried(t)
+        tried.refuse()
+    return tried
+
+
+def _times(t: ArrayLike) -> Array:
+    times = np.atleast_1d(finite("simulate: t", t))
+    if times.ndim != 1 or not len(times) or (np.diff(times) <= 0).any():
+        raise InputError("simulate: t must be an increasing row of finite times in s")
+    return times

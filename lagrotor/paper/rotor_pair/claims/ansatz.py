@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lagrotor.models.spring_link.paper_bodies import paper_system
+from lagrotor.models.spring_link.system import paper_system
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.quantities import Spins

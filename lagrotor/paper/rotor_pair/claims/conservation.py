@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.paper_bodies import join_bar, paper_bodies, paper_system
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.models.spring_link.system import RigidBodySystem, step_limit
+from lagrotor.models.spring_link.system import RigidBodySystem, join_bar, paper_bodies, paper_system, step_limit
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Scene

@@ -6,8 +6,8 @@ from math import pi
 import numpy as np
 
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_steps
+from lagrotor.models.spring_link.system import paper_system
 from lagrotor.numerics.curves import best_harmonics
 from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
 from lagrotor.pair.quantities import Spins

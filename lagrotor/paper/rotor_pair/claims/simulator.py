@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import (
     RigidBody,
     finite_rotation,
@@ -18,7 +17,7 @@ from lagrotor.models.spring_link.rigid_body import (
     printed_inertia_transform,
 )
 from lagrotor.models.spring_link.run import run_steps
-from lagrotor.models.spring_link.system import RigidBodySystem
+from lagrotor.models.spring_link.system import RigidBodySystem, paper_system
 from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.run import run_solver
+from lagrotor.models.spring_link.system import paper_system
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
 from lagrotor.pair.quantities import Spins, Vector

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import LagrotorWarning
-from lagrotor.models.spring_link.paper_bodies import paper_system
 from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link.run import run_steps
+from lagrotor.models.spring_link.system import paper_system
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
