@@ -329,7 +329,7 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
     The scene is in natural units; `nodes`, where there is a shock, are among the times. Without them its work is not known, and
     what comes after it is held to the first state after it.
     """
-    found = _conserved(scene, seen)
+    conserved = _conserved(scene, seen)
     lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
     if scene.link:
         k = scene.link.length / scene.rotor.length
@@ -343,8 +343,8 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
     if nodes:
         work, turn = _received(scene, t, seen, nodes)
     for values, (received, unsure), scale in (
-        (found.energy, work, found.energy_scale),
-        (found.momentum, turn, found.momentum_scale),
+        (conserved.energy, work, conserved.energy_scale),
+        (conserved.momentum, turn, conserved.momentum_scale),
     ):
         if scale > 0:
             off = np.abs(values[before] - values[0])

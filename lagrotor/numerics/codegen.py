@@ -56,10 +56,10 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
         return stages, outputs
     symbols = sp.numbered_symbols("c_", real=True)
     if program.shared:
-        found, reduced = tree_cse(expressions, symbols, order="none")
+        parts, reduced = tree_cse(expressions, symbols, order="none")
     else:
-        found, reduced = sp.cse(expressions, symbols=symbols)
-    body = dict(found) | dict(zip(names, reduced[: len(names)], strict=True))
+        parts, reduced = sp.cse(expressions, symbols=symbols)
+    body = dict(parts) | dict(zip(names, reduced[: len(names)], strict=True))
     return _ordered(body, reduced[len(names) :]), reduced[len(names) :]
 
 
@@ -102,22 +102,22 @@ def operations(program: Program) -> int:
 
 def _count(expression: sp.Expr) -> int:
     """What `sympy.count_ops` counts, which for each product looks for a fraction: only where it may be one."""
-    left, found = [expression], 0
+    left, count = [expression], 0
     while left:
         e = left.pop()
         factors = e.args[1:] if e.is_Mul and e.args[0] is sp.S.NegativeOne else e.args
         if e.is_Symbol:
             continue
         if e.is_Mul and not any(f.is_Pow or f.is_Number or isinstance(f, sp.exp) for f in factors):
-            found += len(e.args) - 1  # a sign, too, is one
+            count += len(e.args) - 1  # a sign, too, is one
             left += factors
         elif e.is_Add and not any(f.is_Number for f in e.args):
             signs = [f.is_Mul and f.args[0].is_Number and bool(f.args[0] < 0) for f in e.args]
-            found += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
+            count += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
             left += e.args
         else:
-            found += int(sp.count_ops(e))
-    return found
+            count += int(sp.count_ops(e))
+    return count
 
 
 def tangent_program(

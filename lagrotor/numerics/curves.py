@@ -95,5 +95,7 @@ def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: flo
     step = 2 * np.pi / (t[-1] - t[0]) / 5  # a fifth of what takes the phase once round over the run
     grid = np.append(np.arange(low * guess, high * guess, step), high * guess)
     best = float(grid[np.argmin([left(rate) for rate in grid])])
-    found = minimize_scalar(left, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess})
-    return harmonics_at(t, x, float(found.x), count)
+    minimum = minimize_scalar(
+        left, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
+    )
+    return harmonics_at(t, x, float(minimum.x), count)

@@ -440,10 +440,10 @@ def _alike(spent: tuple[int, int], off: tuple[float, float] | None, rounding: fl
 
     Errors e and share e differ by (1 − share) e: the better one's is share/(1 − share) times the difference, of two runs that do
     as their tolerances say a fourth, which SAFETY allows for. off: what both are off conserving, a second measure of their
-    errors, where rounding is not all that it is. spent: their evaluations.
+    errors, where rounding is not all that it is. spent: their evaluations; of twice as many rounding is what they resolve.
     """
     share = CHEAPER.value if spent[1] < spent[0] else 0.0
-    if off and off[1] > rounding:
+    if off and off[1] > rounding and spent[1] < 2 * spent[0]:
         share = max(share, min(off[1] / max(off[0], off[1]), ALIKE.value))
     return max(1.0, share / (1 - share))
 
@@ -495,8 +495,8 @@ def _whole(course: _Course, best: _Comparison, tol: float) -> Generator[Leg, Str
             local = run.local if t[i] >= loosened else best.tight.local
             grid = wanted if wanted[0] == t[i] else np.append(t[i], wanted)
             part = evolution.integrate(states[i], grid, local, False, inf) if grid[-1] > t[i] else None
-            found = part.states if part else states[i : i + 1]
-            again[here] = found[np.searchsorted(grid, times[here])]
+            rows = part.states if part else states[i : i + 1]
+            again[here] = rows[np.searchsorted(grid, times[here])]
         return again
 
     return EstimatedRun(

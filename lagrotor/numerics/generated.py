@@ -67,20 +67,20 @@ def function_of(source: str) -> Callable[..., Any]:
     """The last function that a source defines."""
     names: dict[str, Any] = {}
     exec(source, names)
-    found: Callable[..., Any] = list(names.values())[-1]
-    return found
+    function: Callable[..., Any] = list(names.values())[-1]
+    return function
 
 
 def files() -> dict[Path, str]:
     """What is kept by the modules that are imported, derived anew: file → text, with the version of sympy that printed it."""
     from sympy import __version__
 
-    found: dict[Path, str] = {}
+    blocks: dict[Path, str] = {}
     for one in sorted(_ALL, key=lambda one: one.name()):
         for given in one.kept:
             block = f"# %% {one.name(*given)}\n{one.derive(*given)}\n\n"
-            found[one.file] = found.get(one.file, f"# sympy {__version__}\n\n") + block
-    return found
+            blocks[one.file] = blocks.get(one.file, f"# sympy {__version__}\n\n") + block
+    return blocks
 
 
 @cache

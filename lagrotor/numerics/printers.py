@@ -197,12 +197,12 @@ def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], 
 
     A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
     """
-    found = np.empty((outputs, n))
+    table = np.empty((outputs, n))
     for i in range(0, n, _BLOCK):
         part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
-        for row, values in zip(found, part, strict=True):
+        for row, values in zip(table, part, strict=True):
             row[i : i + _BLOCK] = values
-    return found
+    return table
 
 
 def javascript(program: Program, name: str) -> str:

@@ -87,14 +87,14 @@ def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], lis
         if x in used:
             for part in x.parts:
                 _count(part, used)
-    texts, found = dict[Recorded, str](), list[str]()
+    texts, statements = dict[Recorded, str](), list[str]()
     for x in tape:
         if x in used:
             texts[x] = _text(x, texts)
             if x.parts and (used[x] > 1 or len(texts[x]) > _LONGEST):
-                found.append(f"t{len(found)} = {texts[x]}")
-                texts[x] = f"t{len(found) - 1}"
-    return found, [texts[x] if isinstance(x, Recorded) else repr(float(x)) for x in wanted]
+                statements.append(f"t{len(statements)} = {texts[x]}")
+                texts[x] = f"t{len(statements) - 1}"
+    return statements, [texts[x] if isinstance(x, Recorded) else repr(float(x)) for x in wanted]
 
 
 def _count(x: Term, used: dict[Recorded, int]) -> None:

@@ -235,6 +235,49 @@ def test_where_the_tight_one_stops_a_looser_pair_runs() -> None:
     assert run.ending.kind == "budget" and len(elsewhere.locals) == 2
 
 
+FIRST_LOCAL = 1e-6 * FIRST
+
+
+@pytest.mark.parametrize(
+    ("cause", "above", "asked"),
+    [
+        (
+            "budget",
+            0.5,
+            [1, 1 / APART, APART],
+        ),  # the better one stops: the looser one is compared with one looser still
+        ("stopped", 0.5, [1, 1 / APART, APART]),
+        ("budget", 1.5, [1, APART**2, APART]),  # the looser one stops: nothing is spent on a better one
+        ("stopped", 1.5, [1, 1 / APART, APART**2, APART]),  # it may stop where the better one does not
+    ],
+)
+def test_what_stops_is_tried_looser_step_by_step(cause: Any, above: float, asked: list[float]) -> None:
+    made = Made(share=0.01)
+    made.fails[above * FIRST_LOCAL] = StopError(7.3, "it stops", cause=cause)
+    run = made.run(1e-6)
+    assert [local / FIRST_LOCAL for local in made.locals] == pytest.approx(asked)
+    assert run.ending.kind == "end" and run.local == sorted(made.locals)[-2]
+
+
+def test_where_none_is_looser_than_given_up_what_was_reached_longest_is_kept() -> None:
+    made = Made(share=0.01)
+    made.fails[1.0] = StopError(3.5, "it stops", cause="stopped")
+    made.fails[20 * FIRST_LOCAL] = StopError(7.3, "it stops later", cause="stopped")
+    made.fails = dict(reversed(made.fails.items()))  # the first that holds is taken
+    run = made.run(1e-6)
+    assert run.ending.at == 7.3 and run.t[-1] == 7 and run.local == made.locals[1]
+    assert [made.locals[0] * APART ** (2 * n) <= estimated_run.GIVEN_UP.value for n in range(2)] == [True, True]
+    assert len(made.locals) == 6  # three pairs, of which the last begins beyond GIVEN_UP
+
+
+def test_what_does_not_conserve_is_compared_with_a_looser_one() -> None:
+    """Whatever is integrated more tightly than at first is off what it must conserve, and refused."""
+    made = Made(share=0.01)
+    run = made.run(1e-6, defect=lambda t, y: 1.0 if y[-1, 0] - 1 < 0.09 * FIRST_LOCAL else 0.0)
+    assert [local / FIRST_LOCAL for local in made.locals] == pytest.approx([1, 1 / APART, APART])
+    assert run.local == made.locals[0] and run.ending.kind == "end"
+
+
 def test_the_budget_grows_with_the_turns_and_with_what_a_looser_one_took() -> None:
     made = Made(share=0.1)
     made.run(1e-6, patience=Patience(1_000, 10))
@@ -279,6 +322,8 @@ def test_a_better_run_that_costs_less_is_by_another_method() -> None:
                 super().__call__(start, times, local, companion, budget), evaluations=100 if companion else self.cost
             )
 
+    resolved = [Cheaper(share=0.01, cost=cost).run(1e-6, defect=lambda t, y: 1e-9).errors[-1] for cost in (199, 200)]
+    assert resolved[0] == pytest.approx(5 * resolved[1], rel=1e-3)  # of twice as many rounding is what they resolve
     told = [Cheaper(share=0.01, cost=cost).run(1e-6).errors[-1] for cost in (101, 100, 99)]
     assert told[0] == told[1] and told[2] == pytest.approx(2 * told[0], rel=1e-3)
 

@@ -38,8 +38,8 @@ class MonodromyMatrix:
     @property
     def multipliers(self) -> NDArray[np.complex128]:
         """The eigenvalues of Φ, (n,), the largest first."""
-        found = np.linalg.eigvals(self.matrix).astype(complex)
-        return found[np.lexsort((found.imag, -np.abs(found)))]
+        roots = np.linalg.eigvals(self.matrix).astype(complex)
+        return roots[np.lexsort((roots.imag, -np.abs(roots)))]
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:

@@ -63,7 +63,8 @@ def motion_scales(
         stretch, reached = motion(start, np.linspace(times[0], times[-1], 400), _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
         stretch = stop.reached or Stretch(start[None], start, 1)
-        reached = max(stop.at - float(times[0]), 1e-3 * span)
+        # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
+        reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
     states = np.vstack([start, stretch.states, stretch.end])
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
     states = states[np.isfinite(states).all(1)]

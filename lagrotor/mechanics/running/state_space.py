@@ -54,8 +54,8 @@ class StateSpace:
     @property
     def rates(self) -> NDArray[np.complex128]:
         """The eigenvalues of A, (n,)."""
-        found = np.linalg.eigvals(self.A).astype(complex)
-        return found[np.lexsort((found.imag, -found.real))]
+        roots = np.linalg.eigvals(self.A).astype(complex)
+        return roots[np.lexsort((roots.imag, -roots.real))]
 
 
 def state_space(
@@ -164,11 +164,11 @@ def motion_slope(
         moved = at[:, None] + 1j * _STEP * np.eye(len(at))
         with np.errstate(all="ignore"):
             rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved, *calls)]
-        found = np.array(rows, complex).reshape(len(rows), len(at))
-        by = found.imag / _STEP
+        table = np.array(rows, complex).reshape(len(rows), len(at))
+        by = table.imag / _STEP
         own = [names.index(str(s)) if str(s) in names else None for s in inputs]
         pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in own]
-        return found[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
+        return table[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
 
     return slope
 

@@ -37,13 +37,13 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
             break
         if orbit.error <= tol and orbit.frequency_error <= wanted:
             return orbit
-    found = sampled(exact_orbit(scene, amplitude), scene, amplitude)
-    if found.error > tol or found.frequency_error > wanted:
+    orbit = sampled(exact_orbit(scene, amplitude), scene, amplitude)
+    if orbit.error > tol or orbit.frequency_error > wanted:
         raise DomainError(
-            f"precession_orbit: at r0 = {r0:g} neither the series nor the exact orbit, known to {found.error:.1e}, reaches "
+            f"precession_orbit: at r0 = {r0:g} neither the series nor the exact orbit, known to {orbit.error:.1e}, reaches "
             f"tol = {tol:g}; take a larger tol"
         )
-    return found
+    return orbit
 
 
 def sampled(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrbit:

@@ -299,7 +299,7 @@ def _recorded(
     """
     moving, n = copy(system), len(system.vertices)
 
-    def found(state: Sequence[Any], strength: Any) -> list[Any]:
+    def evaluate(state: Sequence[Any], strength: Any) -> list[Any]:
         moving.load(np.array(state))
         moving.compute_forces()
         if shock is not None:
@@ -308,10 +308,10 @@ def _recorded(
         return numbers
 
     if n > _MOST or (system.force, system.rotation, system.transform) != _STRAIGHT:
-        return found
+        return evaluate
     tape: list[Recorded] = []
     names = [f"y{k}" for k in range(size * n)]
-    outputs = found([Recorded(tape, name) for name in names], Recorded(tape, "strength"))
+    outputs = evaluate([Recorded(tape, name) for name in names], Recorded(tape, "strength"))
     lines, texts = recorded_numbers.lines(outputs, tape)
     body = [f"{', '.join(names)} = state", *lines, f"return [{', '.join(texts)}]"]
     return function_of("\n    ".join(["from math import *\ndef of_state(state, strength):", *body]))

@@ -178,8 +178,7 @@ class RigidBodySystem:
         Its rate (m/s) for their velocities U and [Omega]× R.
         """
         centres_and_axes = np.concatenate((X[..., None, :], R.swapaxes(-1, -2)), axis=-2)
-        found: Array = self._incidence @ centres_and_axes.reshape(*X.shape[:-2], -1, 3)
-        return found
+        return np.asarray(self._incidence @ centres_and_axes.reshape(*X.shape[:-2], -1, 3))
 
     def _join(self, first: tuple[int, Array], second: tuple[int, Array]) -> None:
         """One more row: for the body of each end ± (1, arm), on the places of its centre and its axes."""

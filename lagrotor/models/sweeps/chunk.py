@@ -170,8 +170,8 @@ class ChunkFolder:
     def file(self, number: int) -> Path:
         return self.path / f"chunk-{number:06d}.npz"
 
-    def write(self, number: int, found: Chunk) -> None:
-        arrays = found._asdict()
+    def write(self, number: int, chunk: Chunk) -> None:
+        arrays = chunk._asdict()
         endings = [asdict(ending) for ending in arrays.pop("endings")]
         write_arrays(self.file(number), {"sweep": self.sweep, "chunk": number, "endings": endings}, arrays)
 
@@ -192,10 +192,10 @@ class ChunkFolder:
                 "differ): give an empty folder"
             )
         try:
-            found = Chunk(**held, endings=[Ending(**ending) for ending in about["endings"]])
+            chunk = Chunk(**held, endings=[Ending(**ending) for ending in about["endings"]])
         except (KeyError, TypeError, InputError):
             return None
-        return found if about.get("chunk") == number and _is_whole(found, shape) else None
+        return chunk if about.get("chunk") == number and _is_whole(chunk, shape) else None
 
 
 def chunk_folder(
@@ -209,21 +209,21 @@ def chunk_folder(
     return ChunkFolder(path, sha256(arguments.encode()).hexdigest())
 
 
-def _is_whole(found: Chunk, shape: tuple[int, ...]) -> bool:
+def _is_whole(chunk: Chunk, shape: tuple[int, ...]) -> bool:
     """Whether the arrays are those of a chunk of this shape: finite motions of unit axes, NaN only after one that ended early."""
     n, m = shape[0], shape[2]
-    arrays, wanted = found[:-1], (shape, shape, (n, m), (n,), (n,))
-    if any(part.shape != s for part, s in zip(arrays, wanted, strict=True)) or len(found.endings) != n:
+    arrays, wanted = chunk[:-1], (shape, shape, (n, m), (n,), (n,))
+    if any(part.shape != s for part, s in zip(arrays, wanted, strict=True)) or len(chunk.endings) != n:
         return False
     if any(part.dtype != kind for part, kind in zip(arrays, (float, float, float, np.int64, np.int64), strict=True)):
         return False
-    done = np.isfinite(found.errors)
-    early = np.array([ending.early for ending in found.endings])
+    done = np.isfinite(chunk.errors)
+    early = np.array([ending.early for ending in chunk.endings])
     return bool(
-        ((found.models >= 0) & (found.models < len(MODELS)) & (found.evaluations >= 0)).all()
+        ((chunk.models >= 0) & (chunk.models < len(MODELS)) & (chunk.evaluations >= 0)).all()
         and (done.all(1) | early).all()
         and (done[:, :-1] >= done[:, 1:]).all()
-        and all((np.isfinite(part).all((1, 3)) == done).all() for part in (found.axes, found.rates))
-        and (found.errors[done] >= 0).all()
-        and (np.abs(np.linalg.norm(found.axes, axis=-1) - 1) < UNIT_ERROR)[np.repeat(done[:, None], 2, axis=1)].all()
+        and all((np.isfinite(part).all((1, 3)) == done).all() for part in (chunk.axes, chunk.rates))
+        and (chunk.errors[done] >= 0).all()
+        and (np.abs(np.linalg.norm(chunk.axes, axis=-1) - 1) < UNIT_ERROR)[np.repeat(done[:, None], 2, axis=1)].all()
     )

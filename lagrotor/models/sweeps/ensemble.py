@@ -119,11 +119,11 @@ def sweep(
     endings = [Ending()] * len(members)
     done, begin = 0, float(times[0])
 
-    def keep(number: int, found: Chunk) -> None:
+    def keep(number: int, result: Chunk) -> None:
         nonlocal done
-        for values, part in zip((axes, rates, errors, evaluations, models), found[:-1], strict=True):
+        for values, part in zip((axes, rates, errors, evaluations, models), result[:-1], strict=True):
             values[parts[number]] = part
-        for i, ending in zip(parts[number], found.endings, strict=True):
+        for i, ending in zip(parts[number], result.endings, strict=True):
             endings[i] = replace(ending, at=begin + ending.at)
         done += len(parts[number])
         if progress is not None:
@@ -135,10 +135,10 @@ def sweep(
             keep(number, stored)
         else:
             work[number] = [members[i].since(begin) for i in part], times - begin, tolerance, engine
-    for number, found in _run(work, executor):
+    for number, result in _run(work, executor):
         if target:
-            target.write(number, found)
-        keep(number, found)
+            target.write(number, result)
+        keep(number, result)
     whole = Ensemble(members, times, axes, rates, errors, tolerance, evaluations, models, tuple(endings))
     if missed := int((~(whole.error <= tolerance)).sum()):
         said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"

@@ -319,5 +319,7 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
         for i in range(N)
     ]
 
-    found = structure_accelerations(plain, r, v, G, heyoka, heyoka_sum, more if forced or shaken else ())
-    return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in found for x in axis)], strict=True))
+    accelerations = structure_accelerations(plain, r, v, G, heyoka, heyoka_sum, more if forced or shaken else ())
+    return list(
+        zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in accelerations for x in axis)], strict=True)
+    )

@@ -100,3 +100,8 @@ def test_velocities_of_an_event_that_are_not_finite_end_the_run_there() -> None:
             ended = forced(-x).simulate({}, (1,), (0,), np.linspace(0, 2, 9), events=event)
         assert ended.ending.kind == kind and np.isfinite(ended.q).all()
     assert ended.t[-1] == 2
+
+
+def test_a_run_of_more_turns_than_rounding_leaves_is_refused_at_once() -> None:
+    with pytest.raises(IntegrationError, match=r"has \d\.\de\+\d+ turns, after which rounding leaves nothing known"):
+        forced(-x).simulate({}, (1.0,), (0.0,), [0.0, 1e300])
