@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from lagrotor.errors import SingularError
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex
@@ -70,7 +71,11 @@ class Standing(Shown):
             return "holds"
         if linear.damping.any() or linear.freedoms > MOST_FREEDOMS or not len(signed_rates(linear)):
             return "to first order"
-        return "falls at a resonance" if self.resonance and self.resonance.push() < self._reference else "holds"
+        try:
+            found = self.resonance
+        except SingularError:  # at the critical spins two modes are one
+            return "to first order"
+        return "falls at a resonance" if found and found.push() < self._reference else "holds"
 
     @cached_property
     def resonance(self) -> Resonance | None:

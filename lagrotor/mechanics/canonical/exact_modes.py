@@ -4,7 +4,10 @@ parameters.
 The vector w of each mode is scaled by ω/(v†A v) and no root is taken: w = k z̄ with k > 0, and the action is z w.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache, reduce
+from operator import add, mul
 from typing import Any
 
 import sympy as sp
@@ -83,43 +86,75 @@ def _field(letters: set[sp.Symbol], numbers: sp.Tuple) -> Any:
     return QQ.algebraic_field(sp.I, *sorted(roots, key=str)) if roots else QQ_I
 
 
+@lru_cache(maxsize=8)
+def elements(field: Any) -> Callable[[sp.Expr], Any]:
+    """What takes a number to the field: sums, products and powers of its square roots and i there, and not by sympy's search."""
+    if not field.is_Algebraic:
+        return lambda e: field.from_sympy(e)
+    known = {root: field.from_sympy(root) for root in field.orig_ext}
+
+    def element(e: sp.Expr) -> Any:
+        if e in known:
+            return known[e]
+        if e.is_Rational:
+            return field.convert(QQ(int(e.p), int(e.q)))
+        if e.is_Add or e.is_Mul:
+            return reduce(add if e.is_Add else mul, map(element, e.args))
+        if e.is_Pow and e.exp.is_Integer:
+            return element(e.base) ** int(e.exp)
+        if e.is_Pow and sp.sqrt(e.base) in known:
+            return known[sp.sqrt(e.base)] ** int(2 * e.exp)
+        return field.from_sympy(e)
+
+    return element
+
+
 def _null_vectors(M: sp.Matrix, field: Any) -> list[sp.Matrix]:
+    element = elements(field)
     try:
-        rows = DomainMatrix.from_Matrix(M).convert_to(field).nullspace().to_Matrix()
+        entries = [[element(M[i, j]) for j in range(M.cols)] for i in range(M.rows)]
     except CoercionFailed as error:
         raise NotExactError(f"normal_form: {error}") from None
+    rows = DomainMatrix(entries, M.shape, field).nullspace().to_Matrix()
     return [rows[k, :].T for k in range(rows.rows)]
-
-
-def _reduce(e: sp.Expr, field: Any) -> sp.Expr:
-    return field.to_sympy(field.from_sympy(e))
 
 
 def _orthogonal(vectors: list[sp.Matrix], A: sp.Matrix, field: Any) -> list[sp.Matrix]:
     """Vectors of the same span with v†A u = 0, none with v†A v = 0."""
     left, found = list(vectors), list[sp.Matrix]()
     while left:
-        energies = [_reduce((v.H * A * v)[0].expand(), field) for v in left]
+        energies = [_reduced((v.H * A * v)[0], field) for v in left]
         best = next((k for k, energy in enumerate(energies) if energy != 0), None)
         if best is None:
             raise NotExactError("normal_form: modes of equal frequency whose energies vanish")
-        v = left.pop(best)
-        left = [
-            (u - v * ((v.H * A * u)[0] / energies[best])).applyfunc(lambda e: _reduce(e.expand(), field)) for u in left
-        ]
+        v, energy = left.pop(best), energies[best]
+        left = [(u - v * ((v.H * A * u)[0] / energy)).applyfunc(lambda e: _reduced(e, field)) for u in left]
         found.append(v)
     return found
 
 
+def _reduced(e: sp.Expr, field: Any) -> sp.Expr:
+    """The expression as its field writes it."""
+    return field.to_sympy(elements(field)(e.expand() if field.is_Algebraic else e))
+
+
 def _signed(omega: sp.Expr, v: sp.Matrix, A: sp.Matrix, field: Any) -> tuple[sp.Expr, sp.Matrix, sp.Matrix]:
     """(ω with the sign of the energy, the vector of z, that of w)."""
-    energy, bar = _reduce((v.H * A * v)[0].expand(), field), v.conjugate()
-    factor = sp.factor(energy) if energy.free_symbols else energy
-    if not factor.is_positive and not factor.is_negative:
-        raise NotExactError(f"normal_form: the sign of the energy {factor} is not known: give the letters values")
-    scale = omega / energy if factor.is_positive else -omega / energy
-    scaled = [(x * scale).applyfunc(lambda e: _reduce(e.expand(), field)) for x in (bar, v)]
-    return (omega, v, scaled[0]) if factor.is_positive else (-omega, bar, scaled[1])
+    energy, bar = _reduced((v.H * A * v)[0], field), v.conjugate()
+    sign = _sign(energy)
+    scaled = [(x * (sign * omega / energy)).applyfunc(lambda e: _reduced(e, field)) for x in (bar, v)]
+    return (omega, v, scaled[0]) if sign > 0 else (-omega, bar, scaled[1])
+
+
+def _sign(energy: sp.Expr) -> int:
+    """The sign of a number, or of an expression that is zero only where a square is."""
+    odd = energy
+    if energy.free_symbols:
+        coefficient, factors = sp.factor_list(sp.numer(sp.together(energy)) * sp.denom(sp.together(energy)))
+        odd = coefficient * sp.Mul(*(factor for factor, power in factors if power % 2))
+    if not (odd.is_positive or odd.is_negative):
+        raise NotExactError(f"normal_form: the sign of the energy {energy} is not known")
+    return 1 if odd.is_positive else -1
 
 
 def _same(a: sp.Expr, b: sp.Expr) -> bool:

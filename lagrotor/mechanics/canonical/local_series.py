@@ -15,6 +15,7 @@ from lagrotor.errors import DomainError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, total
 
 _Z = sp.Dummy("z")
+_CORNERED = (sp.Abs, sp.sign, sp.Heaviside, sp.floor, sp.ceiling, sp.re, sp.im, sp.conjugate, sp.arg)
 
 
 @dataclass(frozen=True)
@@ -50,9 +51,9 @@ class LocalSeries:
             return first
         if isinstance(e, sp.Pow):
             return self._power(e)
-        if len(e.args) == 1:
+        if len(e.args) == 1 and not isinstance(e, _CORNERED):
             return self._composed(e.func(_Z), e.args[0])
-        raise DomainError(f"normal_form: {e} is not expanded: write it by functions of one argument")
+        raise DomainError(f"normal_form: {e} is not expanded: write it by analytic functions of one argument")
 
     def _power(self, e: sp.Expr) -> Polynomial:
         if e.exp.is_Integer and e.exp > 0:

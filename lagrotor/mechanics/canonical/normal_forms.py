@@ -19,9 +19,10 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.errors import InputError, NotExactError
-from lagrotor.mechanics.canonical.exact_modes import exact_coordinates
+from lagrotor.mechanics.canonical.exact_modes import elements, exact_coordinates
 from lagrotor.mechanics.canonical.local_series import LocalSeries
 from lagrotor.mechanics.canonical.polynomials import (
     Coefficients,
@@ -132,7 +133,9 @@ class NormalForm(Shown):
         return c if self.field is None else self.field.to_sympy(c)
 
     def _real(self, c: Any) -> Any:
-        return float(c.real) if self.field is None else self._plain(c)
+        if self.field is not None:
+            return self._plain(c)
+        return complex(c) if any(isinstance(w, complex) for w in self.frequencies) else float(c.real)
 
 
 def birkhoff(
@@ -208,8 +211,10 @@ def normal_form_at(
     numbers otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
     where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
     """
-    if not isinstance(order, int) or order < 2:
+    if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
         raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
+    if not 0 <= detuning < np.inf:
+        raise InputError(f"normal_form: detuning = {detuning!r} must be a rate from 0 on, in rad/s")
     letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)
@@ -273,8 +278,8 @@ def _exact(
 
     def value(e: sp.Expr) -> Any:
         try:
-            return field.from_sympy(sp.sympify(e))
-        except Exception:
+            return elements(field)(sp.sympify(e))
+        except (CoercionFailed, ValueError, NotImplementedError):
             raise NotExactError(f"normal_form: {e} is not in the field of the frequencies") from None
 
     full = _expanded(H, x, at, normal.vectors, order, value, object)

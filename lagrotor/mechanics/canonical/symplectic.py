@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import SingularError
 
 Matrix = NDArray[Any]
+_DEFECTIVE = 1e-9  # of the rate: smaller energies of vectors of length 1 are those of a mode that is not diagonal
 _CLOSE = 1e-7  # of the largest rate: rates nearer to each other, or to zero, are taken to be equal
 
 
@@ -56,7 +57,7 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
             modes += _oscillations(A, V.conj(), abs(rate.imag), near)
         else:
             pairing = V.T @ A @ U
-            _check(pairing, A, rate)
+            _check(pairing, rate)
             U = U @ np.linalg.inv(pairing) * rate
             modes += [(rate, 1.0, V[:, j], U[:, j]) for j in range(len(group))]
     modes.sort(key=lambda mode: (mode[1] == 1.0, abs(mode[0])))
@@ -66,8 +67,8 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
     return NormalCoordinates(np.array(columns).T + 0j, weights + 0j, frequencies + 0j)
 
 
-def _check(form: Matrix, A: Matrix, rate: complex) -> None:
-    if np.linalg.svd(form, compute_uv=False)[-1] < 1e-9 * np.abs(A).max():
+def _check(form: Matrix, rate: complex) -> None:
+    if np.linalg.svd(form, compute_uv=False)[-1] < _DEFECTIVE * abs(rate):
         raise SingularError(
             f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off this value"
         )
@@ -76,7 +77,7 @@ def _check(form: Matrix, A: Matrix, rate: complex) -> None:
 def _oscillations(A: Matrix, V: Matrix, omega: float, near: float) -> list[tuple[complex, complex, Matrix, Matrix]]:
     """The modes of Ω A v = −i ω v, with the signs of their energies."""
     form = V.conj().T @ A @ V
-    _check(form, A, 1j * omega)
+    _check(form, 1j * omega)
     energies, turned = np.linalg.eigh(form)
     modes: list[tuple[complex, complex, Matrix, Matrix]] = []
     for energy, column in zip(energies, (V @ turned).T, strict=True):

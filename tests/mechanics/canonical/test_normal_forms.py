@@ -220,6 +220,18 @@ def test_a_sleeping_top_precesses_at_its_published_rates():
         h.normal_form(order=4, at={x: 0, y: 0}, values={spin: 2.0})
 
 
+def test_frequencies_that_are_surds_or_letters_stay_exact():
+    n = plane(lambda x, y: x**2 + y**2 / 2 + x**2 * y).normal_form(order=4, at={"x": 0, "y": 0})
+    assert n.frequencies == (1, sp.sqrt(2)) and n.actions[1, 1] == -sp.sqrt(2) / 7
+    numbers = plane(lambda x, y: 1.0 * x**2 + y**2 / 2 + x**2 * y).normal_form(order=4, at={"x": 0, "y": 0})
+    assert {e: float(c) for e, c in n.actions.items()} == pytest.approx(numbers.actions, abs=1e-14)
+    a, b = sp.symbols("a b", positive=True)
+    n = plane(lambda x, y: a**2 * x**2 / 2 + b**2 * y**2 / 2 + x**2 * y**2).normal_form(order=4, at={"x": 0, "y": 0})
+    assert n.actions == {(1, 0): a, (0, 1): b, (1, 1): 1 / (a * b)} and n.energy_signs == (1, 1)
+    with pytest.raises(InputError, match="in_numbers: "):
+        n.in_numbers()
+
+
 def test_a_near_resonance_is_kept_within_its_detuning():
     h = plane(lambda x, y: x**2 / 2 + R(201, 100) ** 2 * y**2 / 2 + x**2 * y)
     assert not h.normal_form(order=4, at={"x": 0, "y": 0}).resonances
@@ -253,5 +265,9 @@ def test_what_makes_no_sense_is_refused():
         h.normal_form(order=4, at={}, values={a: 1})
     with pytest.raises(InputError, match="order = 1"):
         h.normal_form(order=1, at={x: 0}, values={a: 1})
+    with pytest.raises(InputError, match="detuning = -1"):
+        h.normal_form(order=4, at={x: 0}, values={a: 1}, detuning=-1)
+    with pytest.raises(DomainError, match="analytic"):
+        System(c, v**2 / 2 - sp.Abs(x) ** 3 - x**2).hamiltonian().normal_form(order=4, at={x: 0})
     with pytest.raises(DomainError, match="singular"):
         System(c, v**2 / 2 - x**2 - x**3 * sp.log(x)).hamiltonian().normal_form(order=4, at={x: 0})
