@@ -1,6 +1,6 @@
 """Sets carried along a motion without wrapping: Lohner's frames.
 
-A node holds every x(t) that starts in x_0 + L w as
+A node holds every x(t) that starts in x_0 + w as
 
     m + Q s + V w,   V in C + Q S,
 
@@ -86,11 +86,10 @@ def identity(size: int) -> Matrix:
 
 @dataclass(frozen=True)
 class Start:
-    """Every x_0 + L w: middle x_0, of which rounding may leave a ball; spread w; L exact, the unit matrix unless given."""
+    """Every x_0 + w: middle x_0, of which rounding may leave a ball; spread w."""
 
     middle: Balls
     spread: Balls
-    skew: Matrix | None = None
 
     @property
     def node(self) -> Node:
@@ -98,8 +97,7 @@ class Start:
         size = len(self.middle)
         m = [exact(x) for x in self.middle]
         off = [x - y for x, y in zip(self.middle, m, strict=True)]
-        L = identity(size) if self.skew is None else self.skew
-        return Node(arb(0), m, identity(size), off, L, arb_mat(size, size))
+        return Node(arb(0), m, identity(size), off, identity(size), arb_mat(size, size))
 
 
 @dataclass(frozen=True)

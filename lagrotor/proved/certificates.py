@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagrotor.proved.balls import Ball, Matrix, as_text, exact
-from lagrotor.proved.carried_sets import CarriedStep, Node, Start, identity
+from lagrotor.proved.carried_sets import CarriedStep, Node, Start
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import Tape
 
@@ -46,6 +46,11 @@ def tape_data(tape: Tape) -> dict[str, Any]:
     }
 
 
+def motion_data(motion: Motion) -> dict[str, Any]:
+    """The tape and its parameters."""
+    return tape_data(motion.tape) | {"parameters": balls_data(motion.parameters)}
+
+
 def node_data(node: Node) -> dict[str, Any]:
     """m + Q s + (C + Q S) w."""
     return {
@@ -69,11 +74,10 @@ def step_data(step: CarriedStep) -> dict[str, Any]:
 
 def flow_data(motion: Motion, start: Start, steps: Sequence[CarriedStep], bits: int) -> Certificate:
     """What all certificates of a motion have in common."""
-    L = identity(len(start.middle)) if start.skew is None else start.skew
     return {
         "version": VERSION,
         "bits": bits,
-        "motion": tape_data(motion.tape) | {"parameters": balls_data(motion.parameters)},
-        "start": {"middle": balls_data(start.middle), "spread": balls_data(start.spread), "L": matrix_data(L)},
+        "motion": motion_data(motion),
+        "start": {"middle": balls_data(start.middle), "spread": balls_data(start.spread)},
         "steps": [step_data(step) for step in steps],
     }

@@ -6,11 +6,13 @@ rates is found by dual numbers, forward.
 """
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpz
 
 from lagrotor.errors import InputError, NotProved
+from lagrotor.proved.family_checking import FamilyFlow, constant, demand
 from lagrotor.proved.statements import theorem_of
 
 Ball = Any
@@ -86,12 +88,6 @@ def longer(a: list[Ball], b: list[Ball], sign: int) -> list[Ball]:
     width = max(len(a), len(b))
     first, second = a + [ZERO] * (width - len(a)), b + [ZERO] * (width - len(b))
     return [x + y if sign > 0 else x - y for x, y in zip(first, second, strict=True)]
-
-
-def demand(holds: bool, what: str) -> None:
-    """Raises NotProved where something does not hold."""
-    if not holds:
-        raise NotProved(f"check: {what}")
 
 
 def inverse_terms(a: list[Ball]) -> list[Ball]:
@@ -285,14 +281,6 @@ def function(name: str, a: Dual, one: Rest, n: int) -> Dual:
     return Dual(value, a.linear(slope))
 
 
-def constant(text: str) -> Ball:
-    """A number of a tape."""
-    if text == "pi":
-        return arb.pi()
-    above, _, below = text.partition("/")
-    return arb(fmpz(int(above))) / arb(fmpz(int(below or 1)))
-
-
 def number(text: str) -> Ball:
     """An exact number, mantissa in base 16 and power of two."""
     mantissa, _, power = text.partition("p")
@@ -456,14 +444,14 @@ class Carried:
     def __init__(self, certificate: Any) -> None:
         self.flow = Flow(certificate["motion"])
         start, size = certificate["start"], self.flow.size
-        self.middle, self.w, self.L = balls(start["middle"]), balls(start["spread"]), matrix(start["L"])
+        self.middle, self.w = balls(start["middle"]), balls(start["spread"])
         demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
         m = [x.mid() for x in self.middle]
         node = (
             m,
             unit(size),
             column([x - y for x, y in zip(self.middle, m, strict=True)]),
-            self.L,
+            unit(size),
             arb_mat(size, size),
         )
         self.time = ZERO
@@ -604,31 +592,28 @@ def check_no_crossing(certificate: Any) -> None:
 def check_orbit(certificate: Any) -> None:
     """Krawczyk's test at the end of the steps; the reversals; the period; the multipliers."""
     carried = Carried(certificate)
-    free, conditions, held = certificate["free"], certificate["conditions"], certificate["held"]
+    free, conditions = certificate["free"], certificate["conditions"]
     first, last = certificate["reversals"]
     size, moving = carried.flow.size, carried.flow.moving
     demand(
         size == moving + 1 and len(free) == len(conditions) and moving in free, "the conditions do not fit the unknowns"
     )
     demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
-    check_conditions(carried, first, last, free, conditions, held)
+    check_conditions(carried, first, last, free, conditions)
     A, D = matrix(certificate["A"]), carried.derivative
     back = 0 if first else 1
 
     def slope(columns: Sequence[int]) -> Any:
-        return arb_mat([[D[i, j] - back * (carried.L[i, j]) for j in columns] for i in conditions])
+        return arb_mat([[D[i, j] - back * int(i == j) for j in columns] for i in conditions])
 
     miss = column([carried.point[i] - back * carried.middle[i] for i in conditions])
     w = column([carried.w[i] for i in free])
     K = (unit(len(free)) - A * slope(free)) * w - A * miss
-    if held is not None:
-        K = K - (A * slope([held])) * column([carried.w[held]])
     for x, box in zip(K.entries(), w.entries(), strict=True):
         demand(box.contains_interior(x), "Krawczyk's test does not close")
-    inner = [x if i != held and i not in free else carried.w[i] for i, x in enumerate([ZERO] * size)]
+    start = list(carried.middle)
     for i, x in zip(free, K.entries(), strict=True):
-        inner[i] = x
-    start = [x + y for x, y in zip(carried.middle, (carried.L * column(inner)).entries(), strict=True)]
+        start[i] += x
     turns = 1 if not first else 2 if first == last else 4
     claim = certificate["claim"]
     states = balls(claim["start"])
@@ -639,27 +624,26 @@ def check_orbit(certificate: Any) -> None:
     demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
     check_kind(certificate, carried, first, last)
     if "r0" in claim:
-        check_amplitude([certificate], claim["r0"])
+        check_amplitude(certificate, claim["r0"])
 
 
-def amplitudes(piece: Any) -> tuple[Ball, Ball]:
-    """The ends of U = artanh r_0 over a piece of the pair's family."""
+def check_amplitude(certificate: Any, claimed: Any) -> None:
+    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
+    check_pair(certificate)
+    U = read_ball(certificate["start"]["middle"][0]) + read_ball(certificate["start"]["spread"][0])
+    demand(claimed[0] == claimed[1] and U.contains(constant(claimed[0]).atanh()), "the amplitude is another")
+
+
+def check_pair(certificate: Any) -> None:
+    """The states and reversals are the pair's."""
     demand(
-        piece["motion"]["arguments"][0] == "U" and piece["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]],
-        "a piece is no precession of the pair",
+        certificate["motion"]["arguments"][0] == "U"
+        and certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]],
+        "it is no precession of the pair",
     )
-    U = read_ball(piece["start"]["middle"][0]) + read_ball(piece["start"]["spread"][0])
-    return arb(U.lower()), arb(U.upper())
 
 
-def check_amplitude(pieces: Sequence[Any], claimed: Any) -> None:
-    """The pieces hold every amplitude from the lowest to the highest that is claimed."""
-    low, high = (constant(text).atanh() for text in claimed)
-    demand(claimed[0] == claimed[1] or low < high, "the lowest amplitude is not below the highest")
-    demand(amplitudes(pieces[0])[0] <= low and high <= amplitudes(pieces[-1])[1], "the amplitudes are others")
-
-
-def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any, held: Any) -> None:
+def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
     """The start lies in the fixed set of the first reversal; the conditions put the end into that of the last."""
     moving = carried.flow.moving
     if not first:
@@ -669,30 +653,24 @@ def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditi
         sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
     )
     for i, s in enumerate(first):
-        row = [carried.L[i, j] * carried.w[j] for j in range(carried.flow.size)]
-        fixed = carried.middle[i].is_zero() and all(x.is_zero() for x in row)
-        demand(s > 0 or (fixed and i not in free and i != held), "the start is not in the fixed set of the reversal")
+        fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
+        demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
     for signs in (first, last):
-        check_reversal(carried, signs)
+        check_reversal(carried.flow, signs)
 
 
-def check_reversal(carried: Carried, signs: Any) -> None:
+def check_reversal(flow: Flow, signs: Any) -> None:
     """f(A x) = −A f(x), at points chosen beforehand, to more digits than anything else is known. The identity itself is proved
     where the certificate is made, from the Lagrangian."""
-    moving, before = carried.flow.moving, ctx.prec
+    moving, before = flow.moving, ctx.prec
     ctx.prec = 4 * before
     for shift in range(3):
         x = [arb(_POINTS[(i + 5 * shift) % len(_POINTS)]) for i in range(moving)]
-        pace = [arb(1)] * (carried.flow.size - moving)
+        pace = [arb(1)] * (flow.size - moving)
         values = []
         for state in (x, [s * y for s, y in zip(signs, x, strict=True)]):
             rows = [Rest([y], ZERO, 1) for y in state]
-            values.append(
-                [
-                    f.value.at_start()
-                    for f in evaluated(carried.flow.tape, carried.flow.arguments(rows, pace, None, 1), 1)
-                ]
-            )
+            values.append([f.value.at_start() for f in evaluated(flow.tape, flow.arguments(rows, pace, None, 1), 1)])
         for s, a, b in zip(signs, *values, strict=True):
             off = s * a + b
             demand(off.contains(0), "time reversed is no motion")
@@ -705,7 +683,7 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
     demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
     if claim["kind"] == "undecided":
         return
-    whole = carried.derivative * carried.L.inv()
+    whole = carried.derivative
     D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
     if not first:
         values = D.eig()
@@ -745,16 +723,78 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
 
 
 def check_family(certificate: Any) -> None:
-    """Every piece, each beginning where the one before ends."""
-    end = None
-    for piece in certificate["pieces"]:
-        demand(piece["kind"] == "periodic orbit" and piece["held"] is not None, "a piece is no family of orbits")
-        check(piece)
-        demand(piece["motion"] == certificate["pieces"][0]["motion"], "the pieces are of different motions")
-        begin, finish = amplitudes(piece)
-        demand(end is None or begin <= end, "there is a gap between two pieces")
-        end = finish
-    check_amplitude(certificate["pieces"], certificate["claim"]["r0"])
+    """Krawczyk's test over every piece; each begins where the one before ends, with the same orbit."""
+    check_pair(certificate)
+    flow = Flow(certificate["motion"])
+    for signs in certificate["reversals"]:
+        check_reversal(flow, signs)
+    pieces = [FamilyPiece(certificate["motion"], piece) for piece in certificate["pieces"]]
+    for one, other in pairwise(pieces):
+        demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
+        same = [
+            all(y.contains_interior(x) for x, y in zip(a.start(one.high), b.box(one.high), strict=True))
+            for a, b in ((one, other), (other, one))
+        ]
+        demand(any(same), "two pieces have other orbits at their common end")
+    low, high = (constant(text).atanh() for text in certificate["claim"]["r0"])
+    demand(bool(low < high and pieces[0].low <= low and high <= pieces[-1].high), "the amplitudes are others")
+    period = read_ball(certificate["claim"]["period"])
+    for piece in pieces:
+        pace = piece.start(piece.low.union(piece.high))[-1]
+        demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
+
+
+class FamilyPiece:
+    """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
+
+    def __init__(self, motion: Any, data: Any) -> None:
+        free, conditions = (4, 5, 6), (0, 2, 4)
+        self.middle, self.half = number(data["middle"]), number(data["half"])
+        self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
+        n, p, W = int(data["terms"]), int(data["degree"]), [number(w) for w in data["W"]]
+        still = all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
+        line = self.x[0].coeffs()
+        straight = len(line) == 2 and (line[0] - self.middle).is_zero() and (line[1] - self.half).is_zero()
+        demand(
+            len(self.x) == len(W) == 7 and still and straight and bool(self.half > 0),
+            "a piece does not start in the fixed set of the reversal",
+        )
+        demand(
+            n > 2 and all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box"
+        )
+        self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
+        flow, time = FamilyFlow(motion, list(self.x), W, n, p), ZERO
+        for step in data["steps"]:
+            h = number(step["h"])
+            flow.step(h, [number(r) for r in step["tube"]], [number(u) for u in step["units"]])
+            time += h
+        demand(time.is_exact() and time == 1, "the steps are not one unit of s")
+        cuts = [number(c) for c in data["cuts"]]
+        demand(
+            bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts))), "the cuts leave a part out"
+        )
+        self.w = [ZERO] * 3
+        box = column([arb(0, w) for w in self.W])
+        for a, b in pairwise(cuts):
+            eps = a.union(b)
+            slope = arb_mat([[flow.slope(i, j, eps) for j in free] for i in conditions])
+            A = arb_mat(3, 3, [x.mid() for x in arb_mat(3, 3, [x.mid() for x in slope.entries()]).inv().entries()])
+            K = (unit(3) - A * slope) * box - A * column([flow.end(i, eps) for i in conditions])
+            for x, y in zip(K.entries(), box.entries(), strict=True):
+                demand(y.contains_interior(x), "Krawczyk's test does not close over a family")
+            for _ in range(2):
+                K = (unit(3) - A * slope) * K - A * column([flow.end(i, eps) for i in conditions])
+            self.w = [x.union(y) for x, y in zip(self.w, K.entries(), strict=True)]
+
+    def start(self, U: Ball) -> list[Ball]:
+        """What was unknown, for the U of a ball."""
+        eps = (U - self.middle) / self.half
+        return [poly(eps) + w for poly, w in zip(self.x[4:], self.w, strict=True)]
+
+    def box(self, U: Ball) -> list[Ball]:
+        """Where it is alone."""
+        eps = (U - self.middle) / self.half
+        return [poly(eps) + arb(0, w) for poly, w in zip(self.x[4:], self.W, strict=True)]
 
 
 def check_equilibrium(certificate: Any) -> None:

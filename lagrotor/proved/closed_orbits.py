@@ -117,7 +117,6 @@ class OrbitProof:
     found: Balls
     ones: int
     bits: int
-    held: int | None = None
 
     @property
     def derivative(self) -> Matrix:
@@ -127,17 +126,14 @@ class OrbitProof:
     def states(self) -> Balls:
         """The orbit's start and pace, enclosed."""
         w = [x if x.is_zero() else arb(0) for x in self.start.spread]
-        if self.held is not None:
-            w[self.held] = self.start.spread[self.held]
         for i, x in zip(self.problem.free, self.found, strict=True):
             w[i] = x
-        L = self.start.node.C
-        return [a + b for a, b in zip(self.start.middle, entries_of(L * column_matrix(w)), strict=True)]
+        return [a + b for a, b in zip(self.start.middle, w, strict=True)]
 
     def multipliers(self) -> Multipliers:
         """Of the whole period."""
         d = self.problem.motion.moving
-        D = self.derivative * self.start.node.C.inv()
+        D = self.derivative
         part = arb_mat([[D[i, j] for j in range(d)] for i in range(d)])
         if not self.problem.first:
             return of_any(part)
@@ -155,7 +151,6 @@ class OrbitProof:
             return flow | {
                 "kind": "periodic orbit",
                 "free": list(problem.free),
-                "held": self.held,
                 "conditions": list(problem.conditions),
                 "reversals": [list(problem.first), list(problem.last)],
                 "A": matrix_data(self.A),
@@ -198,16 +193,12 @@ def closing(
     steps: tuple[CarriedStep, ...],
     ones: int,
     bits: int,
-    held: int | None = None,
 ) -> OrbitProof | None:
     """The proof, where K lies within the box."""
     last = steps[-1].end
     w = [start.spread[i] for i in problem.free]
-    by, d = (None, []) if held is None else (problem.slope(last.derivative, [held]), [start.spread[held]])
-    found = krawczyk(
-        problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w, by, d
-    )
-    return OrbitProof(problem, start, A, steps, found, ones, bits, held) if inside(found, w) else None
+    found = krawczyk(problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w)
+    return OrbitProof(problem, start, A, steps, found, ones, bits) if inside(found, w) else None
 
 
 def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:

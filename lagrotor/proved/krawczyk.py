@@ -1,11 +1,9 @@
 """Krawczyk's test: a box in which a map has a zero, and one only.
 
 For F with the derivative in DF over the box z + w, A near its inverse and K = z − A F(z) + (1 − A DF) w:
-where K lies within the box's interior, F has one zero in the box, and it is in K. With parameters δ, over all of them:
-K = z − A F(z) + (1 − A DF) w − A DF_δ δ. Krawczyk 1969; Neumaier, Interval Methods for Systems of Equations, § 5.1.
+where K lies within the box's interior, F has one zero in the box, and it is in K.
+Krawczyk 1969; Neumaier, Interval Methods for Systems of Equations, § 5.1.
 """
-
-from collections.abc import Sequence
 
 from lagrotor.errors import NotProved
 from lagrotor.proved.balls import Balls, Matrix, arb_mat, exact
@@ -22,14 +20,9 @@ def middle_inverse(slope: Matrix) -> Matrix:
     return arb_mat(rows, columns, [exact(x) for x in found.entries()])
 
 
-def krawczyk(
-    value: Balls, slope: Matrix, A: Matrix, w: Balls, by: Matrix | None = None, d: Sequence[object] = ()
-) -> Balls:
-    """K − z: from F(z), DF over the box, A, the box w about z, and derivatives by parameters with their box d."""
-    step = -(A * column_matrix(value)) + (identity(len(w)) - A * slope) * column_matrix(w)
-    if by is not None:
-        step = step - (A * by) * arb_mat(len(d), 1, list(d))
-    return entries_of(step)
+def krawczyk(value: Balls, slope: Matrix, A: Matrix, w: Balls) -> Balls:
+    """K − z: from F(z), DF over the box, A, the box w about z."""
+    return entries_of(-(A * column_matrix(value)) + (identity(len(w)) - A * slope) * column_matrix(w))
 
 
 def inside(found: Balls, w: Balls) -> bool:

@@ -15,23 +15,15 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import DomainError, NotProved
-from lagrotor.models.orbits.shooting import QuarterPeriod
+from lagrotor.models.orbits.shooting import FAILURES, QuarterPeriod
 from lagrotor.pair.scene import Scene
-from lagrotor.proved.balls import Ball, Balls, arb, ball, exact, precision, printed, radius, rational, upper
-from lagrotor.proved.carried_sets import Accuracy, Start, entries_of, identity, steps_of
-from lagrotor.proved.certificates import VERSION, Certificate
-from lagrotor.proved.closed_orbits import (
-    OrbitProblem,
-    OrbitProof,
-    PeriodicOrbit,
-    closing,
-    orbit_of,
-    prove_orbit,
-    refined,
-)
-from lagrotor.proved.enclosure import accuracy_of
+from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, rational
+from lagrotor.proved.carried_sets import Accuracy
+from lagrotor.proved.certificates import VERSION, Certificate, ball_data, exact_data, motion_data
+from lagrotor.proved.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
+from lagrotor.proved.enclosure import accuracy_of, loosened
+from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import Field, scene_field
-from lagrotor.proved.krawczyk import krawczyk
 from lagrotor.proved.multipliers import Kind
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
@@ -39,10 +31,48 @@ from lagrotor.proved.tape import paced
 from lagrotor.shown import Shown
 
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
-FREE, CONDITIONS, HELD = (4, 5, 6), (0, 2, 4), 0
-TOL, TOL_OF_FAMILY = 1e-20, 1e-9
-_NARROWEST = 1e-5  # of a family's piece
+FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)
+TOL, TOL_OF_FAMILY = 1e-20, 1e-12
+_FIRST_WIDTH, _NARROWEST = 0.1, 1e-3  # of a family's piece, in U
 _ONES = 4  # of the energy and of the momentum about the joint line
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyPiece:
+    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. Whether they are elliptic is not looked at."""
+
+    middle: Ball
+    half: Ball
+    proof: FamilyProof
+
+    @property
+    def ends(self) -> tuple[Ball, Ball]:
+        """Of U."""
+        return self.middle - self.half, self.middle + self.half
+
+    def start(self, U: Ball) -> Balls:
+        """The states at Phi = 0 and the quarter period, s, of the U of a ball, which its piece must hold."""
+        eps = (U - self.middle) / self.half
+        off = dict(zip(self.proof.problem.free, self.proof.w, strict=True))
+        return [poly(eps) + off.get(i, arb(0)) for i, poly in enumerate(self.proof.x)]
+
+    @property
+    def period(self) -> Ball:
+        """s, of all orbits."""
+        return 4 * self.start(self.middle + arb(0, self.half.upper()))[-1]
+
+    def box(self, U: Ball) -> Balls:
+        """Where the start and the quarter period of the orbit of U are alone."""
+        eps = (U - self.middle) / self.half
+        return [poly(eps) + arb(0, W.upper()) for poly, W in zip(self.proof.x, self.proof.W, strict=True)]
+
+    def joins(self, after: "FamilyPiece") -> bool:
+        """Whether the orbit at this piece's end is that of the next piece: one of them lies where the other is alone."""
+        U = self.ends[1]
+        return any(
+            all(one.box(U)[i].contains_interior(other.start(U)[i]) for i in FREE)
+            for one, other in ((self, after), (after, self))
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,36 +80,52 @@ class Precession(Shown):
     """The paired precession of amplitude r0, or of every amplitude in r0, one orbit each.
 
     frequency: angular, rad/s, of rotor 1's sign; period, s: balls that hold those of every r0. kind: elliptic or hyperbolic
-    where it is for all of them. pieces: r0 and orbit, one for a number, adjoining intervals for an interval.
+    where that is shown. pieces: the orbit of a number, or the parts of a family, each beginning where the one before ends.
     """
 
     scene: Scene
     r0: Ball
     ends: tuple[Fraction, Fraction]
-    pieces: tuple[tuple[Ball, PeriodicOrbit], ...]
+    pieces: tuple[PeriodicOrbit, ...] | tuple[FamilyPiece, ...]
+    bits: int
 
     @property
     def frequency(self) -> Ball:
         """rad/s."""
-        found = hull([orbit.frequency for _, orbit in self.pieces])
+        return self._signed(self.period)
+
+    def frequency_at(self, r0: Any) -> Ball:
+        """rad/s, of one amplitude of the family. Raises DomainError where it is none of them."""
+        with precision(self.bits):
+            U = ball(r0, "frequency_at: r0").atanh()
+            for piece in self.pieces:
+                if isinstance(piece, FamilyPiece) and piece.ends[0] <= U <= piece.ends[1]:
+                    return self._signed(4 * piece.start(U)[-1])
+        if len(self.pieces) == 1 and isinstance(self.pieces[0], PeriodicOrbit) and exactly(r0) == self.ends[0]:
+            return self.frequency
+        raise DomainError(f"frequency_at: r0 = {r0!r} is not shown to lie in {interval(self.r0)}")
+
+    def _signed(self, period: Ball) -> Ball:
+        found = 2 * arb.pi() / period
         return found if self.scene.spins[0] > 0 else found.neg(exact=True)
 
     @property
     def period(self) -> Ball:
         """s."""
-        return hull([orbit.period for _, orbit in self.pieces])
+        with precision(self.bits):
+            return hull([piece.period for piece in self.pieces])
 
     @property
     def pair_sum(self) -> Ball | None:
-        """μ + 1/μ of the slow motion of the mean x and the mean twist; None where it is not known for all."""
-        sums = [orbit.pair_sum for _, orbit in self.pieces]
-        return None if None in sums else hull(sums)
+        """μ + 1/μ of the slow motion of the mean x and the mean twist, of one orbit."""
+        first = self.pieces[0]
+        return first.pair_sum if isinstance(first, PeriodicOrbit) else None
 
     @property
     def kind(self) -> Kind:
-        """elliptic, hyperbolic, or undecided where it is not the same, or not shown, for all."""
-        kinds = {orbit.kind for _, orbit in self.pieces}
-        return kinds.pop() if len(kinds) == 1 else "undecided"
+        """elliptic, hyperbolic, or undecided where it is not shown: of one orbit alone."""
+        first = self.pieces[0]
+        return first.kind if isinstance(first, PeriodicOrbit) else "undecided"
 
     @property
     def theorem(self) -> str:
@@ -92,15 +138,25 @@ class Precession(Shown):
         bar = self.scene.summary()["bar"]
         who = f"The pair of spins {self.scene.spins[0]:g}, {self.scene.spins[1]:g} rad/s with a bar of {bar}"
         ends = [str(end) for end in self.ends]
-        parts = [orbit.certificate for _, orbit in self.pieces]
-        if len(parts) == 1:
-            return parts[0] | {"who": who, "claim": parts[0]["claim"] | {"r0": ends}}
-        return {"version": VERSION, "kind": "family", "who": who, "claim": {"r0": ends}, "pieces": parts}
+        first = self.pieces[0]
+        if isinstance(first, PeriodicOrbit):
+            return first.certificate | {"who": who, "claim": first.certificate["claim"] | {"r0": ends}}
+        with precision(self.bits):
+            return {
+                "version": VERSION,
+                "kind": "family",
+                "who": who,
+                "bits": self.bits,
+                "motion": motion_data(first.proof.problem.motion),
+                "reversals": [list(A), list(B)],
+                "claim": {"r0": ends, "period": ball_data(loosened(self.period))},
+                "pieces": [piece_data(piece) for piece in self.pieces if isinstance(piece, FamilyPiece)],
+            }
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
         return {
-            "amplitude": printed(self.r0, 15) if len(self.pieces) == 1 else interval(self.r0),
+            "amplitude": interval(self.r0) if self.ends[0] < self.ends[1] else printed(self.r0, 15),
             "frequency [rad/s]": printed(self.frequency),
             "period [s]": printed(self.period),
             "kind": self.kind,
@@ -127,7 +183,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     """The paired precession of amplitude r0 = sin(theta), theta the inclination when the axes are parallel, proved to exist.
 
     r0: a number, exact as the decimal that it is written in, or a pair (lowest, highest): then for every amplitude between
-    them one orbit is proved, alone near a smooth curve. tol: what a step may leave out.
+    them one orbit is proved, all of them one smooth curve. tol: what a step may leave out.
 
     Raises InputError unless the spins are opposite, DomainError unless 0 < r0 < 1, NotProved with how far the proof came.
     """
@@ -143,9 +199,9 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
         if one:
             start = guess(curve, float(exact(amplitude)), amplitude.atanh())
             orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), names(made))
-            return Precession(scene, amplitude, (exactly(r0), exactly(r0)), ((amplitude, orbit),))
-        pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy, names(made)))
-        return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces)
+            return Precession(scene, amplitude, (exactly(r0), exactly(r0)), (orbit,), accuracy.bits)
+        pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy))
+        return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces, accuracy.bits)
 
 
 def exactly(r0: Any) -> Fraction:
@@ -176,72 +232,55 @@ def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
 
 
 def family(
-    problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy, states: tuple[str, ...]
-) -> Iterator[tuple[Ball, PeriodicOrbit]]:
-    """Adjoining pieces of the family from r0 = low to high, each as wide as its proof allows.
-
-    Within a piece the orbit lies near its tangent: z(U) = z̄ + z' (U − Ū) + w, and one w is proved for every U of the piece.
-    Adjoining pieces share an end, where each holds the one orbit, so that they are one curve.
-    """
-    last, u, width = high.atanh(), low.atanh(), 1e-3
-    end = exact(last) + radius(last)
-    while u < end:
-        tries = 0
-        while True:
-            right = exact(u + min(width, float((end - u).upper())))
-            piece = u.union(right)
-            proof = proof_of_piece(problem, curve, piece, accuracy)
-            if proof is not None:
-                break
-            tries, width = tries + 1, 0.7 * width
+    problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy
+) -> Iterator[FamilyPiece]:
+    """Pieces of the family from r0 = low to high, each as wide as its proof allows."""
+    u, last = np.nextafter(float(low.atanh().lower()), 0), np.nextafter(float(high.atanh().upper()), 1e9)
+    width, before = _FIRST_WIDTH, None
+    while u < last:
+        right = min(u + width, last)
+        try:
+            piece = prove_piece(problem, curve, u, right, accuracy)
+        except (NotProved, *FAILURES):
+            width *= 0.6
             if width < _NARROWEST:
-                raise NotProved(f"precession: the family is proved up to r0 = {np.tanh(float(u.lower())):.8g} only")
-        yield piece.tanh(), orbit_of(proof, states)
-        u, width = right, width if tries else 1.1 * width
+                raise NotProved(f"precession: the family is proved up to r0 = {np.tanh(u):.8g} only") from None
+            continue
+        if before is not None and not before.joins(piece):
+            raise NotProved(f"precession: the family is one curve up to r0 = {np.tanh(u):.8g} only")
+        yield piece
+        u, before, width = right, piece, 1.2 * width
 
 
-def proof_of_piece(problem: OrbitProblem, curve: QuarterPeriod, piece: Ball, accuracy: Accuracy) -> OrbitProof | None:
-    """One orbit for every U of a piece; None where the test does not close."""
-    u = exact(piece)
-    half = radius(piece)
-    try:
-        middle, inverse, _ = refined(problem, guess(curve, float(np.tanh(float(u))), u), accuracy, "precession")
-        L = tangent_frame(problem, middle, accuracy)
-        spread = [arb(0)] * len(middle)
-        spread[HELD] = arb(0, half.upper())
-        for i in FREE:
-            spread[i] = arb(0, (half * half * (1 + abs(middle[i])) + arb(2) ** -40).upper())
-        for _ in range(4):
-            start = Start(middle, spread, L)
-            steps = tuple(steps_of(problem.motion, start, arb(1), accuracy))
-            proof = closing(problem, start, inverse, steps, _ONES, accuracy.bits, HELD)
-            if proof is not None:
-                return proof
-            last = steps[-1].end
-            needed = moved(problem, start, inverse, last)
-            for i, x in zip(FREE, needed, strict=True):
-                if not upper(x) < 1:
-                    return None
-                spread[i] = arb(0, (1.5 * upper(x)).upper())
-    except (NotProved, DomainError):
-        return None
-    return None
+def prove_piece(problem: OrbitProblem, curve: QuarterPeriod, u: float, right: float, accuracy: Accuracy) -> FamilyPiece:
+    """The orbits between two U, about polynomials of ε that go through those of floats at Chebyshev's points."""
+    degree = 3 * accuracy.terms // 4
+    middle, half = (u + right) / 2, np.nextafter((right - u) / 2 * (1 + 1e-15), 1)
+    points = -np.cos(np.pi * (np.arange(degree + 3) + 0.5) / (degree + 3))
+    z, rows = None, []
+    for x in points:
+        z = curve.follow(z, np.tanh(middle + half * x))
+        rows.append([*curve.state(z)[4:], z[3] / abs(curve.natural)])
+    cheb = np.polynomial.chebyshev
+    powers = [cheb.cheb2poly(cheb.chebfit(points, column, degree)) for column in np.array(rows).T]
+    U, zero = arb_poly([arb(middle), arb(half)]), arb_poly([])
+    x = [U, zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
+    return FamilyPiece(arb(middle), arb(half), prove_family(problem, x, accuracy.terms, accuracy.tol))
 
 
-def moved(problem: OrbitProblem, start: Start, inverse: Any, last: Any) -> Balls:
-    """K about the middle, whether or not it closes."""
-    w = [start.spread[i] for i in problem.free]
-    slope, by = (problem.slope(last.derivative, columns) for columns in (problem.free, [HELD]))
-    return krawczyk(problem.value(start.middle, last.middle), slope, inverse, w, by, [start.spread[HELD]])
-
-
-def tangent_frame(problem: OrbitProblem, middle: Balls, accuracy: Accuracy) -> Any:
-    """The unit matrix, its column of U along the family."""
-    *_, step = steps_of(problem.motion, Start(middle, [arb(0)] * len(middle)), arb(1), accuracy)
-    D = step.end.derivative
-    slope, by = problem.slope(D, problem.free), problem.slope(D, [HELD])
-    along = entries_of(slope.inv() * by)
-    L = identity(len(middle))
-    for i, x in zip(problem.free, along, strict=True):
-        L[i, HELD] = exact(-x)
-    return L
+def piece_data(piece: FamilyPiece) -> dict[str, Any]:
+    """Of a certificate."""
+    proof = piece.proof
+    return {
+        "middle": exact_data([piece.middle])[0],
+        "half": exact_data([piece.half])[0],
+        "x": [exact_data(poly.coeffs()) for poly in proof.x],
+        "W": exact_data(proof.W),
+        "terms": proof.n,
+        "degree": max(poly.degree() for poly in proof.x),
+        "steps": [
+            {"h": exact_data([step.h])[0], "tube": exact_data(step.tube), "units": exact_data(step.units)}
+            for step in proof.steps
+        ],
+        "cuts": exact_data(proof.cuts),
+    }

@@ -62,7 +62,7 @@ def _periodic_orbit(certificate: Certificate) -> str:
     """Of a periodic orbit; of the pair's precession with its amplitude."""
     claim = certificate["claim"]
     if "r0" in claim:
-        return _precession(certificate, [certificate])
+        return _precession(certificate)
     period = _claimed(claim["period"])
     return (
         f"There is a periodic orbit of period {printed(period, 25)} s, frequency {printed(2 * arb.pi() / period, 25)} rad/s, "
@@ -70,23 +70,15 @@ def _periodic_orbit(certificate: Certificate) -> str:
     )
 
 
-def _precession(certificate: Certificate, pieces: Sequence[Certificate]) -> str:
+def _precession(certificate: Certificate) -> str:
     """Of one amplitude or of a family."""
-    low, high = map(_decimal, certificate["claim"]["r0"])
+    claim = certificate["claim"]
+    low, high = map(_decimal, claim["r0"])
     every = f"at r0 = {low}" if low == high else f"for every r0 in [{low}, {high}]"
-    kinds = {piece["claim"]["kind"] for piece in pieces}
-    stable = f", {kinds.pop()}" if len(kinds) == 1 and kinds != {"undecided"} else ""
-    periods = [_claimed(piece["claim"]["period"]) for piece in pieces]
-    period = periods[0]
-    for other in periods[1:]:
-        period = period.union(other)
-    frequency = printed(2 * arb.pi() / period, 22)
-    return f"{certificate['who']} has, {every}, a paired precession{stable}; it turns at {frequency} rad/s."
-
-
-def _family(certificate: Certificate) -> str:
-    """Of every amplitude in an interval."""
-    return _precession(certificate, certificate["pieces"])
+    stable = f", {claim['kind']}" if claim.get("kind", "undecided") != "undecided" else ""
+    frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
+    turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"
+    return f"{certificate['who']} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s."
 
 
 def _equilibrium(certificate: Certificate) -> str:
@@ -100,6 +92,6 @@ _WORDS: dict[str, Callable[[Certificate], str]] = {
     "crossing": _crossing,
     "no crossing": _no_crossing,
     "periodic orbit": _periodic_orbit,
-    "family": _family,
+    "family": _precession,
     "equilibrium": _equilibrium,
 }

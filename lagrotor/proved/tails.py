@@ -7,13 +7,14 @@ cos solve their differential equations, where integrating s^(n−1) divides by n
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from lagrotor.errors import NotProved
 from lagrotor.proved.balls import Ball, arb, arb_poly, arb_series, ctx, upper
 from lagrotor.proved.tape import Tape
 
 ZERO = arb(0)
+Series: TypeAlias = Any  # Tailed, or a TaylorModel
 
 
 class TailError(NotProved):
@@ -34,6 +35,10 @@ class Tailed:
         if self._norm is None:
             self._norm = _norm(self.poly) + self.tail
         return self._norm
+
+    def constant(self, value: Ball) -> "Tailed":
+        """A number as a series."""
+        return Tailed(arb_poly([value]), ZERO, self.n)
 
     def series(self) -> Any:
         """The polynomial as Arb's truncated series, whose functions are exact to n terms, but never to more than `ctx.cap`."""
@@ -179,14 +184,14 @@ def series_values(tape: Tape, arguments: Sequence[Any]) -> list[Any]:
 
 
 class Evaluation:
-    """The tape over series with their tails: values of all operations, and the derivatives of the outputs backwards."""
+    """The tape over series with their tails, or Taylor models: its values, and derivatives of the outputs backwards."""
 
-    def __init__(self, tape: Tape, arguments: Sequence[Tailed]) -> None:
-        self.tape, self.n = tape, arguments[0].n
-        self.values: list[Tailed] = []
-        self._slopes: dict[int, Tailed] = {}  # of an operation of one operand, by that operand
-        self._twins: dict[int, tuple[Tailed, Tailed]] = {}
-        self._inverses: dict[int, Tailed] = {}
+    def __init__(self, tape: Tape, arguments: Sequence[Series]) -> None:
+        self.tape, self._arguments = tape, arguments
+        self.values: list[Series] = []
+        self._slopes: dict[int, Series] = {}  # of an operation of one operand, by that operand
+        self._twins: dict[int, tuple[Series, Series]] = {}
+        self._inverses: dict[int, Series] = {}
         for place, (name, *on) in enumerate(tape.operations):
             if name == "argument":
                 self.values.append(arguments[on[0]])
@@ -196,15 +201,15 @@ class Evaluation:
                 self.values.append(self._value(place, name, on))
 
     @property
-    def outputs(self) -> list[Tailed]:
+    def outputs(self) -> list[Series]:
         """The tape's outputs."""
         return [self.values[place] for place in self.tape.outputs]
 
-    def fixed(self, value: Ball) -> Tailed:
+    def fixed(self, value: Ball) -> Series:
         """A number as a series."""
-        return Tailed(arb_poly([value]), ZERO, self.n)
+        return self._arguments[0].constant(value)
 
-    def _value(self, place: int, name: str, on: list[int]) -> Tailed:
+    def _value(self, place: int, name: str, on: list[int]) -> Series:
         a = self.values[on[0]]
         if name == "add":
             return a + self.values[on[1]]
@@ -217,13 +222,13 @@ class Evaluation:
             return a * self._slopes[place]
         return self._function(place, name, on[0], a)
 
-    def _inverse(self, operand: int) -> Tailed:
+    def _inverse(self, operand: int) -> Series:
         """1/a, once for each operand."""
         if operand not in self._inverses:
             self._inverses[operand] = self.values[operand].inverse()
         return self._inverses[operand]
 
-    def _function(self, place: int, name: str, operand: int, a: Tailed) -> Tailed:
+    def _function(self, place: int, name: str, operand: int, a: Series) -> Series:
         one = self.fixed(arb(1))
         if name in ("sin", "cos"):
             if operand not in self._twins:
@@ -249,11 +254,11 @@ class Evaluation:
         self._slopes[place] = slope
         return a.by_slope(name, slope)
 
-    def gradient(self, output: int) -> list[Tailed | None]:
+    def gradient(self, output: int) -> list[Series | None]:
         """The derivatives of one output by the arguments, None where it does not depend on one; backwards through the tape."""
         place = self.tape.outputs[output]
-        left: dict[int, Tailed] = {place: self.fixed(arb(1))}
-        found: list[Tailed | None] = [None] * len(self.tape.arguments)
+        left: dict[int, Series] = {place: self.fixed(arb(1))}
+        found: list[Series | None] = [None] * len(self.tape.arguments)
         for k in range(place, -1, -1):
             if k not in left:
                 continue
@@ -267,7 +272,7 @@ class Evaluation:
                         left[operand] = left[operand] + part if operand in left else part
         return found
 
-    def _parts(self, k: int, name: str, on: list[int], g: Tailed) -> list[tuple[int, Tailed]]:
+    def _parts(self, k: int, name: str, on: list[int], g: Series) -> list[tuple[int, Series]]:
         if name == "add":
             return [(on[0], g), (on[1], g)]
         if name == "subtract":
