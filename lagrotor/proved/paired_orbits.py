@@ -92,7 +92,8 @@ class Precession(Shown):
     @property
     def frequency(self) -> Ball:
         """rad/s."""
-        return self._signed(self.period)
+        with precision(self.bits):
+            return self._signed(self.period)
 
     def frequency_at(self, r0: Any) -> Ball:
         """rad/s, of one amplitude of the family. Raises DomainError where it is none of them."""
@@ -106,8 +107,8 @@ class Precession(Shown):
         raise DomainError(f"frequency_at: r0 = {r0!r} is not shown to lie in {interval(self.r0)}")
 
     def _signed(self, period: Ball) -> Ball:
-        found = 2 * arb.pi() / period
-        return found if self.scene.spins[0] > 0 else found.neg(exact=True)
+        frequency = 2 * arb.pi() / period
+        return frequency if self.scene.spins[0] > 0 else frequency.neg(exact=True)
 
     @property
     def period(self) -> Ball:
