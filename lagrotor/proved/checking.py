@@ -12,7 +12,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, ctx, fmpz
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proved.family_checking import FamilyFlow, constant, demand
+from lagrotor.proved.family_checking import FamilyFlow, demand, rational_of
 from lagrotor.proved.statements import theorem_of
 
 Ball = Any
@@ -238,7 +238,7 @@ def evaluated(tape: Any, arguments: list[Dual], n: int) -> list[Dual]:
             found.append(arguments[on[0]])
             continue
         if name == "number":
-            found.append(Dual(Rest([constant(on[0])], none, n)))
+            found.append(Dual(Rest([rational_of(on[0])], none, n)))
             continue
         a = found[on[0]]
         b = found[on[1]] if len(on) > 1 else a
@@ -631,7 +631,7 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
     """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
     check_pair(certificate)
     U = read_ball(certificate["start"]["middle"][0]) + read_ball(certificate["start"]["spread"][0])
-    demand(claimed[0] == claimed[1] and U.contains(constant(claimed[0]).atanh()), "the amplitude is another")
+    demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
 
 
 def check_pair(certificate: Any) -> None:
@@ -736,7 +736,7 @@ def check_family(certificate: Any) -> None:
             for a, b in ((one, other), (other, one))
         ]
         demand(any(same), "two pieces have other orbits at their common end")
-    low, high = (constant(text).atanh() for text in certificate["claim"]["r0"])
+    low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
     demand(bool(low < high and pieces[0].low <= low and high <= pieces[-1].high), "the amplitudes are others")
     period = read_ball(certificate["claim"]["period"])
     for piece in pieces:

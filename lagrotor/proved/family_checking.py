@@ -103,7 +103,7 @@ def _left(x: Ball) -> Ball:
     return 1 - x
 
 
-def inverse(a: Sheet) -> Sheet:
+def inverse_sheet(a: Sheet) -> Sheet:
     """1/a = q/(1 − r), r = 1 − a q."""
     demand(bool(a.at_centre() > 0 or a.at_centre() < 0), "a denominator is not shown to be other than zero")
     x = _series(a)
@@ -128,7 +128,7 @@ def root(a: Sheet) -> Sheet:
     if a.rest is None:
         return _sheet(a, q, None)
     found = _sheet(a, q, ZERO)
-    d, k = a.plus(found.times(found), -1).size(), inverse(found).size()
+    d, k = a.plus(found.times(found), -1).size(), inverse_sheet(found).size()
     return found.like(found.terms, top(found.size() * (1 - _left(d * k * k).sqrt())))
 
 
@@ -187,7 +187,7 @@ def logarithm(a: Sheet, over: Sheet) -> Sheet:
     return found.like(found.terms, top((along + missed) * k + a.rest * k / _left(a.rest * k)))
 
 
-def constant(text: str) -> Ball:
+def rational_of(text: str) -> Ball:
     """A number of a tape."""
     if text == "pi":
         return arb.pi()
@@ -208,7 +208,7 @@ def _linear(
     return moved if first is None else [x.plus(y) for x, y in zip(first, moved, strict=True)]
 
 
-def evaluated(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
+def outputs_of(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
     """The tape's outputs."""
     found: list[Pair] = []
     for name, *on in tape["operations"]:
@@ -216,7 +216,7 @@ def evaluated(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
             found.append(arguments[on[0]])
             continue
         if name == "number":
-            found.append((arguments[0][0].number(constant(on[0])), None))
+            found.append((arguments[0][0].number(rational_of(on[0])), None))
             continue
         a, by = found[on[0]]
         one = a.number(arb(1))
@@ -231,7 +231,7 @@ def evaluated(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
             found.append((a.times(b), _linear(b, by, a, other)))
         else:
             demand(name == "divide", f"the operation {name!r} is unknown")
-            over = inverse(b)
+            over = inverse_sheet(b)
             quotient = a.times(over)
             found.append((quotient, _linear(over, by, one.number(arb(-1)).times(quotient.times(over)), other)))
     return [found[place] for place in tape["outputs"]]
@@ -243,9 +243,9 @@ def _function(name: str, a: Sheet, by: list[Sheet] | None, one: Sheet) -> Pair:
         value = slope = exponential(a)
     elif name == "sqrt":
         value = root(a)
-        slope = one.number(arb(0.5)).times(inverse(value))
+        slope = one.number(arb(0.5)).times(inverse_sheet(value))
     elif name == "log":
-        slope = inverse(a)
+        slope = inverse_sheet(a)
         value = logarithm(a, slope)
     else:
         demand(name in ("sin", "cos"), f"{name} is no operation of a family")
@@ -319,7 +319,7 @@ class FamilyFlow:
 
     def _rates(self, rows: list[Sheet], rest: Ball | None) -> list[Sheet]:
         still = [rows[0].like([poly], rest) for poly in self.x[self.moving :]]
-        return [value for value, _ in evaluated(self.tape, [(row, None) for row in (*rows, *still)])]
+        return [value for value, _ in outputs_of(self.tape, [(row, None) for row in (*rows, *still)])]
 
     def _slopes(
         self, terms: list[list[Any]], wide: list[Ball], h: Ball, tube: list[Ball], units: list[Ball]
@@ -329,7 +329,7 @@ class FamilyFlow:
         rows += [self._full([poly], w) for poly, w in zip(self.x[self.moving :], wide[self.moving :], strict=True)]
         zero = self._full([], ZERO)
         by = [[zero.number(arb(int(i == j))) for j in range(self.size)] for i in range(self.size)]
-        J = [slopes or [zero] * self.size for _, slopes in evaluated(self.tape, list(zip(rows, by, strict=True)))]
+        J = [slopes or [zero] * self.size for _, slopes in outputs_of(self.tape, list(zip(rows, by, strict=True)))]
         sums = [
             h * sum((x.size() * u for x, u in zip(row, units, strict=True)), ZERO) / unit
             for row, unit in zip(J, units, strict=False)
