@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import lagrotor
 
@@ -62,14 +63,58 @@ def test_an_orbit_proved() -> None:
     assert "is not shown to change it" in ends[4]
 
 
+def test_from_a_lagrangian() -> None:
+    names, ends = ran("from_a_lagrangian")
+    assert ends[1] == ((names["phi"],), "zero")
+    assert max(ends[3]) < 1e-8 and len(ends[4].axes) == 3
+
+
+def test_constraints_and_tensions() -> None:
+    _, ends = ran("constraints_and_tensions")
+    assert ends[2] < 1e-6 and ends[3] < 1e-10
+
+
+def test_rolling() -> None:
+    names, ends = ran("rolling")
+    w, g, r = (names[letter] for letter in "wgr")
+    (s,) = ends[1].free_symbols - {w, g, r}
+    assert (ends[1] - s**6 * (s**2 + 12 * w**2 / 5 - 4 * g / (5 * r))).expand() == 0
+    assert "canvas" in ends[2].page and 0.9 < ends[3] < 1
+
+
+def test_small_motions() -> None:
+    names, ends = ran("small_motions")
+    g, l, k, m = (names[letter] for letter in "glkm")
+    squares = {(rate**2).expand() for rate in ends[0]}
+    assert squares == {-g / l, (-g / l - 2 * k / (l**2 * m)).expand()}
+    assert ends[1][0] is sp.true and not any(ends[1][1].subs({m: 1, g: 1, l: 1, k: x}) for x in (0.1, 0.6, 2))
+    assert 1e-9 < ends[3] < 1e-6
+
+
+def test_control() -> None:
+    _, ends = ran("control")
+    assert ends[0].shape == (4, 4) and len(ends[1]) == 4 and ends[3] < 0.05
+
+
+def test_from_sympy() -> None:
+    _, ends = ran("from_sympy")
+    assert ends[2] < 1e-12
+
+
 def test_every_notebook_has_its_test_and_no_output() -> None:
     stems = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
     assert stems == [
         "a_shock_and_what_cancels_it",
         "an_orbit_proved",
+        "constraints_and_tensions",
+        "control",
+        "from_a_lagrangian",
+        "from_sympy",
         "my_own_pair",
         "one_equation_checked",
         "paired_precession",
+        "rolling",
+        "small_motions",
     ]
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.state_space import StateSpace as StateSpace
     from lagrotor.mechanics.running.switches import Event as Event
     from lagrotor.mechanics.running.switches import Impact as Impact
+    from lagrotor.mechanics.steady_motions import StateEquations as StateEquations
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
     from lagrotor.mechanics.symmetry import legendre as legendre
     from lagrotor.mechanics.systems import System as System

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 import sympy as sp
 
-from lagrotor.errors import InputError
-from lagrotor.mechanics import equilibria, linear_modes, sameness, symmetry, typeset, weakly_nonlinear
+from lagrotor.mechanics import equilibria, linear_modes, sameness, steady_motions, symmetry, typeset, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -74,6 +73,16 @@ class System(Equations):
     def linearise(
         self,
         at: "Mapping[Any, Any] | Equilibrium",
+        values: None = None,
+        *,
+        inputs: Sequence[sp.Symbol],
+        outputs: Sequence[sp.Expr] = (),
+    ) -> "steady_motions.StateEquations": ...
+
+    @overload
+    def linearise(
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
         values: "Values",
         inputs: Sequence[sp.Symbol] = (),
         outputs: Sequence[sp.Expr] = (),
@@ -85,24 +94,26 @@ class System(Equations):
         values: "Values | None" = None,
         inputs: Sequence[sp.Symbol] = (),
         outputs: Sequence[sp.Expr] = (),
-    ) -> "linear_modes.LinearSystem | StateSpace":
+    ) -> "linear_modes.LinearSystem | steady_motions.StateEquations | StateSpace":
         """Small motion about an equilibrium or a steady motion, the coordinates and velocities `at` it.
 
-        Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`. With values of the parameters: the
+        Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`; for inputs and outputs, and about a motion
+        that rolls, A, B, C, D in symbols, see `steady_motions.state_equations`. With values of the parameters: the
         numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u, also where bodies roll, for inputs u, parameters
         (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
 
         Raises SingularError where accelerations are left, ConstraintError off the constraints, InputError where the
         coefficients change with time.
         """
+        point = at.at if isinstance(at, Equilibrium) else at
         if values is None:
-            if inputs or outputs:
-                raise InputError("linearise: inputs and outputs are of numbers: give values={symbol: number, …}")
+            moves = any(str(s) in map(str, self.c.v) and x != 0 for s, x in dict(point).items())
+            if inputs or outputs or (self.rolling and moves):
+                return steady_motions.state_equations(self, point, inputs, outputs)
             return linear_modes.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space
 
         self, values = function_values.put_functions("linearise", self, values)
-        point = at.at if isinstance(at, Equilibrium) else at
         return state_space.state_space(self, point, values, inputs, outputs)
 
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":

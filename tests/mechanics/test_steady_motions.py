@@ -1,0 +1,80 @@
+"""A, B, C, D in symbols: rolling and steady motions, controls; against closed conditions and the numbers of `state_space`."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.errors import InputError, SingularError
+from lagrotor.mechanics import Frame, Plane, System, coordinates, t
+
+m, M, r, g, w, F, l, I1, I3 = sp.symbols("m M r g w F l I_1 I_3", positive=True)
+CART = coordinates("x theta")
+(x, theta), (v, om) = CART.q, CART.v
+POLE = System(
+    CART,
+    M * v**2 / 2 + m * (v**2 + 2 * l * v * om * sp.cos(theta) + l**2 * om**2) / 2 - m * g * l * sp.cos(theta),
+    forces=(F, 0),
+)
+C = coordinates("x y z phi theta psi")
+GROUND = Frame(C)
+WHEEL = GROUND.moved(*C.q[:3]).turned("zxy", C.q[3:]).body(m, (m * r**2 / 4, m * r**2 / 2, m * r**2 / 4))
+CONTACT = WHEEL.rolls_on(Plane(GROUND), r, axis=(0, 1, 0))
+DISC = System(C, WHEEL.kinetic - WHEEL.potential((0, 0, -g)), CONTACT.constraints, CONTACT.rolling)
+STRAIGHT = dict.fromkeys(C.q, 0) | {C.q[2]: r, C.v[5]: w, C.v[0]: r * w}
+
+
+def test_the_cart_and_pole_of_textbooks() -> None:
+    linear = POLE.linearise({x: 0, theta: 0}, inputs=(F,), outputs=(x, CART.a[0]))
+    assert linear.states == (x, theta, v, om)
+    assert sp.Matrix([[0, 0, 1, 0], [0, 0, 0, 1], [0, -g * m / M, 0, 0], [0, g * (M + m) / (M * l), 0, 0]]) == linear.A
+    assert list(linear.B) == [0, 0, 1 / M, -1 / (M * l)]
+    assert sp.Matrix([[1, 0, 0, 0], [0, -g * m / M, 0, 0]]) == linear.C and list(linear.D) == [0, 1 / M]
+
+
+def test_a_rolling_disc_has_its_characteristic_polynomial() -> None:
+    """s² = 4 g/(5 r) − 12 w²/5: it stands for w² > g/(3 r)."""
+    s = sp.Symbol("s")
+    linear = DISC.linearise(STRAIGHT)
+    expected = s**6 * (s**2 - 4 * g / (5 * r) + 12 * w**2 / 5)
+    assert sp.expand(linear.characteristic(s) - expected) == 0
+    numbers = {m: 1.3, r: 0.3, g: 9.81, w: 7.0}
+    own = DISC.linearise({k: sp.sympify(e).subs(numbers) for k, e in STRAIGHT.items()}, {m: 1.3, r: 0.3, g: 9.81})
+    mine = np.linalg.eigvals(np.array(linear.A.subs(numbers).tolist(), float))
+    assert np.abs(np.poly(mine) - np.poly(own.rates)).max() < 1e-9 * np.abs(np.poly(own.rates)).max()
+
+
+def test_a_steady_precession_is_that_of_numbers() -> None:
+    c = coordinates("phi theta psi")
+    body = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    top = System(c, body.kinetic - m * g * l * sp.cos(c.q[1]))
+    tilt, turn = sp.pi / 3, sp.Symbol("Omega", positive=True)
+    J = I1 + m * l**2
+    spin = (m * g * l / turn + J * turn * sp.cos(tilt)) / I3 - turn * sp.cos(tilt)
+    at = {c.q[1]: tilt, c.q[0]: 0, c.q[2]: 0, c.v[0]: turn, c.v[2]: spin}
+    linear = top.linearise(at | {g: g}, inputs=(g,), outputs=(c.q[1],))
+    numbers = {I1: 0.1, I3: 0.15, m: 1.0, l: 0.5, g: 9.81, turn: 2.0}
+    point = {k: float(sp.sympify(e).subs(numbers)) for k, e in at.items()}
+    theirs = top.linearise(point, {I1: 0.1, I3: 0.15, m: 1, l: 0.5, g: 9.81}, inputs=(g,), outputs=(c.q[1],))
+    at_g = linear.A.subs(numbers)
+    assert [str(s) for s in linear.states] == [str(s) for s in theirs.states]
+    assert np.array(at_g.tolist(), float) == pytest.approx(theirs.A, abs=1e-9)
+    assert np.array(linear.B.subs(numbers).tolist(), float) == pytest.approx(theirs.B, abs=1e-9)
+
+
+def test_what_is_no_steady_motion_says_why() -> None:
+    rolled = dict.fromkeys(C.q, 0) | {C.q[2]: r}
+    for make, error, words in (
+        (lambda: POLE.linearise({x: 0, theta: 1}, inputs=(F,)), SingularError, "is left over"),
+        (lambda: POLE.linearise({x: 0}, inputs=(F,)), InputError, "theta without a value"),
+        (lambda: POLE.linearise({theta: 0}, inputs=(sp.Symbol("u"),)), InputError, "inputs u"),
+        (lambda: POLE.linearise({theta: 0, om: 1}, inputs=(F,)), InputError, "change with time"),
+        (lambda: POLE.linearise({theta: 0}, inputs=(F,), outputs=("x",)), InputError, "no expression"),
+        (lambda: DISC.linearise(rolled | {C.v[5]: w}), InputError, "off the constraints"),
+        (
+            lambda: System(CART, POLE.L, forces=(F * t, 0)).linearise({theta: 0}, inputs=(F,)),
+            InputError,
+            "depends on time",
+        ),
+    ):
+        with pytest.raises(error, match=words):
+            make()
