@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import EXACT_COLOUR, ROTORS
 from lagrotor.pair import SCENES
 
 TOL = 1e-10
@@ -66,11 +66,10 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.0, 6.6))
     right, left, across = picture.subplots(3, 1, sharex=True)
-    colours = (MODEL_COLOUR, OKABE_ITO["orange"])
-    right.plot(d["t"], d["x"][1], color=colours[1], label="right tip, of rotor 2")
-    left.plot(d["t"], d["x"][0], color=colours[0], label="left tip, of rotor 1")
-    across.plot(d["t"], d["y"][1], color=colours[1])
-    across.plot(d["t"], d["y"][0], color=colours[0])
+    right.plot(d["t"], d["x"][1], color=ROTORS[1], label="right tip, of rotor 2")
+    left.plot(d["t"], d["x"][0], color=ROTORS[0], label="left tip, of rotor 1")
+    across.plot(d["t"], d["y"][1], color=ROTORS[1])
+    across.plot(d["t"], d["y"][0], color=ROTORS[0])
     for panel in (right, left, across):
         panel.axvline(2, color=EXACT_COLOUR, lw=1, ls=":", label="shock" if panel is across else None)
     right.set(ylabel="$x_2$ [m]", title="x of the right tip", ylim=(0.28, 0.78))

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -80,7 +80,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.0, 7.0))
     top, turns = picture.subplots(2, 1, height_ratios=(2.2, 1))
-    for i, colour in ((0, MODEL_COLOUR), (1, OKABE_ITO["orange"])):
+    for i, colour in enumerate(ROTORS):
         top.plot(*d["tips"][i, :, :2].T, color=colour, lw=0.9, label=f"{('left', 'right')[i]} tip, of rotor {i + 1}")
     centres = d["centres"].mean(1)[:, :2]
     for points, colour, line, mark, label in (

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Figure n1: which structures stand
 #
-# Growth rate of what falls fastest against the spin, in closed form and on the exact motion, and the least spin of grids.
+# Largest growth rate against the spin, in closed form and on the exact motion, and the least spin of grids.
 
 # %%
 from functools import cache
@@ -96,7 +96,7 @@ def figure() -> Figure:
     for (name, (_, _, colour)), values in zip(SHOWN.items(), d["growth"], strict=True):
         growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
-    growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Growth of what falls fastest")
+    growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Largest growth rate")
     for values, name, ink in zip(
         d["tilt"], ("3 % under", "3 % over"), (OKABE_ITO["reddish purple"], EXACT_COLOUR), strict=True
     ):

@@ -45,7 +45,7 @@ def on_band(ring: Pattern, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @cache
 def data() -> dict[str, np.ndarray]:
-    """Wave numbers a rotor q (rad) and bands (rad/s) of alternating and equal spins at 30°, 60°, 90°; modes of rings and of
+    """Wave numbers per rotor q (rad) and bands (rad/s) of alternating and equal spins at 30°, 60°, 90°; modes of rings and of
     open zigzags; the staircase on hinges and under weight; the honeycomb along a path (share of it)."""
     q = np.linspace(0.005, pi - 0.005, 200)
     turns = [2 * pi / n for n in RINGS]
@@ -104,7 +104,7 @@ def measure() -> dict[str, float]:
 
 *_, _top, _held = measure().values()
 CAPTION = (
-    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers a rotor. Curves: bands; marks: modes of "
+    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers per rotor. Curves: bands; marks: modes of "
     f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, on the bands to rounding. The "
     "highest rate is "
     f"G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and under its weight with "
@@ -134,12 +134,12 @@ def figure() -> Figure:
         ("loaded", PAPER_COLOUR, "under weight"),
     ):
         staircase.plot(d["q"], d[name], color=ink, lw=1.2, label=[label, None])
-    staircase.plot(d["q"], d["growth"], "--", color=PAPER_COLOUR, label="growth under weight (1/s)")
+    staircase.plot(d["q"], d["growth"], "--", color=PAPER_COLOUR, label="growth under weight [1/s]")
     net.plot(d["share"], d["honeycomb"], color=OKABE_ITO["sky blue"], label="honeycomb, opposite spins")
     for panel, title in zip(
         panels.flat, ("Alternating spins, and rings", "Equal spins", "Staircase, alternating", "Honeycomb"), strict=True
     ):
-        panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number a rotor [rad]")
+        panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number per rotor [rad]")
     net.set(xlabel="share of the path 0 – K – M [1]")
     even.set_xlim(0, pi / 2)
     picture.legend(loc="outside lower center", ncols=4)

@@ -76,7 +76,7 @@ def measure() -> dict[str, float]:
 
 _found = list(measure().values())
 CAPTION = (
-    f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}: the pair comes to rest turned about the joint line by "
+    f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}: the pair comes to rest rotated about the joint line by "
     f"{', '.join(f'{x:.3f}' for x in _found[:3])} of G r0²/2c (dashed) at c = "
     f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: "
     f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the friction acts on the spins "
@@ -98,7 +98,7 @@ def figure() -> Figure:
         law = SPIN * TILT**2 / (2 * c)
         angle.plot(t[[0, -1]], [law, law], "--", color=ink, lw=1.0)
     angle.set(
-        xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest turned"
+        xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest rotated"
     )
     for x, ink, name in zip(
         d["tilts"], (EXACT_COLOUR, OKABE_ITO["sky blue"]), ("friction on the spins too", "spins kept up"), strict=True

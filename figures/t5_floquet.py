@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Figure t5: stability of the paired precession
 #
-# Growth a turn (or turning of the multiplier) against the amplitude for three bars, with the derived leading terms; and
+# Growth per turn (or turning of the multiplier) against the amplitude for three bars, with the derived leading terms; and
 # the plane of bar and amplitude in which the orbit is elliptic or hyperbolic, with the derived edge and its error.
 
 # %%
@@ -41,7 +41,7 @@ def scene(link: Link) -> Scene:
 
 
 def strength(link: Link, r0: float) -> float:
-    """Growth a turn, or less the angle a turn (rad) where the orbit is elliptic."""
+    """Growth per turn, or less the angle per turn (rad) where the orbit is elliptic."""
     found = floquet(scene(link), r0)
     return found.growth - found.turning
 
@@ -102,7 +102,7 @@ def figure() -> Figure:
         fill = colour if values[0] > 0 else "white"
         growth.loglog(d["fine"], law, color=colour, lw=1.2)
         growth.loglog(d["amplitudes"], np.abs(values), mark, color=colour, mfc=fill, label=name)
-    growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle, a turn [rad]", title="Growth a turn")
+    growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle per turn [rad]", title="Growth per turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
     plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0, color=CORRECTION_COLOUR, alpha=0.18, lw=0, label="elliptic")

@@ -77,6 +77,8 @@ def judge_text(
     assumed = tuple(statement for line in given for statement in _statements(line, "given"))
     if wrong := next((text for text in assumed if len(text.signs) != 1), None):
         raise InputError(f"given: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
+    for text in texts:
+        _check_says_something(text, (*texts, *assumed))
     small, order = next(((text.order[0], text.order[1] - 1) for text in texts if text.order), (small, order))
     letters = letters_in(
         (*filter(None, [small]), *(side for text in (*texts, *assumed) for side in text.sides)), positive
@@ -105,6 +107,17 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
         if not set(each.relations) <= _RELATIONS.keys():
             raise InputError(f"{where}: {text!r} has {', '.join(each.relations)}: write =, !=, >=, >, <= or <")
         yield _Text(sides, each.relations, each.order)
+
+
+def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
+    """Raise InputError where the first side is a letter of which nothing else is said: then the rest only defines it."""
+    name, *rest = text.sides
+    others = (*rest, *(side for each in texts if each is not text for side in each.sides))
+    if name.isidentifier() and len(rest) == 1 and not any(re.search(rf"\b{name}\b", side) for side in others):
+        raise InputError(
+            f"judge: {text} defines {name}, of which nothing else is known: write the other expression in its place, or "
+            f"say what {name} is by a premise, --given '{name} = …'"
+        )
 
 
 def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, sp.Symbol]:

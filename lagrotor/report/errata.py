@@ -91,9 +91,10 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
 
 def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> Iterator[str]:
     """What the sheet says before its items."""
+    differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     yield (
-        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {len(errors)} differ from what follows "
-        "from their premises. Each is listed by its own number or its section, as printed and as it should read; every "
+        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {differ} from what follows from "
+        "their premises. Each is listed by its own number or its section, as printed and as it should read; every "
         "correction was decided by the same exact procedure as the print."
     )
     shown = {letter for e in errors for letter in e.letters}

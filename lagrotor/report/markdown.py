@@ -137,7 +137,7 @@ def errata_blocks(verdicts: Iterable[Verdict], paper: Paper) -> list[str]:
         used = ", ".join(f"[{i}](report.md#{anchor(i)})" for i in e.used_by) or "none"
         blocks += [
             _place(f"erratum-{e.id}"),
-            f"### Erratum {e.id} {_prose(e.title)}",
+            f"### Erratum {e.id}: {_prose(e.title)}",
             _prose(e.wrong),
             "Printed:",
             _display(e.printed),

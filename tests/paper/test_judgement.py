@@ -43,10 +43,11 @@ def test_small_letters_may_be_named_beside_the_equation() -> None:
     [
         ("x", [], "write left = right"),
         ("x > 1", [], "write left = right"),
-        ("x = (", [], "was never closed"),
-        ("x = 1", ["y"], "one relation each"),
-        ("x = f(x)", [], r"write f\*"),
-        ("x = __import__('os')", [], "__import__"),
+        ("T = 2*pi*sqrt(l/g)", [], "of which nothing else is known"),
+        ("x + 1 = (", [], "was never closed"),
+        ("2*x = 1", ["y"], "one relation each"),
+        ("2*x = f(x)", [], r"write f\*"),
+        ("2*x = __import__('os')", [], "__import__"),
         (r"\ln x^2 = 3", [], "write brackets"),
     ],
 )

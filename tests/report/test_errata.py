@@ -63,5 +63,5 @@ def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
 
 def test_markdown_has_the_same_rows(verdicts: list[Verdict]) -> None:
     text = "\n\n".join(errata_blocks(verdicts, PAPER))
-    assert all(f"### Erratum {e.id} " in text for e in errata(verdicts, PAPER))
+    assert all(f"### Erratum {e.id}: " in text for e in errata(verdicts, PAPER))
     assert errata_blocks([v for v in verdicts if v.verdict == "holds"], PAPER) == []

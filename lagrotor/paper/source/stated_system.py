@@ -173,6 +173,11 @@ def write_derivation(paper: Catalogue) -> Path:
     system = stated_system(paper)
     for identifier in system.derives:
         _ = system[identifier]
+        if not paper.equation(identifier).line:
+            raise InputError(
+                f"{system.where}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
+                "[[equation.line]] in equations.toml, or leave it out here"
+            )
     text = _HEAD + "".join(_CELL.format(id=identifier, said=said) for identifier, said in system.derives.items())
     folder = paper.folder / "derivations"
     folder.mkdir(exist_ok=True)
