@@ -6,7 +6,7 @@ that is in the text; it is refuted only where its right side has no letter but t
 these, the difference is decided, and one change of sign, factor or power makes the two sides agree: a slip, not a law.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice
@@ -21,7 +21,17 @@ from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
-from lagrotor.paper.source.tree import Call, Letter, Node, Number, Opaque, letters_of, sympy_expression, text_of, walk
+from lagrotor.paper.source.tree import (
+    Call,
+    Letter,
+    Node,
+    Number,
+    Opaque,
+    has_opaque,
+    letters_of,
+    sympy_expression,
+    text_of,
+)
 from lagrotor.paper.source.usage import Notation, notation_of
 
 HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
@@ -31,8 +41,12 @@ FOUND = (REFUTED, UNITS, MEANINGS, BEFORE)
 WRONG = (REFUTED, UNITS)
 # Terms of which each is tried with the other sign, to say what is wrong; operations beyond which a step is not decided.
 _MOST_TERMS, _MOST_OPERATIONS = 12, 2000
+# Functions that are taken for each other.
+_TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
-_MOST_SLIPS, _MEMORY = 60, 60
+_MOST_SLIPS, _MEMORY = 120, 60
+# Guesses on which no refutation rests: another base of powers or logarithms has the same laws.
+_ANY_BASE = ("e is Euler's number", "log is the natural logarithm")
 # Dimensions are reported where few equations break them: others are printed in units of their own.
 _FEW, _SHARE = 3, 0.05
 
@@ -114,8 +128,9 @@ class _Checker:
             if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
                 continue
             verdict, why = self._step(left.node, right.node, first=step == 1)
-            if reading.guesses and verdict == REFUTED:
-                verdict, why = "undecided", f"{why}; but {reading.guesses[0]} is a guess"
+            open_guess = next((each for each in reading.guesses if each not in _ANY_BASE), None)
+            if open_guess and verdict == REFUTED:
+                verdict, why = "undecided", f"{why}; but {open_guess} is a guess"
             if step > 1 or verdict == HOLDS:
                 yield self._finding(each, step, right, verdict, why)
 
@@ -164,11 +179,13 @@ class _Checker:
     def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
         """Whether a difference that is not zero refutes the step."""
         own, others = set(letters_of(left)), set(letters_of(right))
-        if self._has_opaque(left) or self._has_opaque(right):
+        if has_opaque(a, b):
             return "undecided", "derivatives, integrals or functions may be related"
         if more := sorted(others - own):
             return "undecided", f"{', '.join(more)} may be related to the letters before"
         if not others and own:
+            if (value := _constant(a)) is not None and decided(a, value) == "zero":
+                return REFUTED, f"the left side is {value} for all values of its letters"
             return "undecided", "it is a condition, not an identity"
         if related := self._related(own):
             return "undecided", f"{', '.join(related)} may be used"
@@ -183,37 +200,14 @@ class _Checker:
         point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
         for fixed, changing in ((a, right), (b, left)):
             value = _number(fixed, point)
-            for mutant, said in islice(chain(_whole(changing), slips(changing)), _MOST_SLIPS):
-                try:
-                    other = sympy_expression(mutant, self.opaque)
-                except (TypeError, ValueError, ArithmeticError, AttributeError):
-                    continue
-                if _near(value, _number(other, point)) and decided(fixed, other) == "zero":
+            names = {*letters_of(left), *letters_of(right)}
+            if (ratio := _ratio(fixed, _expression_of(changing, self.opaque), point)) is not None:
+                return f"with the factor {ratio} of the whole they agree"
+            for mutant, said in islice(chain(_whole(changing), slips(changing, names)), _MOST_SLIPS):
+                other = _expression_of(mutant, self.opaque)
+                if other is not None and _near(value, _number(other, point)) and decided(fixed, other) == "zero":
                     return f"with {said} they agree"
         return None
-
-    @staticmethod
-    def _has_opaque(node: Node) -> bool:
-        known = {
-            "sum",
-            "product",
-            "quotient",
-            "power",
-            "negative",
-            "sin",
-            "cos",
-            "tan",
-            "cot",
-            "sinh",
-            "cosh",
-            "tanh",
-            "exp",
-            "sqrt",
-        }
-        return any(
-            isinstance(each, Call) and each.name not in known | {"cross", "dot", "norm", "Abs", "log"}
-            for each in walk(node)
-        )
 
     def _related(self, letters: set[str]) -> list[str]:
         """Equations before that relate these letters and no others, besides definitions that were put in."""
@@ -316,17 +310,14 @@ class _Checker:
                 return
 
     def _difference(self, statement: PrintedStatement) -> sp.Expr | None:
-        if (
-            statement.kind != "equation"
-            or len(statement.sides) != 2
-            or any(self._has_opaque(s.node) for s in statement.sides)
-        ):
+        if statement.kind != "equation" or len(statement.sides) != 2:
             return None
         try:
             left, right = (sympy_expression(side.node, self.opaque) for side in statement.sides)
         except (TypeError, ValueError, ArithmeticError, AttributeError):
             return None
-        return None if isinstance(left, sp.MatrixBase) or isinstance(right, sp.MatrixBase) else left - right
+        vectors = isinstance(left, sp.MatrixBase) or isinstance(right, sp.MatrixBase)
+        return None if vectors or has_opaque(left, right) else left - right
 
     # ---- dimensions and letters
 
@@ -368,10 +359,25 @@ class _Checker:
             yield self._finding(self.readings[0][0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
 
 
-def slips(node: Node) -> Iterator[tuple[Node, str]]:
-    """The node with one sign, one factor 2 or one power changed, and what was changed."""
+def _expression_of(node: Node, opaque: Opaque) -> Any:
+    """The node as a sympy expression; None where it has none."""
+    try:
+        return sympy_expression(node, opaque)
+    except (TypeError, ValueError, ArithmeticError, AttributeError):
+        return None
+
+
+def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
+    """The node with one sign, factor 2, power, index or function changed, and what was changed; names: letters about."""
+    if isinstance(node, Letter) and not node.vector:
+        for name in sorted(names):
+            if name != node.name and name.split("_")[0] == node.name.split("_")[0]:
+                yield Letter(name), f"{name} for {node.name}"
+        yield Call("power", (node, Number(Fraction(2)))), f"{node.name} squared"
     if not isinstance(node, Call):
         return
+    if node.name in _TAKEN_FOR:
+        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
     if node.name == "sum":
         for place, term in enumerate(node.args):
             other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
@@ -384,16 +390,40 @@ def slips(node: Node) -> Iterator[tuple[Node, str]]:
     if node.name == "exp":
         yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
     for place, part in enumerate(node.args):
-        for changed, said in slips(part):
+        for changed, said in slips(part, names):
             yield _with(node, place, changed), said
 
 
 def _whole(node: Node) -> Iterator[tuple[Node, str]]:
-    """The node with its sign or a factor 2 changed."""
+    """The node with its sign changed, or turned over."""
     if not (isinstance(node, Call) and node.name == "sum"):
         yield Call("negative", (node,)), "the sign of the whole changed"
-    yield Call("product", (Number(Fraction(2)), node)), "the whole doubled"
-    yield Call("quotient", (node, Number(Fraction(2)))), "the whole halved"
+    yield Call("quotient", (Number(Fraction(1)), node)), "the whole turned over"
+
+
+def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | None:
+    """The number of few digits by which b is multiplied to be a."""
+    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
+        return None
+    value, other = _number(a, point), _number(b, point)
+    if not (value.is_real and other.is_real and value and other):
+        return None
+    ratio = Fraction(float(value / other)).limit_denominator(100)
+    exact = sp.Rational(ratio.numerator, ratio.denominator)
+    return ratio if ratio > 0 and _near(value, exact * other) and decided(a, exact * b) == "zero" else None
+
+
+def _constant(a: Any) -> sp.Rational | None:
+    """The number that an expression may be, whatever its letters are."""
+    if isinstance(a, sp.MatrixBase):
+        return None
+    values = {}
+    for shift in (3, 7):
+        point = {s: sp.Rational(2 * n + shift, 2 * n + 5) for n, s in enumerate(sorted(a.free_symbols, key=str))}
+        values[shift] = _number(a, point)
+    if not all(value.is_real for value in values.values()) or not _near(*values.values()):
+        return None
+    return sp.Rational(str(Fraction(float(values[3])).limit_denominator(100)))
 
 
 def _with(node: Call, place: int, part: Node) -> Call:

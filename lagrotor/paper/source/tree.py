@@ -55,6 +55,7 @@ _CALLED = FUNCTIONS.keys() - {
     "Rational",
 }
 _MOST_BITS = 20_000  # of a number that is evaluated
+_MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
 _KNOWN = {
@@ -238,11 +239,44 @@ def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
         return sp.Symbol(node.name, real=True)
     if not _transparent(node):
-        return opaque.symbol(node)
+        value = _evaluated(node, opaque)
+        return opaque.symbol(node) if value is None else value
     parts = [sympy_expression(each, opaque) for each in node.args]
     if _too_large(node, parts):
         return opaque.symbol(node)
     return _VALUES[node.name](*parts) if node.name in _VALUES else _KNOWN[node.name](*parts)
+
+
+def has_opaque(*values: Any) -> bool:
+    """Whether a part of an expression stands for itself."""
+    return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
+
+
+def _evaluated(node: Call, opaque: Opaque) -> sp.Expr | None:
+    """A determinant, a sum of a few terms, the derivative or integral of a polynomial of its variable alone; else None."""
+    if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
+        rows = [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
+        return sp.Matrix(rows).det() if len(rows) == len(rows[0]) <= 4 else None
+    if node.name not in ("Sum", "Derivative", "Integral") or not isinstance(node.args[1], Letter):
+        return None
+    inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
+    variable = sp.Symbol(name, real=True)
+    if isinstance(inner, sp.MatrixBase) or has_opaque(inner):
+        return None
+    if node.name == "Sum":
+        ends = [each.value for each in rest if isinstance(each, Number) and each.value.denominator == 1]
+        indexed = any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
+        if len(rest) != 2 or len(ends) != 2 or ends[1] - ends[0] > _MOST_ADDED or indexed:
+            return None
+        return sum((inner.subs(variable, k) for k in range(int(ends[0]), int(ends[1]) + 1)), sp.S.Zero)
+    if inner.free_symbols != {variable} or not inner.is_polynomial(variable):
+        return None
+    if node.name == "Derivative":
+        order = rest[0].value if rest and isinstance(rest[0], Number) else Fraction(len(rest) + 1)
+        return sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
+    return (
+        sp.integrate(inner, (variable, *(sympy_expression(each, opaque) for each in rest))) if len(rest) == 2 else None
+    )
 
 
 _VALUES: dict[str, Any] = {

@@ -72,6 +72,45 @@ def test_a_factor_or_a_sign_of_a_whole_side_is_a_slip(right: str, tmp_path: Path
     assert verdicts(tmp_path, body) == [HOLDS if right.startswith("2") else REFUTED, HOLDS]
 
 
+# A chain, the step that follows it, and the same step with one slip of an author.
+STEPS = [
+    (r"(2ab)^3", "8a^3b^3", "6a^3b^3"),
+    (r"\sqrt{a^2 b^4}", "|a| b^2", "|a| b"),
+    (r"2\sin\alpha\cos\alpha", r"\sin(2\alpha)", r"\cos(2\alpha)"),
+    (r"\frac{1}{1/a + 1/b}", r"\frac{ab}{a + b}", r"\frac{a + b}{ab}"),
+    (r"m_1 v_1 + m_2 v_2 - m_1 v_1", "m_2 v_2", "m_2 v_1"),
+    (r"e^{-2kt} e^{kt}", "e^{-kt}", "e^{kt}"),
+    (r"\cosh^2 x - \sinh^2 x", "1", "-1"),
+    (r"\frac34\cdot\frac25 a", r"\frac{3}{10} a", r"\frac{3}{20} a"),
+    (r"\begin{vmatrix} a & b\\ c & d\end{vmatrix}", "ad - bc", "ad + bc"),
+    (r"\frac{d}{dx} x^3", "3x^2", "3x"),
+    (r"\int_0^a x\,dx", r"\frac{a^2}{2}", "a^2"),
+    (r"\sum_{k=1}^3 k a", "6a", "5a"),
+]
+
+
+@pytest.mark.parametrize(("left", "right", "slip"), STEPS)
+def test_slips_of_factors_powers_indices_and_functions_are_found(
+    left: str, right: str, slip: str, tmp_path: Path
+) -> None:
+    assert verdicts(tmp_path, rf"\[ y = {left} = {right} \]") == [HOLDS]
+    assert verdicts(tmp_path, rf"\[ y = {left} = {slip} \]") == [REFUTED]
+
+
+@pytest.mark.parametrize(
+    "step",
+    [
+        "T + V = 2T",  # the virial theorem
+        "T + V = T",  # V is zero here
+        r"\frac{d}{dx} a x = a",  # a may depend on x
+        r"\sum_{k=1}^2 a_k = 2 a_k",  # a_k is another letter
+        r"\frac{d}{dt} p = p",
+    ],
+)
+def test_conditions_and_what_may_depend_on_a_variable_are_left_alone(step: str, tmp_path: Path) -> None:
+    assert verdicts(tmp_path, rf"\[ E = {step} \]") == ["undecided"]
+
+
 def test_environments_without_end_are_refused_in_words(tmp_path: Path) -> None:
     many = r"\begin{subequations}" * 3000 + r"\[ a = b \]" + r"\end{subequations}" * 3000
     with pytest.raises(InputError, match="nested too deeply"):
