@@ -176,8 +176,8 @@ def readings_command(given: argparse.Namespace) -> int:
         print(wrap(f"{each.id}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
-            left, relation, right = text.partition(" = ")
-            shown = f"{from_latex(left)}{relation}{readable(right)}" if "\\" in left else readable(text)
+            sides = (from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
+            shown = " = ".join(sides)
             print(wrap(f"    read     {shown}", 13))
         for guess in each.guesses:
             print(wrap(f"    guessed  {guess}", 13))

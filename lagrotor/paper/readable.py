@@ -1,10 +1,12 @@
 """Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
 
 import re
+from collections import deque
 from collections.abc import Callable
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
+from lagrotor.paper.source.tokens import Token, tokenize
 from lagrotor.shown import superscript
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
@@ -15,9 +17,13 @@ _SIGNS = {
     "cos": "cos ",
     "quad": " ",
     "qquad": " ",
-    "left": " ",
-    "right": " ",
+    "int": "∫",
+    "sum": "Σ ",
+    "nabla": "∇",
+    "infty": "∞",
+    "approx": " ≈ ",
 }
+_FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "vec", "hat")
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _ARROWS = {" -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
@@ -51,48 +57,63 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
 
 def from_latex(source: str) -> str:
     r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
-    text = re.sub(
-        r"\\(?:text|mathcal|mathrm)\s*\{([^{}]*)\}|\\(?:mathcal|mathrm)\s+(\w)", lambda m: m[1] or m[2], source
-    )
-    text = re.sub(r"\\(?:left|right)\s*(?=[(){}\[\]|.\\])\.?", "", text)
-    text = re.sub(r"([_^])\{(\w|\\\w+)\}", r"\1\2", text)
-    text = re.sub(r"(?<=[A-Za-z])(?=\\(?:vec|hat)\b)", " ", text)
-    text = re.sub(r"\\(?:vec|hat)\s*(?:\{([^{}]*)\})?", lambda m: m[1] or "", text)
-    text = _quotients(text)
-    text = re.sub(r"\\(d?dot)\s*(?:\{\\?(\w+)\}|\\?(\w+?))(?:_\{?(\d+)\}?)?(?![A-Za-z])", _dotted, text)
-    text = re.sub(r"\\([A-Za-z]+)", lambda m: _SIGNS.get(m[1]) or _LETTERS.get(m[1], m[1]), text)
-    text = re.sub(r"_\{?(\d+)\}?", lambda m: m[1].translate(_LOW), text)
-    text = re.sub(r" ?\^\{?(\d+)\}?", lambda m: m[1].translate(_HIGH), text).replace("^T", "ᵀ")
-    text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", text)
-    text = " ".join(re.sub(r"\\[,; !]|\\|[{}]", " ", text).replace("( ", "(").replace(" )", ")").split())
+    tokens = (Token(t.kind, c, t.at) for t in tokenize(source) for c in (t.text if t.kind == "text" else (t.text,)))
+    text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", _line(deque(tokens)))
+    text = " ".join(text.split()).replace("( ", "(").replace(" )", ")")
     return re.sub(r"(^|\()- ", r"\1−", text).replace(" - ", " − ")
 
 
-def _quotients(text: str) -> str:
-    r"""Quotients and roots of LaTeX on one line: \frac{a + b}{c} is (a + b)/c, \sqrt{x} is √x; the inmost first."""
-    for _ in range(text.count("{") + 1):
-        before = text
-        text = re.sub(
-            r"\\[dt]?frac\s*(?:\{([^{}]*)\}|(\d))\s*(?:\{([^{}]*)\}|(\d))",
-            lambda m: f"{_factor(m[1] or m[2])}/{_factor(m[3] or m[4])} ",
-            text,
-        )
-        text = re.sub(r"\\sqrt\s*(?:\{([^{}]*)\}|(\\?\w+))", lambda m: f"√{_factor(m[1] or m[2])}", text)
-        text = re.sub(r"([_^])\{([^{}]*)\}", lambda m: f"{m[1]}{_factor(m[2])}", text)
-        if text == before:
-            break
-    return text
+def _line(rest: deque[Token]) -> str:
+    """What is before the brace that closes the open one, or before the end."""
+    made = ""
+    while rest and (token := rest.popleft()).kind != "close":
+        made = f"{made.rstrip() if token.kind == 'script' else made}{_piece(token, rest)}"
+    return made
+
+
+def _piece(token: Token, rest: deque[Token]) -> str:
+    if token.kind == "open":
+        return _line(rest)
+    if token.kind == "script":
+        inner = _argument(rest).strip()
+        if inner.isdigit():
+            return inner.translate(_LOW if token.text == "_" else _HIGH)
+        return "ᵀ" if (token.text, inner) == ("^", "T") else f"{token.text}{_factor(inner)}"
+    return _command(token.text[1:], rest) if token.kind == "command" else " " if token.kind == "align" else token.text
+
+
+def _argument(rest: deque[Token]) -> str:
+    while rest and not rest[0].text.strip():
+        rest.popleft()
+    return _piece(rest.popleft(), rest) if rest else ""
+
+
+def _command(name: str, rest: deque[Token]) -> str:
+    if name in ("frac", "dfrac", "tfrac"):
+        return f"{_factor(_argument(rest))}/{_factor(_argument(rest))} "
+    if name == "partial":
+        return f"∂{_argument(rest)}"
+    if name == "sqrt":
+        return f"√{_factor(_argument(rest))}"
+    if name in ("dot", "ddot"):
+        inner = _argument(rest).strip()
+        return inner[:1] + _ABOVE[f"_{name}"] + inner[1:]
+    if name in ("left", "right"):
+        if rest and rest[0].text == ".":
+            rest.popleft()
+        return ""
+    if name in ("begin", "end"):
+        _argument(rest)
+        return " "
+    if name in _FONTS:
+        return f" {_argument(rest)}" if name in ("vec", "hat") else _argument(rest)
+    return _SIGNS.get(name) or _LETTERS.get(name, name if name.isalpha() else " ")
 
 
 def _factor(text: str) -> str:
     """In brackets unless it is one letter or number, indexed or raised."""
-    alone = re.fullmatch(r"\s*(?:\\?[\w.]+|\([^()]*\))(?:_\\?\w+)?(?:\^\w)?\s*", text)
+    alone = re.fullmatch(r"\s*(?:[\w.∂\u0307\u0308]+|\([^()]*\))(?:_\w+)?(?:\^\w)?\s*", text)
     return text.strip() if alone else f"({text.strip()})"
-
-
-def _dotted(match: re.Match[str]) -> str:
-    name, index = match[2] or match[3], match[4] or ""
-    return _LETTERS.get(name, name) + _ABOVE[f"_{match[1]}"] + index.translate(_LOW)
 
 
 def _letter(match: re.Match[str]) -> str:

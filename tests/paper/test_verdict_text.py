@@ -19,6 +19,9 @@ from lagrotor.paper.verdict_text import in_words
         (r"\sqrt{a^{2} - b^{2}}", "√(a² − b²)"),
         (r"R I_{0} R^{T}", "R I₀ Rᵀ"),
         (r"\sin^{2}{\theta} \left(a - b\right)", "sin² θ (a − b)"),
+        (r"\frac{\partial L}{\partial\dot\theta}", "∂L/∂θ̇"),
+        (r"\tfrac12 m \ddot{x}_{12}", "1/2 m x\u0308₁₂"),
+        (r"\left.\int_0^T \mathbf{F}\,\mathrm{d}t\right|_{\text{(path)}}", "∫₀ᵀ F dt|_(path)"),
     ],
 )
 def test_a_formula_is_one_line_of_text(source: str, text: str) -> None:
