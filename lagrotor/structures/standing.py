@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import SingularError
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex
+from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_FREEDOMS,
@@ -61,15 +61,16 @@ class Standing(Shown):
         - "falls at a resonance": from every push of more than PUSH times its natural rate, in some direction, and from
           smaller ones as `largest_push` says;
         - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
-        - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back, or
-          there are more degrees of freedom than are expanded.
+        - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
+          friction acts, or there are more degrees of freedom than are expanded.
         """
         linear = small_motion(self.structure)
         if not self.stands:
             return "never"
         if linear.freedoms and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
             return "holds"
-        if linear.damping.any() or linear.freedoms > MOST_FREEDOMS or not len(signed_rates(linear)):
+        rubs = linear.damping.any() or coefficients(self.structure).decay.any()
+        if rubs or linear.freedoms > MOST_FREEDOMS or not len(signed_rates(linear)):
             return "to first order"
         try:
             found = self.resonance

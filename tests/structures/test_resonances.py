@@ -231,6 +231,7 @@ def test_kinds_of_what_stands_and_what_does_not():
     hanging = Structure(**CORNER | {"hinge": 60.0}, spins=20).stands()
     assert hanging.kind == "holds" and hanging.fall_time(0.1) == inf and "stays bounded" in hanging.why
     assert Structure(joints=[(0, 0)], spins=[10]).stands().kind == "to first order"
+    assert Structure(**CORNER, spins=[60, 0, 60], spin_friction=0.1).stands().kind == "to first order"
     many = [(k, j) for k in range(3) for j in range(2)]
     assert Structure(joints=many, spins=60, **WEIGHT).stands().kind == "to first order"
     assert "holds" in repr(example("corner").stands())
