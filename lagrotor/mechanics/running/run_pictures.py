@@ -16,10 +16,9 @@ from lagrotor.mechanics.running.motion import SampledMotion
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
-    from lagrotor.drawing.turning_view import TurningView
+    from lagrotor.drawing.view import View
 
 Point = Sequence[sp.Expr]
-_MOST_FRAMES = 240  # of a view
 _NOTHING = (
     "{}: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), (x, y, z)], …] with "
     "positions in the coordinates, or build L from Frame(c).body(…)"
@@ -62,27 +61,26 @@ def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str
     return f"${latex(what)}$", run.evaluate(what)
 
 
-def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "TurningView":
+def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
     """The motion in three dimensions that turn, of its bodies with their frames, and of `lines` as `animate` takes
     them: a notebook shows it, and `.save("motion.html")` writes it.
 
     Raises InputError as `animate` does.
     """
-    from lagrotor.drawing.turning_view import RigidOutline, TurningView
+    from lagrotor.drawing.view import view_lines, view_times
+    from lagrotor.drawing.wheel import ROTORS
 
-    frames = run if len(run.t) <= _MOST_FRAMES else run.at(np.linspace(run.t[0], run.t[-1], _MOST_FRAMES))
+    frames = run.at(view_times(run.t[0], run.t[-1]))
     drawn = [
         np.stack([_vectors(frames, vector_of("view: a point of lines", e, 3)) for e in _sequence(line)], 1)
         for line in (_sequence(lines) if lines else ())
     ]
-    bodies = []
-    for body in run.system.bodies:
-        origin, axes = _pose(frames, body)
-        outline = tuple(np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline)
-        bodies.append(RigidOutline(outline, origin, axes))
-    if not (bodies or drawn):
+    outlines = [(ROTORS[i % len(ROTORS)], _outline(frames, body)) for i, body in enumerate(run.system.bodies)]
+    inks = [*(ink for ink, carried in outlines for _ in carried), *(ROTORS[i % len(ROTORS)] for i in range(len(drawn)))]
+    moving = [*(line for _, carried in outlines for line in carried), *drawn]
+    if not moving:
         raise InputError(_NOTHING.format("view"))
-    return TurningView(frames.t, tuple(bodies), tuple(drawn), f"motion of {', '.join(map(str, run.system.c.q))}")
+    return view_lines(frames.t, moving, inks, f"motion of {', '.join(map(str, run.system.c.q))}")
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
@@ -115,16 +113,10 @@ def _sequence(given: Sequence[Any]) -> Sequence[Any]:
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:
     """The body's lines carried along, each (m, p, 3)."""
-    origin, axes = _pose(frames, body)
-    lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]
-    return [origin[:, None] + line @ axes.swapaxes(1, 2) for line in lines]
-
-
-def _pose(frames: SampledMotion, body: Body) -> tuple[Array, Array]:
-    """The origin of a body's frame (m, 3) and its axes as columns (m, 3, 3)."""
     origin = _vectors(frames, body.frame.place())
     axes = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
-    return origin, np.stack(axes, -1)
+    lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]
+    return [origin[:, None] + line @ np.stack(axes, 1) for line in lines]
 
 
 def _vectors(frames: SampledMotion, point: Point) -> Array:
