@@ -74,7 +74,15 @@ def _in_box(
     system: Equations, values: Mapping[Any, Any], box: Mapping[Any, tuple[Any, Any]]
 ) -> tuple[Equilibrium, ...]:
     """All equilibria in a box, in numbers."""
+    from lagrotor.mechanics.running.function_values import FunctionValue, put_functions
+
+    system, values = put_functions("equilibria", system, values)
+    if called := [str(name) for name, value in values.items() if isinstance(value, FunctionValue)]:
+        raise InputError(
+            f"equilibria: {called[0]} is a callable or a table, of which nothing is proved in a box: give an expression"
+        )
     c = system.c
+    values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if system.multipliers:
         raise InputError(
             "equilibria: a box is searched without constraints: solve them for coordinates by in_coordinates"

@@ -30,6 +30,10 @@ class Pathway:
     c: Coordinates
     lengths: tuple[tuple[sp.Expr, sp.Expr], ...]
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.c, Coordinates):
+            raise InputError(f"Pathway: {self.c!r} must be Coordinates: coordinates('phi theta psi') makes them")
+
     @classmethod
     def line(cls, c: Coordinates, P: Vector, Q: Vector) -> "Pathway":
         """The straight line from P to Q. Raises InputError for what is no point."""

@@ -152,6 +152,11 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     named = {
         str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in known
     }
+    if letters := sorted(known.keys() & {str(s) for e in parts for s in e.free_symbols}):
+        raise InputError(f"{where}: {letters[0]} is a letter of the system and a function in it: rename one")
+    names = [str(key) for key in values]
+    if twice := sorted(name for name in named if names.count(name) > 1):
+        raise InputError(f"{where}: {twice[0]} with two values, of the function and of its name: give one")
     if strangers := sorted(named.keys() - known.keys()):
         raise InputError(
             f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], known)}"

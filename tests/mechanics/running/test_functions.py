@@ -146,12 +146,15 @@ def test_what_is_no_function_is_refused_in_words() -> None:
         WELL.simulate({m: 1, U: [abs, lambda s: None]}, (0.5,), (0,), T)
     for values, words in (
         ({m: 1}, "U without a value"),
+        ({m: 1, U: x, "U": 1}, "two values"),
         ({m: 1, U: x**2, F: x}, "function F, which the system does not"),
     ):
         with pytest.raises(InputError, match=words):
             WELL.simulate(values, (0.5,), (0,), T)
     with pytest.raises(InputError, match="engine='core'"):
         WELL.simulate({m: 1, U: ([0, 1], [0, 1])}, (0.5,), (0,), T, engine="fast")
+    with pytest.raises(InputError, match="a letter of the system and a function"):
+        System(C, m * v**2 / 2 - sp.Function("m")(x)).simulate({m: 1, "m": x}, (0,), (0,), T)
     for potential, words in (
         (sp.Function("x")(t), "plain"),
         (sp.Derivative(x, t), "plain"),
@@ -159,3 +162,13 @@ def test_what_is_no_function_is_refused_in_words() -> None:
     ):
         with pytest.raises(InputError, match=words):
             System(C, v**2 / 2 - potential)
+
+
+def test_all_equilibria_of_a_written_potential_are_found() -> None:
+    wells = WELL.equilibria(values={m: 1, U: x**4 - 2 * x**2}, box={x: (-2, 2.5)})
+    assert [float(e.at[x]) for e in wells] == pytest.approx([-1, 0, 1])
+    for value, words in ((lambda s: s, "callable or a table"), (([0, 1], [0, 1]), "callable or a table")):
+        with pytest.raises(InputError, match=words):
+            WELL.equilibria(values={m: 1, U: value}, box={x: (-2, 2.5)})
+    with pytest.raises(InputError, match="U without a value"):
+        WELL.equilibria(values={m: 1}, box={x: (-2, 2.5)})
