@@ -339,6 +339,9 @@ class _Reader:
         if item.kind in ("math", "param", "stray", "raw"):
             self.place -= 1
             self.stop("cannot stand in a formula", "leave it out")
+        if text == "." and [each.text for each in self.items[self.place : self.place + 2]] == [".", "."]:
+            self.place += 2
+            return [Box("dots", "dots", item.at, self.end)]
         if text.isdigit() or (text == "." and (after := self.peek()) is not None and after.text.isdigit()):
             return [self.number(item)]
         if (name := _letter_of(text)) is not None:

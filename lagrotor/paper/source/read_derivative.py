@@ -179,7 +179,11 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
     order = _order(reader, box)
     variable = letter_of(reader, box.sub[0])[0]
-    if isinstance(variable, Letter) and variable.name in _INDICES and variable.name not in reader.notation.bare:
+    if (
+        isinstance(variable, Letter)
+        and variable.name in _INDICES
+        and (variable.name in reader.lowered or variable.name not in reader.notation.bare)
+    ):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind

@@ -199,7 +199,13 @@ def _joined(
     reader: FormulaReader, made: Node | None, operator: str, part: list[Box], more: bool, before: list[Box]
 ) -> Node:
     if operator == "/":
-        part = strip(part)
+        part, before = strip(part), strip(before)
+        if (
+            part
+            and before
+            and all(b.kind == "letter" and b.upright and len(b.name) == 1 for b in (part[0], before[-1]))
+        ):
+            raise FormulaError(part[0].at, "whether upright letters are a unit is open", "write \\mathrm{m/s}")
         right = reader.product(part)
         factors = _count(reader, part)
         assert made is not None

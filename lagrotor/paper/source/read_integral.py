@@ -92,7 +92,7 @@ def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[
             if inner:
                 inner -= 1
                 continue
-            return place + 1, False
+            return (len(rest) if place == first else place + 1), False
     raise FormulaError(box.at, "the differential of the integral is missing", "write d and its letter")
 
 

@@ -43,6 +43,9 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
                 raise FormulaError(box.at, "whether delta is Dirac's function or a power is open", "write \\cdot")
             return Call(f"delta__{power}", (inner,)), place + 2
     _check_scripts(reader, row, place)
+    if place and _may_call(row, place) and _is_group(row[place - 1 : place + 2]):
+        name = f"{row[place - 1].name}{box.name}"
+        raise FormulaError(box.at, f"whether {name}(…) is one name is open", f"write \\mathrm{{{name}}}")
     if _may_call(row, place):
         called = is_called(reader, box, row[place + 1])
         if called is None:
@@ -73,6 +76,13 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             )
     node, raised = letter_of(reader, box)
     return (node if raised else power_of(reader, node, box)), place + 1
+
+
+def _is_group(row: list[Box]) -> bool:
+    """Whether two capitals and a list or a number in brackets follow each other, as in SO(3, 1)."""
+    capitals = all(box.kind == "letter" and box.name.isupper() and not (box.sub or box.sup) for box in row[:2])
+    held = row[2].parts[0]
+    return capitals and (any(box.kind == "comma" for box in held) or [box.kind for box in held] == ["number"])
 
 
 def _check_scripts(reader: FormulaReader, row: list[Box], place: int) -> None:
@@ -122,6 +132,8 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return None
     if simple_argument(content) and (bracket.sup is None or (evidence is not None and len(top) == 1)):
         return True if evidence is not None or any(b.kind == "letter" for b in top) else None
+    if evidence is None and top and all(b.kind == "number" or b.name == "/" for b in top):  # zeta(3/2)
+        return None
     if evidence is None:
         late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
         if not late and any(b.kind == "letter" and b.name == "t" for b in top):  # γ(x - vt), g(x + ct)
@@ -180,7 +192,7 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
         return True
     if box.sup is None:
         return False
-    symbolic = any(b.kind == "letter" or b.parts for b in box.sup)
+    symbolic = any(b.kind in ("letter", "infinity") or b.parts for b in box.sup)
     if not symbolic:
         if known.exponential and "e" not in known.bare:
             raise FormulaError(

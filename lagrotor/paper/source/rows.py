@@ -153,7 +153,7 @@ def is_moving(box: Box) -> bool:
 def is_unit_like(text: str) -> bool:
     return (
         bool(re.fullmatch(r"[A-Za-zµ/^\d{}\s.·~-]{1,12}", text))
-        and " and " not in text
+        and not re.search(r"[A-Za-z]{3,} +[A-Za-z]{3,}| and ", text)
         and text not in ("if", "for", "as", "or")
     )
 

@@ -92,6 +92,8 @@ def index_of(box: Box) -> list[str] | None:
     found: list[str] = []
     alone = True  # a comma or a Greek letter ends a run of letters
     for part in box.sub or ():
+        if part.kind == "comma" and part.name == ".":
+            return None
         if part.kind in ("comma", "thin"):
             alone = alone or part.kind == "comma"
             continue

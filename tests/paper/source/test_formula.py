@@ -89,6 +89,9 @@ READ = {
     r"S = \sum_{i\in N} a_i + \sum_{\text{spins}} b": "S = Sum(a_i, In(i, N)) + Sum(b, all_spins)",
     r"\overline{u + v} = \vec{\vec\sigma} - \vec\sigma": "bar(u + v) = sigmavecvec - sigmavec",
     r"I = \int dx\,(x + 1)": "I = Integral(x + 1, x)",
+    r"G = \int\frac{dE}{2\pi} f(E, x)": "G = Integral(1/(2*pi)*f(E, x), E)",
+    r"m = 0, \pm 1, \pm 2, ...": "m = values(0, plus_minus(1), plus_minus(2), dots())",
+    r"n = \frac{1}{e^{-\infty} + 1}": "n = 1/(exp(-oo) + 1)",
     r"t = \text{tr}(A) + \sum_{ij} a_{ij}": "t = tr(A) + Sum(a_ij, i, all, all, j)",
     r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t":
         "differential(x)*differential(y)*differential(z) = differential(V)*differential(s)*differential(t)",
@@ -175,6 +178,10 @@ OPEN = {
     r"(\psi, Q\psi) = \sum_n a_n b_n": "components or are an inner product",
     r"Z = \int f\,dx\,dy": "two differentials follow one integral",
     r"ACC = \frac{TP}{N}": "ACC is a word",
+    r"T = V\zeta(3/2)": "whether zeta(…) is a function or a product",
+    r"SO(3, 1) = G": "whether SO(…) is one name",
+    r"\epsilon_{12...k} = 1": "an index is not letters and numbers",
+    r"c = 3~{\rm m/s}": "whether upright letters are a unit",
     r"r = \left(\frac{E_r}{E_i}\right)_\parallel": "a bracket has an index",
     r"R_\mu^{t^*} = 1": "whether the marked t is an upper index or a power",
     r"Y = P_l^m(\cos\theta)": "whether m is an upper index or a power",
@@ -221,6 +228,8 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     assert said(r"H = 2\pi k", r"\pi(x) = \dot\phi") == "H = 2*pi*k", "a multiple of the number"
     assert said(r"a\delta^3(x - y) = b") == "a*delta__3(x - y) = b"
     assert "Dirac's function or a power" in said(r"a\delta^3(x - y) = b", r"\delta = 1")
+    assert said(r"A_\mu = \partial_\mu U", r"\mu = 1") == "A_mu = Derivative(U, x__mu)"
+    assert said(r"\partial_\mu U = 1", r"\mu = 1") == "Derivative(U, mu) = 1", "a scale"
     assert said(r"y = r(t)^2", "r(t) = 1") == "y = r**2", "a power of what is called"
     assert said(r"\dot x = f(x + 1)", "f(x) = x") == "x_dot = f(x + 1)", "f is printed with its argument only"
     assert said(r"\delta W = 0", r"\delta") == "delta_W = 0", "the sign by itself in a sentence"
