@@ -93,7 +93,8 @@ class Equations:
     def _take_velocities(self) -> None:
         """The velocities as pairs, those of ball joints among them, and put in where an expression has them."""
         joints = self._ball_joints()
-        given = dict(check_velocities(self.c, self.velocities))
+        named = {u: e for joint in joints for u, e in joint.own_velocities.items()}
+        given = dict(check_velocities(self.c, self.velocities, named))
         turned = {q: joint for joint in joints for q in joint.quaternion}
         if joints and not given:
             for q, v in zip(self.c.q, self.c.v, strict=True):

@@ -55,21 +55,28 @@ class Kinematics:
     poles: tuple[sp.Expr, ...]
 
 
-def check_velocities(c: Coordinates, given: Any) -> Pairs:
-    """The velocities as pairs (u, expression affine in v). Raises InputError for what is none."""
+def check_velocities(c: Coordinates, given: Any, named: Mapping[sp.Symbol, sp.Expr] | None = None) -> Pairs:
+    """The velocities as pairs (u, expression affine in v). named: others, which the expressions may have.
+
+    Raises InputError for what is none.
+    """
     pairs = list(given.items()) if isinstance(given, Mapping) else given
     if not isinstance(pairs, list | tuple) or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise InputError(
             f"System: velocities = {given!r} must be {{symbol: expression in q, v and t, …}}, a dictionary"
         )
     checked: list[Stage] = []
+    known = dict(named or {})
     for u, e in pairs:
         name = f"System: velocities[{u}]"
         if not isinstance(u, sp.Symbol) or u in {*c.q, *c.a, t}:
             raise InputError(f"{name}: a velocity of one's own is named by a symbol that nothing else has: rename it")
-        e = expression(name, e)
+        e = expression(name, e).xreplace(known)
         if u in c.v and e != u:
             raise InputError(f"{name} = {e}: {u} is the velocity of a coordinate, which stays what it is: rename it")
+        later = {other for other, form in pairs if other != form and other not in known}
+        if wrong := e.free_symbols & later:
+            raise InputError(f"{name} = {e} contains {min(map(str, wrong))}, which is given after it: put that first")
         if wrong := e.free_symbols & {*c.a}:
             raise InputError(f"{name} = {e} contains {min(map(str, wrong))}: write it in q, v and t")
         slope = jacobian([e], c.v)
@@ -78,6 +85,7 @@ def check_velocities(c: Coordinates, given: Any) -> Pairs:
         if any(decide_zero(entry).answer != "zero" for entry in jacobian(list(slope), c.v)):
             raise InputError(f"{name} = {e} is not affine in the velocities: write it as sum_j A_j(q, t) v_j + a(q, t)")
         checked.append((u, e))
+        known |= {u: e} if u != e else {}
     names = [str(u) for u, _ in checked]
     if len({*names}) < len(names):
         raise InputError(f"System: velocities {', '.join(names)}: each needs a name of its own")

@@ -8,6 +8,7 @@ from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Event, Impact, System, coordinates, motion_program, t
 from lagrotor.mechanics.running.programs import equations_of_speeds, function_program
 from lagrotor.numerics import operations
+from tests.mechanics.running.test_state_space import TILT, bicycle, ordered, published
 
 I1, I2, I3, P, m, a, g = sp.symbols("I_1 I_2 I_3 P m a g", positive=True)
 p, q, r, u, w = sp.symbols("p q r u w", real=True)
@@ -184,6 +185,22 @@ def test_motions_are_linearised_in_velocities_of_ones_own() -> None:
         disc().linearise({"psi": 0, "phi": 0, "gamma_dot": 1}, {g: 9.81, a: 0.4, m: 1})
 
 
+@pytest.mark.slow
+def test_the_benchmark_bicycle_moves_in_three_velocities() -> None:
+    """Lean, steer and rear wheel, from bodies; nothing but its three degrees of freedom is left to be integrated."""
+    base = bicycle()
+    lean, steer, roll = sp.symbols("u_lean u_steer u_roll", real=True)
+    own = {lean: base.c.v[3], steer: base.c.v[5], roll: base.c.v[6]}
+    system = System(base.c, base.lagrangian, base.constraints, base.rolling, velocities=own)
+    assert not system.left and len(system.kinematics.used) == 5  # type: ignore[union-attr]
+    assert operations(motion_program(system).program) < 3400
+    for speed in (2.0, 5.0, 8.0):
+        at = {str(q): 0.0 for q in base.c.q} | {"u_roll": speed / 0.3}
+        rates = system.linearise(at, {TILT: np.pi / 10}).rates
+        moving = rates[np.argsort(np.abs(rates))[-4:]]
+        np.testing.assert_allclose(ordered(moving), ordered(published(speed).astype(complex)), rtol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("velocities", "words"),
     [
@@ -196,6 +213,8 @@ def test_motions_are_linearised_in_velocities_of_ones_own() -> None:
         (lambda c: {u: c.v[0] ** 2, w: c.v[1]}, "not affine"),
         (lambda c: {u: c.a[0], w: c.v[1]}, "contains x_ddot"),
         (lambda c: {u: c.v[0] + c.v[1], w: 2 * c.v[0] + 2 * c.v[1]}, "w follows from those before it"),
+        (lambda c: {u: c.v[0] + w, w: c.v[1]}, "given after it"),
+        (lambda c: {u: c.v[0] + u, w: c.v[1]}, "given after it"),
         (lambda c: {u: c.v[0]}, r"do not give y_dot: 1 more"),
         (lambda c: {u: c.v[0], w: c.v[1], r: c.v[0] - c.v[1]}, "at most as many"),
     ],

@@ -25,7 +25,7 @@ from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import with_jets
-from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t
+from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
 from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
@@ -200,8 +200,10 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     symbols = set().union(*(e.free_symbols for e in expressions))
     if not symbols & {*system.c.a, *system.multipliers}:
         return _program(states, velocity_stages(system), expressions)
-    stages, a, lam = constrained_motion(system)
-    made = dict(zip((*system.c.a, *system.multipliers), (*a, *lam), strict=True))
+    left = tuple(system.multipliers[i] for i in system.left)
+    every = bool(symbols & {*system.multipliers} - {*left})
+    stages, a, lam = constrained_motion(system, every)
+    made = dict(zip((*system.c.a, *(system.multipliers if every else left)), (*a, *lam), strict=True))
     return _program(states, stages, [e.xreplace(made) for e in expressions])
 
 
@@ -216,13 +218,14 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """(q, v, t) → the Jacobi integral."""
-    tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
+    """(q, u, t) → the Jacobi integral."""
+    base = _joint_speeds(system) or system
+    tree = tree_of(base) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return function_program(system, system.energy)
     keep = Stages()
-    energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *system.speeds), keep)
-    return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *keep.made], [energy])
+    energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *base.speeds), keep)
+    return _program((*system.c.q, *system.speeds, t), [*_base_stages(system, base), *keep.made], [energy])
 
 
 def _is_plain(name: str) -> bool:
@@ -239,8 +242,8 @@ def depends_on_time(system: Equations) -> bool:
     return any(t in e.free_symbols for e in expressions)
 
 
-def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, and accelerations and multipliers of all constraints made of them.
+def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
+    """Stages, and accelerations and multipliers made of them; of all constraints, or of those that are left.
 
     Those of constraints that velocities of one's own keep are what is missing in M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ.
     """
@@ -250,11 +253,11 @@ def constrained_motion(system: Equations) -> tuple[list[Stage], list[sp.Expr], l
         return stages, rates, lam
     a = given.B * sp.Matrix(rates) + given.alpha
     multipliers = dict(zip(given.left, lam, strict=True))
-    if given.used:
+    if given.used and every:
         held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
         missing = given.inverse.T * (system.mass * a + system.bias - system.push - held)
         multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
-    return stages, list(a), [multipliers[i] for i in range(len(multipliers))]
+    return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
 
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
@@ -263,9 +266,30 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     G, gamma = rows_left(system)
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma)
+    if (base := _joint_speeds(system)) is not None and sp.count_ops(system.L) > _REDUCED:
+        stages, a, held = constrained_motion(base, every=False)
+        lam = dict(zip(base.left, held, strict=True))
+        own = sp.Matrix([e for _, e in system.velocities])
+        rates = own.applyfunc(lambda e: total_derivative(e, system.c)).xreplace(dict(zip(system.c.a, a, strict=True)))
+        return [*_base_stages(system, base), *stages], list(rates), [lam[i] for i in system.left]
     (_, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
     stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T), "_m")
     return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma)
+
+
+@lru_cache(maxsize=64)
+def _joint_speeds(system: Equations) -> Equations | None:
+    """A tree of bodies in the velocities of its joints, where those of the system are others."""
+    if system.kinematics is None or not system.bodies or len(system.c.q) < LEAST_TREE:
+        return None
+    base = replace(system, velocities=())
+    return base if tree_of(base) is not None else None
+
+
+def _base_stages(system: Equations, base: Equations) -> list[Stage]:
+    """v, and of it the velocities of the joints."""
+    known = {*system.speeds, *system.c.v}
+    return [*velocity_stages(system), *((u, e) for u, e in base.velocities if u not in known)]
 
 
 @lru_cache(maxsize=64)

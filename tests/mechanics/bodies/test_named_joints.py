@@ -12,6 +12,7 @@ from scipy.special import ellipj
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics import Frame, System, coordinates, motion_program
 from lagrotor.mechanics.bodies.trees import tree_of
+from lagrotor.mechanics.running import programs
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics import operations
 
@@ -295,6 +296,30 @@ def test_a_loop_of_ball_joints_moves_as_a_pendulum_about_the_line_of_its_ends() 
     plane = twin.simulate({s: VALUES[s] for s in (m, l, g, I1)}, (0.8,), (0,), np.linspace(0, 2, 9))
     np.testing.assert_allclose(run.u[:, 0], plane.v[:, 0], atol=1e-6)
     assert np.abs(run.u[:, 1:]).max() < 1e-9 and run.drift.max() < 1e-10
+
+
+@pytest.mark.parametrize("written", [True, False])
+def test_a_tree_moves_alike_in_velocities_that_are_no_joints(written: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ball joint and a hinge, with the speed of a point for the hinge's rate, and a wire that stays a constraint: from the
+    Lagrangian as it is written, and by the recursion, which longer ones keep."""
+    if not written:
+        monkeypatch.setattr(programs, "_REDUCED", 0)
+        function_program.cache_clear()
+    c = coordinates("q0 q1 q2 q3 a")
+    first = Frame(c).ball("q0 q1 q2 q3", omega="p q r")
+    arm = first.moved(l, 0, l / 2).pin(c.q[4], "y")
+    bodies = [first.body(m, (I1, I2, I3), (l / 3, 0, l)), arm.body(m / 2, (I2, I3, I1), (0, l / 2, l))]
+    L = sum((b.kinetic - b.potential(GRAVITY) for b in bodies), sp.S.Zero)
+    wire = (arm.place((0, 0, l))[0],)
+    speed, p = sp.Symbol("s", real=True), first.omega[0]
+    natural = System(c, L, wire)
+    own = System(c, L, wire, velocities={speed: l * c.v[4] * (2 + sp.cos(c.q[4])) + p})
+    assert own.speeds == (speed, *first.omega) and tree_of(own) is None and own.left == natural.left == (0,)
+    q = [*of_angles(np.array([0.3, 0.7, 0.2])), 0.4]
+    twin = np.array([*q, 0.3, -0.2, 0.5, 0.7])
+    y = np.array([*q, VALUES[l] * 0.7 * (2 + np.cos(0.4)) + 0.3, 0.3, -0.2, 0.5])
+    wanted = (*c.v, *c.a, natural.multipliers[0], natural.energy)
+    np.testing.assert_allclose(at(own, y, *wanted), at(natural, twin, *wanted), rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize(
