@@ -55,6 +55,19 @@ def test_one_equation_checked() -> None:
     assert ends[-1][0] == "refuted" and ends[-1][2].startswith("holds")
 
 
+def test_velocities_and_joints() -> None:
+    names, ends = ran("velocities_and_joints")
+    assert (ends[0] - names["top"].hamel).is_zero_matrix and len(ends[1]) == 2
+    assert (
+        abs(ends[2][1]) < 1e-6
+        and ends[2][0] == pytest.approx(np.sqrt(0.45 * 9), abs=1e-6)
+        and names["run"].v.shape[1] == 3
+    )
+    error, lowest = ends[3]
+    assert error < 1e-9 and lowest > 0.99, "a fast top sleeps"
+    assert ends[4] == ("zero", True)
+
+
 def test_an_orbit_proved() -> None:
     pytest.importorskip("flint", reason="the extra `proof` is not installed")
     names, ends = ran("an_orbit_proved")

@@ -32,7 +32,7 @@ from lagrotor.mechanics.lagrangian import (
     t,
     total_derivative,
 )
-from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, check_velocities, kinematics
+from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, boltzmann_hamel, check_velocities, kinematics
 
 _FAST = 1000  # by which random velocities are multiplied where friction must have grown
 
@@ -92,7 +92,7 @@ class Equations:
 
     def _take_velocities(self) -> None:
         """The velocities as pairs, those of ball joints among them, and put in where an expression has them."""
-        joints = self._ball_joints()
+        joints = self.ball_joints
         named = {u: e for joint in joints for u, e in joint.own_velocities.items()}
         given = dict(check_velocities(self.c, self.velocities, named))
         turned = {q: joint for joint in joints for q in joint.quaternion}
@@ -118,7 +118,8 @@ class Equations:
         if hasattr(self.lagrangian, "xreplace"):
             object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(own))
 
-    def _ball_joints(self) -> list[Any]:
+    @property
+    def ball_joints(self) -> list[Any]:
         """The frames of ball joints that carry bodies, from the ground outward."""
         steps = (frame for body in self.bodies for frame in reversed(body.frame.to_the_ground))
         return list(dict.fromkeys(frame for frame in steps if frame.omega))
@@ -197,7 +198,7 @@ class Equations:
         """How v follows from velocities of one's own, where there are any."""
         if not self.velocities:
             return None
-        units = [self.constraints.index(joint.unit_length) for joint in self._ball_joints()]
+        units = [self.constraints.index(joint.unit_length) for joint in self.ball_joints]
         first = [*units, *range(len(self.constraints), len(self.residual))]
         return kinematics(self.c, tuple(self.velocities), self.constraints, self.residual, first)
 
@@ -254,6 +255,24 @@ class Equations:
         """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
         return free.euler_lagrange(self.L, self.c) - self.push - self.rows.T * lam
+
+    @cached_property
+    def hamel(self) -> sp.Matrix:
+        """The equations of Boltzmann and Hamel in velocities of one's own, M u' + h − Bᵀ Q − (G' B)ᵀ λ, shape (m, 1), zero
+        along a motion; u' has the name of u with _dot. See `quasi_velocities`.
+
+        Raises InputError where there are none, or v is too long to be written in them.
+        """
+        given = self.kinematics
+        if given is None or given.stages:
+            lack = "has no velocities of its own: give velocities={…}" if given is None else "has too long an inverse"
+            raise InputError(f"hamel: the system {lack}")
+        put = dict(zip(self.c.v, given.velocity, strict=True))
+        M, h = boltzmann_hamel(self.L, self.c, given, self.speeds)
+        rates = sp.Matrix([sp.Symbol(f"{u}_dot", real=True) for u in self.speeds])
+        lam = sp.Matrix(len(given.left), 1, [self.multipliers[i] for i in given.left])
+        rows = self.rows.extract(list(given.left), list(range(len(self.c.q))))
+        return M * rates + h - given.B.T * (self.push + rows.T * lam).xreplace(put)
 
     @property
     def energy(self) -> sp.Expr:

@@ -30,6 +30,7 @@ from lagrotor.mechanics.lagrangian import (
     t,
     total_derivative,
 )
+from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 
 Kind = TypeVar("Kind", bound=Equations)
 
@@ -107,12 +108,29 @@ def conserved(system: Equations, f: sp.Expr) -> Decision:
     Under constraints the accelerations are those of a consistent state; what vanishes only by virtue of the constraints
     is "undecided".
     """
-    a, _ = constrained_accelerations(system)
-    moved = total_derivative(expression("conserved: f", f), system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
+    f = expression("conserved: f", f)
+    if system.kinematics is not None and not system.kinematics.stages and not system.left:
+        moved = _rate_along_speeds(system, f)
+    else:
+        a, _ = constrained_accelerations(system)
+        moved = total_derivative(f, system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
     decision = decide_zero(moved)
     if decision.answer == "nonzero" and system.multipliers:
         return replace(decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}")
     return decision
+
+
+def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
+    """df/dt in q, u and t, with u' from the equations of Boltzmann and Hamel; unit quaternions have q0 > 0."""
+    given, c, u = system.kinematics, system.c, system.speeds
+    assert given is not None
+    put = dict(zip(c.v, given.velocity, strict=True))
+    M, h = boltzmann_hamel(system.L, c, given, u)
+    singular = f"conserved: the mass matrix is singular in {', '.join(map(str, u))}: use fewer coordinates"
+    rates = linear_solve(M, given.B.T * system.push.xreplace(put) - h, singular)
+    moved = along(f.xreplace(put), (*c.q, t, *u), (*given.velocity, 1, *rates))
+    unit = {q[0]: sp.sqrt(1 - sum(x**2 for x in q[1:])) for q in (joint.quaternion for joint in system.ball_joints)}
+    return moved.xreplace(unit)
 
 
 def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:

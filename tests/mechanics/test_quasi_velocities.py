@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import Event, Impact, System, coordinates, motion_program, t
+from lagrotor.mechanics import Event, Frame, Impact, System, coordinates, motion_program, t
 from lagrotor.mechanics.running.programs import equations_of_speeds, function_program
 from lagrotor.numerics import operations
 from tests.mechanics.running.test_state_space import TILT, bicycle, ordered, published
@@ -77,6 +77,8 @@ def test_a_top_in_its_own_angular_velocities_obeys_eulers_equations() -> None:
     torque = P * sp.sin(theta) * sp.Matrix([sp.cos(psi), -sp.sin(psi), 0])
     euler = sp.Matrix([(I2 - I3) * q * r, (I3 - I1) * r * p, (I1 - I2) * p * q]) + torque
     assert (push - euler).expand().is_zero_matrix
+    u_dot = sp.Matrix(sp.symbols("p_dot q_dot r_dot", real=True))
+    assert (system.hamel - (M * u_dot - euler)).expand().is_zero_matrix
     assert system.kinematics is not None and system.kinematics.poles == (sp.sin(theta),)
     assert_same_motion(system)
     # Half of what the angles' own rates take, and less.
@@ -229,6 +231,23 @@ def test_velocities_that_are_none_are_refused(velocities: object, words: str) ->
 def test_a_start_has_a_number_for_each_velocity() -> None:
     with pytest.raises(InputError, match="must be 2 finite numbers, of u, w"):
         sleigh().simulate(VALUES, (0, 0, 0), (1, 0, 0), (0, 1))
+
+
+def test_integrals_are_decided_in_velocities_of_ones_own() -> None:
+    """The energy and the vertical angular momentum of a top on a ball joint; its spin, where it is symmetric."""
+    joint = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r")
+    for inertia, spins in (((I1, I1, I3), "zero"), ((I1, I2, I3), "undecided")):
+        body = joint.body(m, inertia, (0, 0, a))
+        system = System(joint.c, body.kinetic - body.potential((0, 0, -g)))
+        assert system.conserved(joint.omega[2]).answer == spins
+        assert system.conserved(joint.omega[0]).answer == "undecided"
+        J = sp.diag(*inertia) + m * a**2 * sp.diag(1, 1, 0)
+        vertical = (joint.rotation * J * sp.Matrix(joint.omega))[2]
+        assert system.conserved(vertical).answer == "zero"
+    assert system.conserved(system.energy).answer == "zero"
+    energy = u**2 * m / 2 + w**2 * (I1 + m * a**2) / 2
+    assert sleigh().conserved(energy).answer == "zero"
+    assert sleigh().conserved(w).answer == "undecided"
 
 
 def test_identities_are_decided_as_in_the_coordinates() -> None:
