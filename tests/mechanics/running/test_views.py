@@ -97,7 +97,7 @@ def test_a_root_locus_has_its_boundary() -> None:
     top = System(c, body.kinetic - body.potential((0, 0, -g)))
     locus = top.root_locus({c.q[0]: 0, c.q[1]: 0, c.v[2]: w}, VALUES, w, np.linspace(20, 60, 9))
     assert locus.boundaries == pytest.approx([np.sqrt(4 * 1.1 * 9.81) / 0.15], rel=1e-6)
-    assert locus.growth[0] > 1 and abs(locus.growth[-1]) < 1e-6
+    assert locus.growth[0] > 1 and abs(locus.growth[-1]) < 1e-6 and locus.boundaries[0] in locus.numbers
     figure = locus.plot()
     assert figure.axes[1].get_xlabel() == "$w$" and len(figure.axes[0].lines) == 6 + 1 + 1
     for values, numbers, words in ((VALUES | {w: 1}, [1, 2], "without w"), (VALUES, [2, 1], "increasing")):
