@@ -244,11 +244,15 @@ class Equations:
         still = dict.fromkeys(self.c.a, sp.S.Zero)
         return self.residual.applyfunc(lambda e: put_in(total_derivative(e, self.c), still))
 
-    @property
+    @cached_property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
-        """λ_1 … λ_k, or λ with the names of the constraints: the multipliers in `motion` and `power`."""
-        names = self.names or tuple(str(i + 1) for i in range(len(self.residual)))
-        return tuple(sp.Symbol(f"lambda_{name.replace(' ', '_')}", real=True) for name in names)
+        """λ_1 … λ_k, or λ with the names of the constraints, or Λ where the system has such letters: the multipliers in `motion`
+        and `power`."""
+        names = [name.replace(" ", "_") for name in self.names or map(str, range(1, len(self.residual) + 1))]
+        acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
+        letters = set(self.c.q).union(getattr(self.lagrangian, "free_symbols", ()), *(e.free_symbols for e in acting))
+        stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
+        return tuple(sp.Symbol(f"{stem}_{name}", real=True) for name in names)
 
     @cached_property
     def motion(self) -> sp.Matrix:

@@ -74,7 +74,8 @@ def _side(e: sp.Expr, c: Coordinates) -> str:
         inertial = [a * e.coeff(a) for a in accelerated]
         terms = [*inertial, sp.expand(e - sp.Add(*inertial))]
     written = {dummy: _function(jet) for jet, dummy in names.items()}
-    written |= {s: _multiplier(s) for s in e.free_symbols if str(s).startswith("lambda_")}
+    others = e.free_symbols - {*c.q, *c.v, *c.a}
+    written |= {s: _multiplier(s) for s in others if str(s).startswith(("lambda_", "Lambda_"))}
     parts = [latex(term, written) for term in terms if term != 0] or ["0"]
     return parts[0] + "".join(f" {part}" if part.startswith("-") else f" + {part}" for part in parts[1:])
 
@@ -96,5 +97,5 @@ def _function(jet: sp.Expr) -> str:
 
 
 def _multiplier(s: sp.Symbol) -> str:
-    name = str(s).removeprefix("lambda_").replace("_", " ")
-    return rf"\lambda_{{{name}}}" if name.isdigit() else rf"\lambda_\text{{{name}}}"
+    stem, _, name = str(s).partition("_")
+    return rf"\{stem}_{{{name}}}" if name.isdigit() else rf"\{stem}_\text{{{name.replace('_', ' ')}}}"

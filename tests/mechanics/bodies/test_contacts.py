@@ -105,3 +105,12 @@ def test_what_does_not_touch_is_refused() -> None:
     ):
         with pytest.raises(InputError, match=words):
             make()
+
+
+def test_a_letter_of_a_multipliers_name_is_not_one() -> None:
+    c = coordinates("lambda_1 y")
+    x, y = c.q
+    rod = System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * y, (sp.sqrt(x**2 + y**2) - R,))
+    assert [str(s) for s in rod.multipliers] == ["Lambda_1"]
+    run = rod.simulate({m: 1, R: 1, g: 9.81}, (0, -1), (2, 0), np.linspace(0, 1, 5), 1e-9)
+    assert run.reactions["1"] == pytest.approx(-(run.v**2).sum(1) + 9.81 * run.q[:, 1], abs=1e-7)
