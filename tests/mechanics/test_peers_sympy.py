@@ -113,7 +113,7 @@ QUICK = {
     "test_jointsmethod": "chaos_pendulum simple_pedulum",
 }
 LONG = {
-    "test_kane": "aux parallel_axis input_format",
+    "test_kane": "aux parallel_axis input_format implicit_kinematics",
     "test_kane2": "aux_dep non_central_inertia",
     "test_kane3": "bicycle",
     "test_kane5": "kane_rolling_disc_lu",
