@@ -168,11 +168,12 @@ verdict(
 # 1 kg; a massless bar leaves $c = 1$. In the general line the spins are open: opposite ones have another constant (5.28).
 
 # %%
+forward = Premise("the spin is positive, as the rate is that is printed", where=(sp.Gt(omega, 0),))
 (mass_of_c,) = sp.solve(PAPERS_ROTOR.on(in_parameters(constant)) - sp.Rational(7125, 10000), m)
 verdict(
     "5.25",
     {r"\dot\phi_{coupled}": natural * (1 + eta), r"c\text{ (equal spins)}": constant},
-    premises=[EQUAL_SPINS, ONE_KILOGRAM_BAR, small_motion],
+    premises=[EQUAL_SPINS, forward, ONE_KILOGRAM_BAR, small_motion],
     correction={r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
     uses=["5.23", "5.24"],
     evidence=[

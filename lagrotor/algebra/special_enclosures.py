@@ -4,7 +4,7 @@ Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 7, 9, 17.
 """
 
 from collections.abc import Sequence
-from math import ceil
+from math import ceil, factorial
 from typing import Any
 
 import sympy as sp
@@ -77,6 +77,38 @@ def _binomial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
         return iv.mpf(int(value))
     n, k = values
     return iv.gamma(n + 1) / (iv.gamma(k + 1) * iv.gamma(n - k + 1))
+
+
+def _beta(_: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
+    a, b = values
+    _check(a)
+    _check(b)
+    return iv.gamma(a) * iv.gamma(b) / iv.gamma(a + b)
+
+
+def _log_gamma(_: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
+    [x] = values
+    if isinstance(x, ivmpc) or not x.a > 0:
+        raise NotExactError("ln Γ is enclosed at x > 0 only.")
+    return iv.log(iv.gamma(x))
+
+
+def _polygamma(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
+    """ψ⁽ⁿ⁾(x), x > 0: shifted up, then its asymptotic series, whose rest has the sign of its first term and is less than it
+    (Abramowitz & Stegun 6.3.18, 6.4.11)."""
+    n, x = orders[0], values[1]
+    if not n.is_Integer or not 0 <= n <= 20 or isinstance(x, ivmpc) or not x.a > 0:
+        raise NotExactError("ψ is enclosed at x > 0, of whole order, only.")
+    n, total, sign = int(n), iv.mpf(0), 1 if int(n) % 2 else -1
+    while x.a < 40:
+        total += sign * factorial(n) / x ** (n + 1)
+        x = x + 1
+    series = factorial(n) / (2 * x ** (n + 1)) + (factorial(n - 1) / x**n if n else 0)
+    for k in range(1, 30):
+        b = sp.bernoulli(2 * k)
+        term = iv.mpf(b.p) / b.q * factorial(2 * k + n - 1) / (factorial(2 * k) * x ** (2 * k + n))
+        series += term if k < 29 else iv.mpf([min(term.a, 0), max(term.b, 0)])
+    return total + sign * series + (iv.log(x) if not n else 0)
 
 
 def _bessel(sign: int) -> Any:
@@ -179,6 +211,9 @@ SPECIAL: dict[Any, Any] = {
     sp.gamma: _gamma,
     sp.factorial: _factorial,
     sp.binomial: _binomial,
+    sp.beta: _beta,
+    sp.loggamma: _log_gamma,
+    sp.polygamma: _polygamma,
     sp.erf: _erf,
     sp.erfc: lambda orders, values: 1 - _erf(orders, values),
     sp.besselj: _J,

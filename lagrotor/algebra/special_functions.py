@@ -1,6 +1,7 @@
-"""Recurrences that bring special functions to a least set: Γ, Bessel functions, elliptic integrals, the error function.
+"""Recurrences that bring special functions to a least set: Γ, its logarithm and derivatives, Bessel functions, elliptic
+integrals, the error function.
 
-Abramowitz & Stegun, Handbook of Mathematical Functions, 6.1.15–6.1.20, 9.1.27, 9.6.26, 10.1.11.
+Abramowitz & Stegun, Handbook of Mathematical Functions, 6.1.15–6.1.20, 6.4.6, 9.1.27, 9.6.26, 10.1.11.
 """
 
 from __future__ import annotations
@@ -56,6 +57,25 @@ def _number_gamma(c: sp.Rational) -> sp.Expr | None:
     return None
 
 
+def _polygamma(n: sp.Expr, u: sp.Expr) -> sp.Expr | None:
+    """ψ⁽ⁿ⁾ of an argument with a constant in [0, 1): ψ⁽ⁿ⁾(u + 1) = ψ⁽ⁿ⁾(u) + (−1)ⁿ n!/uⁿ⁺¹ (6.4.6)."""
+    shift = floor(_constant(u)[0])
+    if not n.is_Integer or n < 0 or not 0 < shift <= _MOST_STEPS or not _constant(u)[1]:
+        return None
+    base = u - shift
+    added = (sp.S.NegativeOne**n * sp.factorial(n) / (base + k) ** (n + 1) for k in range(shift))
+    return sp.polygamma(n, base, evaluate=False) + sp.Add(*added)
+
+
+def _log_gamma(u: sp.Expr) -> sp.Expr | None:
+    """ln Γ of an argument with a constant in [0, 1), where what is left is positive."""
+    shift = floor(_constant(u)[0])
+    base = u - shift
+    if not (0 < shift <= _MOST_STEPS and base.is_positive):
+        return None
+    return sp.loggamma(base, evaluate=False) + sp.Add(*(sp.log(base + k) for k in range(shift)))
+
+
 def _binomial(n: sp.Expr, k: sp.Expr) -> sp.Expr | None:
     if n.is_Integer and k.is_Integer:
         return sp.binomial(n, k)
@@ -107,6 +127,8 @@ RULES: dict[Any, Callable[..., sp.Expr | None]] = {
     sp.bessely: _bessel(sp.bessely, (1, -1)),
     sp.besseli: _bessel(sp.besseli, (-1, 1)),
     sp.besselk: _bessel(sp.besselk, (1, 1)),
+    sp.polygamma: _polygamma,
+    sp.loggamma: _log_gamma,
     sp.erfc: lambda x: 1 - sp.erf(x),
     sp.beta: lambda a, b: sp.gamma(a) * sp.gamma(b) / sp.gamma(a + b),
 }

@@ -254,10 +254,10 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
     printed, derived = (under.signed.on(side) for side in (relation.printed, relation.derived))
-    if printed.has(*_SINGULAR) or derived.has(*_SINGULAR):
+    if _is_singular(printed) or _is_singular(derived):
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if relation.within is not None and relation.known is not None:
-        return _read_off_series(relation, printed / derived, *relation.known)
+        return _read_off_series(relation, printed / derived, *relation.known, under)
     if relation.within is not None:
         return _read_off(relation, printed, derived, under)
     return _compared(relation, printed, derived, under)
@@ -297,6 +297,15 @@ def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) ->
     known = relation.known[0] if relation.known else None
     found = (*under.small, relation.small, known)
     return next((s for s in found if s is not None and under.signed.on(s).free_symbols & letters), None)
+
+
+def _is_singular(side: Any) -> bool:
+    """Whether a part of it has no value; the limits of sums and integrals may be infinite."""
+    if isinstance(side, sp.MatrixBase):
+        return any(map(_is_singular, side))
+    if isinstance(side, sp.Sum | sp.Integral):
+        return _is_singular(side.function)
+    return side in _SINGULAR or any(map(_is_singular, side.args))
 
 
 def _is_zero(side: Any) -> bool:
@@ -343,7 +352,7 @@ def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Findi
 def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
     """A number read off a run, within what its digits allow."""
     within = relation.within if relation.within is not None else sp.S.Zero
-    ratio = _constant(printed / derived)
+    ratio = _constant(printed / derived, under)
     if ratio is not None:
         off = abs(ratio - 1)
         near = bool(off <= within)
@@ -359,7 +368,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     return _Finding("refuted", reasons=("the ratio of the sides is no constant",), difference=gap, seen=seen)
 
 
-def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order: int) -> _Finding:
+def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order: int, under: Hypotheses) -> _Finding:
     """The same, of a rate that is known as a series: as far as that goes the ratio must not change."""
     within = relation.within if relation.within is not None else sp.S.Zero
     try:
@@ -367,7 +376,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
     fixed, changing = terms.as_independent(small, as_Add=True)
-    first, constant = leading_term(changing, small, order), _constant(fixed)
+    first, constant = leading_term(changing, small, order), _constant(fixed, under)
     if first.order is not None:
         by = readable(str(first.coefficient))
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
@@ -379,12 +388,15 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
-def _constant(ratio: sp.Expr) -> sp.Expr | None:
-    """The number that a quotient of rates is, which may hold roots; None where it depends on a letter."""
+def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
+    """The number that a quotient of rates is, which may hold roots; None where it depends on a letter, by its sign too."""
     square = sp.cancel(ratio**2)
     if not square.is_number:
         return None
-    return sp.sqrt(square) * sp.sign(ratio.subs(dict.fromkeys(ratio.free_symbols, sp.Rational(3, 7))))
+    root, inside = sp.sqrt(square), under.signed.inside
+    if ratio.is_positive:
+        return root
+    return next((each for each in (root, -root) if decide_equal(ratio, each, inside).answer == "zero"), None)
 
 
 def _to_order(

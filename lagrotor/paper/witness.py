@@ -12,6 +12,7 @@ from sympy.core.relational import Relational
 from lagrotor.algebra.enclosed_roots import enclosed_root
 from lagrotor.algebra.enclosures import Bounds, enclosure
 from lagrotor.algebra.evidence import points
+from lagrotor.algebra.proving import evaluated
 from lagrotor.paper.hypotheses import Hypotheses, replaced
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
@@ -34,7 +35,7 @@ def witness(
     principal: whether values that are not real count, too; their absolute value is then enclosed.
     """
     signed = under.signed
-    e = signed.on(difference)
+    e = evaluated(signed.on(difference))
     if signed.contradiction or _says_more(e, signed):
         return None
     for values in _points(e, signed):

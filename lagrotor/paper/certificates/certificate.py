@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import NotExactError
 from lagrotor.paper.catalogue import Equation
-from lagrotor.paper.certificates.cofactors import LetterEquation, Sides, elimination
+from lagrotor.paper.certificates.cofactors import LetterEquation, Sides, elimination, joined
 from lagrotor.paper.certificates.coq_terms import (
     Comparison,
     Terms,
@@ -26,6 +26,7 @@ from lagrotor.paper.certificates.coq_terms import (
 )
 from lagrotor.paper.certificates.points import points_of, rational_bounds, value_at_point
 from lagrotor.paper.certificates.propositions import SCENE, Proposition, propositions
+from lagrotor.paper.certificates.remainders import Remainder, remainder, value_at_zero
 from lagrotor.paper.verdicts import Verdict
 
 PREAMBLE = """From Coq Require Import Reals Lra.
@@ -42,9 +43,24 @@ Lemma a_letter_for (x : R) : exists y, y = x.
 Proof. exists x. reflexivity. Qed.
 Lemma by_cofactors (left right n d : R) : d <> 0 -> (left - right) * d = n -> n = 0 -> left = right.
 Proof. intros h e z. rewrite z in e. destruct (Rmult_integral _ _ e) as [w | w]; [lra | contradiction]. Qed.
+Lemma same_by_squares (a b : R) : 0 <= a -> 0 <= b -> a ^ 2 = b ^ 2 -> a = b.
+Proof. intros h k e. apply Rsqr_inj; [assumption | assumption | unfold Rsqr; lra]. Qed.
+Lemma sine_below (x : R) : 0 <= x -> sin x <= x.
+Proof. intros [h | h]; [apply Rlt_le, sin_lt_x, h | subst x; rewrite sin_0; lra]. Qed.
+Lemma sine_is_small (x : R) : Rabs (sin x) <= Rabs x.
+Proof.
+  assert (half : forall y, 0 <= y -> Rabs (sin y) <= y).
+  { intros y h. destruct (Rle_lt_dec y 1) as [k | k].
+    - rewrite Rabs_pos_eq; [apply sine_below, h |].
+      apply sin_ge_0; [exact h | generalize PI_4; generalize PI2_3_2; lra].
+    - generalize (SIN_bound y). intros [l u]. apply Rabs_le. lra. }
+  destruct (Rle_lt_dec 0 x) as [h | h].
+  - rewrite (Rabs_pos_eq x h). apply half, h.
+  - rewrite <- (Rabs_Ropp x), <- Rabs_Ropp, <- sin_neg, (Rabs_pos_eq (- x)); [apply half |]; lra.
+Qed.
 Lemma more_than_zero (x : R) : 0 < x -> x <> 0.
 Proof. lra. Qed.
-Ltac positive := lazymatch goal with
+Ltac positive := first [assumption | lazymatch goal with
   | |- 0 < _ + _ => first [apply Rplus_lt_0_compat; positive | apply Rplus_lt_le_0_compat; positive
     | apply Rplus_le_lt_0_compat; positive]
   | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; positive
@@ -53,13 +69,14 @@ Ltac positive := lazymatch goal with
   | |- 0 < _ / _ => apply Rdiv_lt_0_compat; positive
   | |- 0 <= _ / _ => unfold Rdiv; apply Rmult_le_pos; [positive | apply Rlt_le, Rinv_0_lt_compat; positive]
   | |- 0 < / _ => apply Rinv_0_lt_compat; positive
+  | |- 0 <= / _ => apply Rlt_le, Rinv_0_lt_compat; positive
   | |- 0 < _ ^ _ => apply pow_lt; positive
   | |- 0 <= _ ^ _ => first [apply pow2_ge_0 | apply pow_le; positive]
   | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
   | |- 0 <= sqrt _ => apply sqrt_pos
   | |- 0 < exp _ => apply exp_pos
   | |- 0 < PI => apply PI_RGT_0
-  | |- _ => first [assumption | lra] end.
+  | |- _ => lra end].
 Ltac apart := repeat apply conj; repeat first [assumption | apply Rmult_integral_contrapositive_currified
   | apply pow_nonzero | apply Rinv_neq_0_compat | lra | apply more_than_zero; positive].
 Ltac same := first [ring | field; apart].
@@ -109,7 +126,7 @@ def _theorems(p: Proposition) -> tuple[tuple[str, ...], str]:
     if p.verdict not in ("holds", "holds-if", "holds-to-order", "refuted"):
         raise NotExactError(f"{p.verdict} is no exact verdict")
     if isinstance(p.printed, sp.MatrixBase) != isinstance(p.derived, sp.MatrixBase):
-        raise NotExactError("a vector cannot be compared with a number")
+        return _of_another_kind(p)
     if p.verdict == "holds-to-order":
         return _held_to_order(p)
     if p.small is not None:
@@ -141,6 +158,7 @@ class _Hypotheses:
 
     @property
     def pairs(self) -> list[LetterEquation]:
+        """The premises' equations."""
         return [(left, right) for _, left, right in self.equations]
 
     def binders(self) -> str:
@@ -156,8 +174,8 @@ class _Hypotheses:
         return "\n".join(rows)
 
 
-def _hypotheses(p: Proposition) -> _Hypotheses:
-    sides = [e for pair in p.pairs for e in pair]
+def _hypotheses(p: Proposition, more: Iterable[sp.Expr] = ()) -> _Hypotheses:
+    sides = [*(e for pair in p.pairs for e in pair), *more]
     region = tuple(map(_as_comparison, p.region))
     held = [*sides, *(e for _, left, right in p.equations for e in (left, right)), *(e for _, e in region)]
     for e in held:
@@ -186,15 +204,59 @@ def _as_comparison(condition: sp.Basic) -> Comparison:
 
 def _held(p: Proposition) -> tuple[tuple[str, ...], str]:
     """The theorem that both sides are equal, and, where it has hypotheses, that they hold somewhere."""
-    h = _hypotheses(p)
-    sides = Sides(h.terms, [e for pair in p.pairs for e in pair], h.pairs, h.defined)
-    pairs = p.pairs if p.within is None else [(p.printed, _ratio(p, sides) * p.derived)]
+    h, sides = _prepared(p)
+    pairs = list(p.pairs)
+    if p.within is not None:
+        return _read_off(p, h, sides)
     tactics = [sides.equality(*pair) for pair in pairs]
     claims = [f"{h.terms.write(left)} = {h.terms.write(right)}" for left, right in pairs]
-    if p.within is not None:  # the ratio is a number
-        claims.append(f"Rabs ({h.terms.write(_ratio(p, sides))} - 1) <= {h.terms.write(p.within)}")
-        tactics.append("apply Rabs_le; lra.")
     return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, tactics)
+
+
+def _of_another_kind(p: Proposition) -> tuple[tuple[str, ...], str]:
+    """The theorem that a number is no vector: quantities are numbers or vectors, and the sides are one of each."""
+    sides = [list(side) if isinstance(side, sp.MatrixBase) else [side] for side in (p.printed, p.derived)]
+    none = replace(p, printed=sp.S.Zero, derived=sp.S.Zero, equations=(), region=())
+    h = _hypotheses(none, [e for side in sides for e in side])
+    vector = " * ".join("R" for _ in max(sides, key=len))
+    kinds = [f"{'inr' if len(side) > 1 else 'inl'} ({', '.join(map(h.terms.write, side))})" for side in sides]
+    head = f"{p.name}: {p.quantity}: refuted: one side is a number, the other a vector"
+    name = f"{p.name}_refuted"
+    claim = f"{kinds[0]} <> ({kinds[1]} : R + ({vector}))%type"
+    return (name,), f"{comment(head)}\nTheorem {name} {h.binders()} :\n  {claim}.\nProof.\n  discriminate.\nQed."
+
+
+def _prepared(p: Proposition, more: Iterable[sp.Expr] = ()) -> tuple["_Hypotheses", Sides]:
+    """What a theorem about a line assumes, where further expressions have a value too, and both sides in generators."""
+    expressions = [*(e for pair in p.pairs for e in pair), *more]
+    h = _hypotheses(p, more)
+    return h, Sides(h.terms, expressions, h.pairs, h.defined, p.small)
+
+
+def _read_off(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tuple[str, ...], str]:
+    """The theorem that a number read off a run is a constant times the derived one, and that this is near one.
+
+    Where the constant holds roots, neither side is negative, and their squares are a rational number times each other.
+    """
+    ratio = sp.cancel(sides.value(p.printed) / sides.value(p.derived))
+    write, within = h.terms.write, f"<= {h.terms.write(p.within)}"
+    if ratio.is_Rational:
+        tactic = sides.equality(p.printed, ratio * p.derived)
+        near = "apply Rabs_le; lra."
+    else:
+        draft = _prepared(p)[1]
+        over, under = draft.in_generators(p.printed**2 / p.derived**2)
+        square = sp.cancel((over / under).xreplace(draft.meaning()))
+        if not (square.is_Rational and square > 0):
+            raise NotExactError("the number read off a run, over what it should be, is no number")
+        ratio = sp.sqrt(square)
+        squares = (sp.Pow(side, 2, evaluate=False) for side in (p.printed, ratio * p.derived))  # as Coq has them
+        same = joined(sides.equality(*squares))
+        above = joined(f"{sides.put_in}first [assumption | lra | positive].")
+        tactic = f"apply same_by_squares; [ {above} | {above} | {same} ]."
+        near = "interval."
+    claims = [f"{write(p.printed)} = {write(ratio * p.derived)}", f"Rabs ({write(ratio)} - 1) {within}"]
+    return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, [tactic, near])
 
 
 def _theorem(
@@ -209,54 +271,73 @@ def _theorem(
     return (name, f"{name}_has_a_case"), theorem + "\n" + _satisfied(name, h, sides)
 
 
-def _ratio(p: Proposition, sides: Sides) -> sp.Rational:
-    """What printed over derived is, for a number read off a run. Raises NotExactError where it is no rational number."""
-    ratio = sp.cancel(sides.value(p.printed) / sides.value(p.derived))
-    if not ratio.is_Rational:
-        raise NotExactError("the number read off a run, over what it should be, is no rational number")
-    return ratio
+def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[sp.Expr, sp.Expr]]:
+    """Pairs whose difference is to vanish through the order: the sides; of a number read off a run their ratio and its start."""
+    if p.within is None:
+        return list(p.pairs)
+    ratio = sp.Mul(
+        p.printed, sp.Pow(p.derived, -1, evaluate=False), evaluate=False
+    )  # as it is printed, nothing cancelled
+    return [(ratio, value_at_zero(sides, ratio, small))]
+
+
+def _to_order(
+    p: Proposition, small: sp.Symbol, order: int, pairs: Iterable[tuple[sp.Expr, sp.Expr]]
+) -> tuple["_Hypotheses", Sides, list[str], list[str], list[Remainder]]:
+    """Claims that pairs differ by a power of the small quantity times what is finite there, and how they are proved."""
+    draft = _prepared(p, [e for pair in pairs for e in pair])[1]
+    rests = [remainder(draft, left - right, small, order) for left, right in pairs]
+    h, sides = _prepared(p, [e for pair in pairs for e in pair] + [each.rest for each in rests])
+    write = h.terms.write
+    claims = [
+        f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.rest)})"
+        for (a, b), r in zip(pairs, rests, strict=True)
+    ]
+    tactics = [sides.equality(a - b, r.power * r.rest) for (a, b), r in zip(pairs, rests, strict=True)]
+    for name, bound in _sines_over(small, rests):
+        claims.append(f"Rabs ({write(name)}) <= Rabs ({write(bound)})")
+        tactics.append("apply sine_is_small.")
+    return h, sides, claims, tactics, rests
+
+
+def _sines_over(small: sp.Symbol, rests: list[Remainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """Sines that stand over the small letter: each is at most its angle, so that the quotient stays finite."""
+    for sine in sorted(set().union(*(r.rest.atoms(sp.sin) for r in rests if r.at_zero is None)), key=str):
+        if small in sine.free_symbols:
+            yield sine, sine.args[0]
 
 
 def _held_to_order(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """The theorem that the two sides differ by a power of the small quantity times a polynomial in it."""
-    h = _hypotheses(p)
-    sides = Sides(h.terms, [e for pair in p.pairs for e in pair], h.pairs, h.defined, p.small)
-    power = (p.order or 0) + 1
-    claims, tactics = [], []
-    for left, right in p.pairs:
-        small, first, rest = sides.expansion(left, right, power)
-        text = f"{h.terms.write(small)} ^ {power} * ({h.terms.write(sides.written_out(first + small * rest))})"
-        claims.append(f"{h.terms.write(left)} - ({h.terms.write(right)}) = {text}")
-        tactics.append(sides.remainder(left, right, small**power * (first + small * rest)))
-    head = f"{p.name}: {p.quantity}: {p.verdict}: through order {p.order} in {p.small}"
+    """The theorem that the two sides differ by a power of the small quantity times what stays finite."""
+    small, draft = p.small, _prepared(p)[1]
+    assert small is not None
+    pairs = _differences(p, draft, small)
+    h, sides, claims, tactics, _ = _to_order(p, small, (p.order or 0) + 1, pairs)
+    if p.within is not None:
+        claims.append(f"Rabs ({h.terms.write(pairs[0][1])} - 1) <= {h.terms.write(p.within)}")
+        tactics.append("interval.")
+    head = f"{p.name}: {p.quantity}: {p.verdict}: through order {p.order} in {small}"
     return _theorem(p.name, head, h, sides, claims, tactics)
 
 
 def _refuted_at_order(p: Proposition, order: int) -> tuple[tuple[str, ...], str]:
-    """The two sides differ by small**n*(c + small*q); and at some point c is not zero."""
-    choice = _consistent(p.equations)[0]
-    p = replace(p, equations=choice)
-    h = _hypotheses(p)
-    sides = Sides(h.terms, [e for pair in p.pairs for e in pair], h.pairs, h.defined, p.small)
-    left, right = p.pairs[0]
-    small, first, rest = sides.expansion(left, right, order + 1)
-    first, rest = sides.written_out(first), sides.written_out(rest)
-    write = h.terms.write
-    series = f"{write(small)} ^ {order + 1} * ({write(first)} + {write(small)} * ({write(rest)}))"
-    claim = f"{write(left)} - ({write(right)}) = {series}"
-    tactics = sides.remainder(left, right, small ** (order + 1) * (first + small * rest))
-    head = f"{p.name}: {p.quantity}: refuted at order {order + 1} in {p.small}: how the sides differ, and a point where they do"
-    name = f"{p.name}_differs"
-    _, text = _theorem(name, head, h, sides, [claim], [tactics])
-    back = {letter: node for node, letter in sides.functions().items()}
-    coefficient = first.xreplace(back)
+    """The two sides differ by small**n times what is finite at zero; and at some point it is not zero there."""
+    small = p.small
+    assert small is not None
+    p = replace(p, equations=_consistent(p.equations)[0])
+    pair = _differences(p, _prepared(p)[1], small)[0]
+    h, sides, claims, tactics, (rest,) = _to_order(p, small, order + 1, [pair])
+    if rest.at_zero is None:
+        raise NotExactError(f"the coefficient of order {order + 1} is a limit")
+    write, name, where = h.terms.write, f"{p.name}_differs", f"{p.name}_refuted"
+    head = f"{p.name}: {p.quantity}: refuted at order {order + 1} in {small}: how the sides differ, and a point where they do"
+    _, text = _theorem(name, head, h, sides, claims, tactics)
     for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], 24):
-        value = value_at_point(coefficient, point)
+        value = value_at_point(rest.at_zero, point)
         if value is not None and abs(value) > 1e-3:
             low, high = rational_bounds(value)
             rows = [proposition for _, proposition, _ in h.named]
-            claim = " /\\ ".join([*rows, f"\n  {write(low)} <= {write(first)} <= {write(high)}"])
-            where = f"{p.name}_refuted"
+            claim = " /\\ ".join([*rows, f"\n  {write(low)} <= {write(rest.at_zero)} <= {write(high)}"])
             return (name, where), text + "\n" + _at(where, h, point, claim)
     raise NotExactError(f"no point was seen at which the coefficient of order {order + 1} is not zero")
 
@@ -264,9 +345,11 @@ def _refuted_at_order(p: Proposition, order: int) -> tuple[tuple[str, ...], str]
 def _satisfied(name: str, h: _Hypotheses, sides: Sides) -> str:
     """The theorem that the hypotheses of a line hold together at some point."""
     _check_enclosed([e for _, e in (*h.signs, *h.defined)] + [e for pair in h.pairs for e in pair])
-    for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined]):
-        claim = " /\\ ".join(text for _, text, _ in h.named)
-        return _at(f"{name}_has_a_case", h, point, claim)
+    near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # of a series
+    for fixed in (*near, {}):
+        for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], fixed=fixed):
+            claim = " /\\ ".join(text for _, text, _ in h.named)
+            return _at(f"{name}_has_a_case", h, point, claim)
     raise NotExactError("no point was seen at which its hypotheses hold")
 
 

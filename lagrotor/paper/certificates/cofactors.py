@@ -52,8 +52,8 @@ class _Steps:
 class Sides:
     """The sides of a statement in generators, under equations between letters; `steps` is the proof so far.
 
-    equations: the premises, named premise_1, …; conditions: named defined_1, …; small: the letter whose powers are looked at,
-    or the sine of it. Raises NotExactError outside the class.
+    equations: the premises, named premise_1, …; conditions: named defined_1, …; small: the letter whose powers are looked at.
+    Raises NotExactError outside the class.
     """
 
     def __init__(
@@ -238,13 +238,15 @@ class Sides:
         base = sp.cancel(over / under) if not under.is_number else sp.expand(over / under)
         key = "root", base
         write = self.terms.write
-        if base.is_Rational and (exact := sp.sqrt(base)).is_Rational:
-            same = _joined(self._settled() + self._equal(exact * exact, self.value(node.base)))
-            return exact, f"apply sqrt_lem_1; [ {_NOT_NEGATIVE} | lra | {same} ]."
+        if base.is_Rational and base > 0 and sp.sqrt(base).as_coeff_Mul()[0] != 1:  # root of p²/q² or of p² n/q²
+            rate, root = sp.sqrt(base).as_coeff_Mul()
+            exact = rate * (sp.S.One if root is sp.S.One else self._atom(root))
+            same = joined(self._settled() + self._equal(exact * exact, self.value(node.base)))
+            return exact, f"apply sqrt_lem_1; [ {_NOT_NEGATIVE} | {_NOT_NEGATIVE} | {same} ]."
         if key not in self._generators:
             self._add_root(node, base)
         over, under = base.as_numer_denom()
-        tactics = _joined(self._equal_settled(base, node.base))
+        tactics = joined(self._equal_settled(base, node.base))
         if under.is_number:
             return self._generators[key], f"f_equal; {tactics}."
         letter = self._generators[key]
@@ -254,7 +256,7 @@ class Sides:
     def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
         """The root of a radicand as a generator; of a quotient, the root times the denominator, under a letter."""
         write, under = self.terms.write, base.as_numer_denom()[1]
-        same = _joined(self._equal_settled(base, node.base, turned=True))
+        same = joined(self._equal_settled(base, node.base, turned=True))
         shown = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
         tactics = f"assert (zero_1 : 0 <= {write(base)}) by ({shown}). generalize (root_squared _ zero_1). "
         if under.is_number:
@@ -277,16 +279,16 @@ class Sides:
         if new:
             text = self.terms.write(inner)
             self._relate("known", generator**2 - inner**2, f"generalize (size_squared ({text})). lra.")
-        return generator, f"f_equal; {_joined(self._equal_settled(inner, node.args[0]))}."
+        return generator, f"f_equal; {joined(self._equal_settled(inner, node.args[0]))}."
 
     def _opaque(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         """A function of which nothing is used but that it is one: the same of the same arguments."""
         inner = [sp.expand(self.value(each)) for each in node.args]
-        alike = self.terms.write(node.func(*inner))
+        alike = node.func(*inner)
         proofs = " | ".join(
             self._equal_settled(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True)
         )
-        return self._generator(("opaque", alike), alike), f"f_equal; first [ {_joined(proofs)} ]."
+        return self._generator(("opaque", alike), self.terms.write(alike)), f"f_equal; first [ {joined(proofs)} ]."
 
     def _equal_settled(self, value: sp.Expr, node: sp.Expr, turned: bool = False) -> str:
         """Tactics for node = value (value = node if turned), value in generators."""
@@ -358,16 +360,18 @@ class Sides:
             self.terms.names[letter] = name
             shown, written = self._name("sum"), self.terms.write(polynomial)
             self.steps.lines.append(f"destruct (a_letter_for ({written})) as [{name} {shown}].")
-            self.relations.insert(0, _Relation(shown, letter - polynomial, ""))
+            self.relations.append(_Relation(shown, letter - polynomial, ""))
         return self._factors[polynomial]
 
     def _fraction(self, value: sp.Expr) -> "_Fraction":
         return _one_fraction(value, self._order(value))
 
     def _order(self, *values: sp.Expr) -> list[sp.Symbol]:
-        """The generators, so that each relation leads with the square, or the letter, that it is solved for."""
+        """The generators, so that each relation leads with the square, or the letter, that it is solved for: the last first,
+        since a root or a factor holds generators that were there before it."""
         letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in self.relations))
-        leading = [_leading(relation.zero, self.small) for relation in self.relations]
+        near = {cosine for cosine, _ in self.small_pairs(self.small).values()} if self.small else set()
+        leading = [_leading(relation.zero, near) for relation in reversed(self.relations)]
         rest = sorted(letters - set(leading), key=lambda letter: (letter.name, str(letter)))
         return [*dict.fromkeys(leading), *rest]
 
@@ -399,55 +403,40 @@ class Sides:
         values = self.value(left), self.value(right)  # these steps come first
         return self._settled() + self._equal(*values)
 
-    def expansion(self, left: sp.Expr, right: sp.Expr, order: int) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-        """small, or the sine of it; c and q with left - right = small**order * (c + small*q), c free of small.
+    def in_generators(self, expression: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """The expression as a polynomial that no relation shortens, over a monomial; both in generators."""
+        found = self._fraction(self.value(expression))
+        return self._reduced(found.numerator)[1].as_expr(), found.under
 
-        Raises NotExactError where the difference is no such polynomial in small, its denominators free of it.
-        """
-        value = self.value(left) - self.value(right)
-        found = self._fraction(value)
-        numerator, ring = self._reduced(found.numerator)[1], found.ring
-        small = self._generators.get(("sin", self.small), self.small)
-        others = [g for g in (*numerator.as_expr().free_symbols, *found.under.free_symbols) if g != small]
-        depend = [g for g in others if g == self.small or self._holds_small(g)]
-        if depend:
-            raise NotExactError(f"{self.terms.write(depend[0])} is a series in {self.small}")
-        place = list(ring.symbols).index(small) if small in ring.symbols else -1
-        powers = {m[place] if place >= 0 else 0 for m in numerator.itermonoms()}
-        if powers and (min(powers) < order or small in found.under.free_symbols):
-            raise NotExactError(f"the two sides differ at order {min(powers)} in {self.small}")
-        first, rest = (
-            sum((sp.Mul(c, *(g**n for g, n in zip(ring.symbols, m, strict=True) if g != small)) * small ** (m[place] - by)
-                 for m, c in ((m, sp.Rational(int(c.numerator), int(c.denominator))) for m, c in numerator.terms())
-                 if (m[place] == order) == exactly), sp.S.Zero)
-            for by, exactly in ((order, True), (order + 1, False))
-        )  # fmt: skip
-        return small, first / found.under, rest / found.under
+    def meaning(self) -> dict[sp.Symbol, sp.Expr]:
+        """Generator -> the function that it is; factor of a denominator -> the sum that it stands for."""
+        made = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "abs": sp.Abs}
+        found: dict[sp.Symbol, sp.Expr] = {}
+        for key, letter in self._generators.items():
+            if key is sp.pi:
+                found[letter] = sp.pi
+            elif key[0] == "root":
+                found[letter] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(found)
+            else:
+                found[letter] = made[key[0]](key[1].xreplace(found)) if key[0] in made else key[1].xreplace(found)
+        return found | {letter: polynomial.xreplace(found) for polynomial, letter in self._factors.items()}
 
-    def _holds_small(self, generator: sp.Symbol) -> bool:
-        """Whether a generator, or the polynomial that it stands for, depends on the small letter."""
-        polynomial = next((p for p, letter in self._factors.items() if letter == generator), None)
-        if polynomial is not None:
-            return any(g == self.small or self._holds_small(g) for g in polynomial.free_symbols)
-        words = re.findall(r"\w+", self.terms.names[generator])
-        return bool(self.small) and self.terms.names[self.small] in words
+    def small_pairs(self, small: sp.Symbol) -> dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]:
+        """Base angle that vanishes with the small letter -> its cosine and sine."""
+        keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "cos")
+        vanishing = (base for _, base in keys if base.as_powers_dict().get(small, sp.S.Zero).is_positive)
+        return {base: (self._generators["cos", base], self._generators["sin", base]) for base in vanishing}
 
-    def written_out(self, value: sp.Expr) -> sp.Expr:
-        """A value with every factor as the polynomial that it stands for."""
-        for _ in self._factors:
-            value = value.xreplace({letter: polynomial for polynomial, letter in self._factors.items()})
-        return value
+    def roots(self) -> list[tuple[sp.Symbol, sp.Expr]]:
+        """Each root, or a root times its denominator, and the square of it."""
+        keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "root")
+        return [(self._generators[key], sp.expand(key[1] * _under(key[1]) ** 2)) for key in keys]
 
-    def functions(self) -> dict[sp.Expr, sp.Symbol]:
-        """Function -> the generator that it is, of cosines, sines, exponentials and roots."""
-        made = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "root": sp.sqrt, "abs": sp.Abs}
-        found = ((key, letter) for key, letter in self._generators.items() if isinstance(key, tuple))
-        return {made[key[0]](key[1]): letter for key, letter in found if key[0] in made}
 
-    def remainder(self, left: sp.Expr, right: sp.Expr, value: sp.Expr) -> str:
-        """The tactics that prove left - right = value, which is in generators."""
-        difference = self.value(left) - self.value(right)
-        return self._settled() + self._equal(difference, value)
+def _under(radicand: sp.Expr) -> sp.Expr:
+    """The denominator by which a root is multiplied to be a generator: one that is no number."""
+    under = radicand.as_numer_denom()[1]
+    return sp.S.One if under.is_number else under
 
 
 def elimination(equations: Iterable[LetterEquation]) -> dict[sp.Symbol, sp.Expr]:
@@ -534,11 +523,11 @@ def _bounded(polynomial: PolyElement) -> PolyElement:
     return polynomial
 
 
-def _leading(zero: sp.Expr, small: sp.Symbol | None) -> sp.Symbol:
+def _leading(zero: sp.Expr, near: set[sp.Symbol]) -> sp.Symbol:
     """The generator that a relation is solved for: of a sine and a cosine the sine, the cosine where the sine is small."""
     return next(
         letter
-        for letter in sorted(zero.free_symbols, key=lambda each: (each.name != f"cos {small}", _rank(each), each.name))
+        for letter in sorted(zero.free_symbols, key=lambda each: (_rank(each) - (each in near) * 1.5, each.name))
         if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2)
     )
 
@@ -574,6 +563,6 @@ def _steps_of_angles(
     return found
 
 
-def _joined(tactics: str) -> str:
+def joined(tactics: str) -> str:
     """Tactics in a row as one."""
-    return tactics.rstrip(". ").replace(". ", "; ")
+    return re.sub(r"(?<!\.)\. ", "; ", tactics.rstrip(". "))

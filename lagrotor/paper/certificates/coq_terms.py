@@ -29,6 +29,7 @@ _TAKEN = frozenset(
     """as at cofix do else end exists exists2 fix for forall fun if IF in let match mod return then where with using by
     Prop SProp Set Type R I O S Q Z N nat True False not or and PI sqrt Rpower pow IZR Rinv Rmult Rplus Rminus Rdiv Ropp
     sine_and_cosine root_squared size_squared a_letter_for by_cofactors more_than_zero exp_pos sqrt_lem_1
+    same_by_squares sine_below sine_is_small inl inr sum half
     """.split()  # noqa: SIM905
 ) | set(_FUNCTIONS.values())
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

@@ -3,6 +3,7 @@
 import random
 from collections.abc import Iterator, Mapping, Sequence
 from math import floor, log10
+from types import MappingProxyType
 from typing import Any
 
 import sympy as sp
@@ -19,12 +20,20 @@ _TRIES, _DIGITS, _CLEAR = 200, 30, 1e-6
 
 
 def points_of(
-    letters: Sequence[sp.Symbol], eliminated: Mapping[sp.Symbol, sp.Expr], hold: Sequence[Comparison], most: int = 1
+    letters: Sequence[sp.Symbol],
+    eliminated: Mapping[sp.Symbol, sp.Expr],
+    hold: Sequence[Comparison],
+    most: int = 1,
+    fixed: Mapping[sp.Symbol, sp.Expr] = MappingProxyType({}),
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
-    """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call."""
+    """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call.
+
+    fixed: values of letters that are not eliminated.
+    """
     drawn, found = random.Random(1), 0
     for _ in range(_TRIES):
         free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
+        free |= {x: value for x, value in fixed.items() if x in free}
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
         point = free | {x: sp.sympify(value).xreplace(free) for x, value in eliminated.items() if x in letters}
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
