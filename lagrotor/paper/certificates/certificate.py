@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import NotExactError
 from lagrotor.paper.catalogue import Equation
-from lagrotor.paper.certificates.cofactors import LetterEquation, Sides, elimination, joined
+from lagrotor.paper.certificates.cofactors import LetterEquation, Sides, elimination, in_one
 from lagrotor.paper.certificates.coq_terms import (
     Comparison,
     Terms,
@@ -26,7 +26,7 @@ from lagrotor.paper.certificates.coq_terms import (
 )
 from lagrotor.paper.certificates.points import points_of, rational_bounds, value_at_point
 from lagrotor.paper.certificates.propositions import SCENE, Proposition, propositions
-from lagrotor.paper.certificates.remainders import Remainder, remainder, value_at_zero
+from lagrotor.paper.certificates.remainders import SeriesRest, remainder, value_at_zero
 from lagrotor.paper.verdicts import Verdict
 
 PREAMBLE = """From Coq Require Import Reals Lra.
@@ -251,8 +251,8 @@ def _read_off(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tuple[str
             raise NotExactError("the number read off a run, over what it should be, is no number")
         ratio = sp.sqrt(square)
         squares = (sp.Pow(side, 2, evaluate=False) for side in (p.printed, ratio * p.derived))  # as Coq has them
-        same = joined(sides.equality(*squares))
-        above = joined(f"{sides.put_in}first [assumption | lra | positive].")
+        same = in_one(sides.equality(*squares))
+        above = in_one(f"{sides.put_in}first [assumption | lra | positive].")
         tactic = f"apply same_by_squares; [ {above} | {above} | {same} ]."
         near = "interval."
     claims = [f"{write(p.printed)} = {write(ratio * p.derived)}", f"Rabs ({write(ratio)} - 1) {within}"]
@@ -283,7 +283,7 @@ def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[s
 
 def _to_order(
     p: Proposition, small: sp.Symbol, order: int, pairs: Iterable[tuple[sp.Expr, sp.Expr]]
-) -> tuple["_Hypotheses", Sides, list[str], list[str], list[Remainder]]:
+) -> tuple["_Hypotheses", Sides, list[str], list[str], list[SeriesRest]]:
     """Claims that pairs differ by a power of the small quantity times what is finite there, and how they are proved."""
     draft = _prepared(p, [e for pair in pairs for e in pair])[1]
     rests = [remainder(draft, left - right, small, order) for left, right in pairs]
@@ -300,7 +300,7 @@ def _to_order(
     return h, sides, claims, tactics, rests
 
 
-def _sines_over(small: sp.Symbol, rests: list[Remainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+def _sines_over(small: sp.Symbol, rests: list[SeriesRest]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """Sines that stand over the small letter: each is at most its angle, so that the quotient stays finite."""
     for sine in sorted(set().union(*(r.rest.atoms(sp.sin) for r in rests if r.at_zero is None)), key=str):
         if small in sine.free_symbols:

@@ -238,15 +238,15 @@ class Sides:
         base = sp.cancel(over / under) if not under.is_number else sp.expand(over / under)
         key = "root", base
         write = self.terms.write
-        if base.is_Rational and base > 0 and sp.sqrt(base).as_coeff_Mul()[0] != 1:  # root of p²/q² or of p² n/q²
-            rate, root = sp.sqrt(base).as_coeff_Mul()
+        rate, root = sp.sqrt(base).as_coeff_Mul() if base.is_Rational and base > 0 else (sp.S.One, base)
+        if rate != 1 or root is sp.S.One:  # the root of p²/q² or of p² n/q²
             exact = rate * (sp.S.One if root is sp.S.One else self._atom(root))
-            same = joined(self._settled() + self._equal(exact * exact, self.value(node.base)))
+            same = in_one(self._settled() + self._equal(exact * exact, self.value(node.base)))
             return exact, f"apply sqrt_lem_1; [ {_NOT_NEGATIVE} | {_NOT_NEGATIVE} | {same} ]."
         if key not in self._generators:
             self._add_root(node, base)
         over, under = base.as_numer_denom()
-        tactics = joined(self._equal_settled(base, node.base))
+        tactics = in_one(self._equal_settled(base, node.base))
         if under.is_number:
             return self._generators[key], f"f_equal; {tactics}."
         letter = self._generators[key]
@@ -256,7 +256,7 @@ class Sides:
     def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
         """The root of a radicand as a generator; of a quotient, the root times the denominator, under a letter."""
         write, under = self.terms.write, base.as_numer_denom()[1]
-        same = joined(self._equal_settled(base, node.base, turned=True))
+        same = in_one(self._equal_settled(base, node.base, turned=True))
         shown = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
         tactics = f"assert (zero_1 : 0 <= {write(base)}) by ({shown}). generalize (root_squared _ zero_1). "
         if under.is_number:
@@ -279,7 +279,7 @@ class Sides:
         if new:
             text = self.terms.write(inner)
             self._relate("known", generator**2 - inner**2, f"generalize (size_squared ({text})). lra.")
-        return generator, f"f_equal; {joined(self._equal_settled(inner, node.args[0]))}."
+        return generator, f"f_equal; {in_one(self._equal_settled(inner, node.args[0]))}."
 
     def _opaque(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         """A function of which nothing is used but that it is one: the same of the same arguments."""
@@ -288,7 +288,7 @@ class Sides:
         proofs = " | ".join(
             self._equal_settled(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True)
         )
-        return self._generator(("opaque", alike), self.terms.write(alike)), f"f_equal; first [ {joined(proofs)} ]."
+        return self._generator(("opaque", alike), self.terms.write(alike)), f"f_equal; first [ {in_one(proofs)} ]."
 
     def _equal_settled(self, value: sp.Expr, node: sp.Expr, turned: bool = False) -> str:
         """Tactics for node = value (value = node if turned), value in generators."""
@@ -563,6 +563,6 @@ def _steps_of_angles(
     return found
 
 
-def joined(tactics: str) -> str:
+def in_one(tactics: str) -> str:
     """Tactics in a row as one."""
     return re.sub(r"(?<!\.)\. ", "; ", tactics.rstrip(". "))

@@ -17,7 +17,7 @@ _MOST_TERMS = 4000
 
 
 @dataclass(frozen=True)
-class Remainder:
+class SeriesRest:
     """difference = power * rest. at_zero: the rest where the small quantity is zero; None where it is a limit."""
 
     power: sp.Expr
@@ -31,7 +31,7 @@ def value_at_zero(sides: Sides, expression: sp.Expr, small: sp.Symbol) -> sp.Exp
     return sp.cancel((over / under).xreplace(sides.meaning()).xreplace({small: sp.S.Zero}))
 
 
-def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> Remainder:
+def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRest:
     """difference = small**order * rest, or the sine of small in its place.
 
     Raises NotExactError where terms of lower order do not vanish, or a function has no such form.
@@ -49,11 +49,11 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
         letter = next(iter(used), small)
         power = meaning.get(letter, letter)
         rest = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
-        return Remainder(power**order, rest, rest.xreplace({small: sp.S.Zero}))
+        return SeriesRest(power**order, rest, rest.xreplace({small: sp.S.Zero}))
     over_small = {x: sp.Dummy() for x in used if x is not small}
     scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
     back = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
-    return Remainder(small**order, (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(back))
+    return SeriesRest(small**order, (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(back))
 
 
 class _Near:

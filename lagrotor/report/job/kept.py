@@ -9,10 +9,14 @@ import io
 import json
 import pickle
 import shutil
+from collections import Counter, OrderedDict
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass, field, is_dataclass
+from enum import Enum
+from fractions import Fraction
+from pathlib import Path, PurePath
+from types import MappingProxyType
 from typing import Any
 
 from sympy.parsing import sympy_parser
@@ -21,15 +25,18 @@ from lagrotor.files import write_beside, write_text
 from lagrotor.report.job.folder import MADE, PRODUCTS
 from lagrotor.report.job.reach import digest
 
-# Rooms of classes that a product may be made of, and the few functions that make them again: a pickle that names anything
-# else is not read. A class may be given text; while a product is read, no text is parsed as an expression.
-_ROOMS = ("sympy.", "lagrotor.", "numpy.", "pathlib.", "collections.", "fractions.", "mpmath.")
+# What a product may be made of, and the few functions that make it again: a pickle that names anything else is not read. A
+# class may be given text; while a product is read, no text is parsed as an expression.
+_ROOMS = ("sympy.", "lagrotor.", "numpy.", "pathlib.", "collections.", "fractions.", "mpmath.", "types.")
+_SYMPY = tuple(
+    f"sympy.{room}."
+    for room in ("core", "functions", "matrices", "polys", "logic", "sets", "concrete", "integrals", "series")
+)
 _FUNCTIONS = {
     ("copyreg", "_reconstructor"),
     ("copyreg", "__newobj__"),
     ("copyreg", "__newobj_ex__"),
     ("_codecs", "encode"),
-    ("lagrotor.paper.papers", "opened"),
     *((f"numpy.{core}.multiarray", name) for core in ("core", "_core") for name in ("_reconstruct", "scalar")),
     *((f"numpy.{core}.numeric", "_frombuffer") for core in ("core", "_core")),
 }
@@ -50,30 +57,53 @@ _BUILTINS = {
 }
 
 
+def _is_part(module: str, value: Any) -> bool:
+    """Whether a class may be a part of a product: making one does nothing but hold its values."""
+    if not isinstance(value, type):
+        return False
+    room = module.partition(".")[0]
+    if room == "numpy":  # not its subclasses, of which one maps files
+        import numpy as np
+
+        return value is np.ndarray or issubclass(value, np.generic | np.dtype)
+    if room == "lagrotor":
+        return is_dataclass(value) or issubclass(value, Enum | tuple | dict)
+    plain = issubclass(value, PurePath | Fraction | OrderedDict | Counter | MappingProxyType)
+    return plain or module.startswith((*_SYMPY, "mpmath.ctx_mp_python"))
+
+
 class _Reader(pickle.Unpickler):
-    """Reads products, and refuses a pickle that would call anything else."""
+    """Reads products, and refuses a pickle that would call anything else; of papers there is the one that is reported."""
+
+    def __init__(self, data: bytes, paper: Any) -> None:
+        super().__init__(io.BytesIO(data))
+        self.paper = paper
+
+    def _same_paper(self, folder: Any, scripts_in: Any = None) -> Any:
+        if self.paper is None or (folder, scripts_in) != (self.paper.folder, self.paper.scripts_in):
+            raise pickle.UnpicklingError("a product is of another paper")
+        return self.paper
 
     def find_class(self, module: str, name: str) -> Any:
-        if module == "builtins" and name in _BUILTINS:
-            return super().find_class(module, name)
-        value = (
-            super().find_class(module, name)
-            if f"{module}.".startswith(_ROOMS) or (module, name) in _FUNCTIONS
-            else None
-        )
-        if (module, name) not in _FUNCTIONS and not isinstance(value, type):
+        if (module, name) == ("lagrotor.paper.papers", "opened"):
+            return self._same_paper
+        known = (module, name) in _FUNCTIONS or (module == "builtins" and name in _BUILTINS)
+        if not known and not f"{module}.".startswith(_ROOMS):
+            raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
+        value = super().find_class(module, name)
+        if not known and not _is_part(module, value):
             raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
         return value
 
 
-def _read(data: bytes) -> Any:
+def _read(data: bytes, paper: Any = None) -> Any:
     """The product; raises UnpicklingError for one that names what it may not, or that holds text to be parsed."""
 
     def refuse(*text: Any, **options: Any) -> Any:
         raise pickle.UnpicklingError("a product holds text where an expression should be")
 
     with patched(sympy_parser, "parse_expr", refuse), patched(sympy_parser, "eval_expr", refuse):
-        return _Reader(io.BytesIO(data)).load()
+        return _Reader(data, paper).load()
 
 
 @contextmanager
@@ -89,10 +119,11 @@ def patched(module: Any, name: str, value: Any) -> Iterator[None]:
 
 @dataclass
 class Kept:
-    """Products of the last report in the folder `old`, and those of the one that is made in the folder `new`."""
+    """Products of the last report of a paper in the folder `old`, and those of the one that is made in the folder `new`."""
 
     old: Path
     new: Path
+    paper: Any = None
     taken: list[str] = field(default_factory=list)
     _parts: dict[str, Any] = field(default_factory=dict)
     _last: dict[str, Any] = field(default_factory=dict)
@@ -113,7 +144,7 @@ class Kept:
             whole = whole and all(
                 digest((self.old / file).read_bytes()) == seen for file, seen in part["files"].items()
             )
-            return _read((self.old / _file_of(name)).read_bytes()) if whole else None
+            return _read((self.old / _file_of(name)).read_bytes(), self.paper) if whole else None
         except (
             OSError,
             TypeError,

@@ -68,10 +68,10 @@ def reproduce(
         [reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
     )
     whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
-    if found := Kept(old, old).last("report", whole):
+    if found := Kept(old, old, paper).last("report", whole):
         return JobOutcome(**found, taken=["report"], seconds=time.perf_counter() - began)
     with replacement(target) as new:
-        kept = Kept(old, new)
+        kept = Kept(old, new, paper)
         (new / "figures").mkdir()
         products, seconds = _make(kept, list(steps(paper)), progress, jobs or cores())
         report = _report(paper, products, new / "figures")
