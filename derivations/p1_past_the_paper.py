@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t10 and n6, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t12 and n6, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -25,6 +25,8 @@ t7 = PAPER.scripts.run("derivations", "t7_duration")
 t8 = PAPER.scripts.run("derivations", "t8_toppling")
 t9 = PAPER.scripts.run("derivations", "t9_twist")
 t10 = PAPER.scripts.run("derivations", "t10_conserved")
+t11 = PAPER.scripts.run("derivations", "t11_slow_motion")
+t12 = PAPER.scripts.run("derivations", "t12_unequal_spins")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
 Omega_0, energy, wander, growth, power, reached = (
     sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho")
@@ -139,6 +141,29 @@ rows = (
         ("E, G_1, G_2 and P, and along the paired precession no other; B holds, A does not",),
         f"drift over 3 s at most {max(t10['drift'].values()):.1e}; A swings as r_0 to the {t10['order']:.2f}",
         FigureLink("t10"),
+    ),
+    (
+        "the slow motion",
+        "none",
+        (
+            "the averaged motion of opposite spins at any lean, in closed form; x turns back only where (σ − 1) k² passes",
+            t11["threshold"],
+        ),
+        "time to x = 0.5: "
+        + "; ".join(
+            f"{exact:.2f} s against {said:.2f} s at {force:g} N"
+            for force, said, exact in zip(t11["FORCES"], t11["law"], t11["exact_times"], strict=True)
+        )
+        + f"; error of order {t11['time_order']:.2f} in the force",
+        FigureLink("t11"),
+    ),
+    (
+        "unequal spins",
+        "none",
+        ("the rate shifts by c r_0² of itself, one formula from equal (ζ = 0) to opposite spins (ζ = 1):", t12["law"]),
+        "orders of the error, of the shift and of the drift of the azimuth: "
+        + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in t12["measured"].items()),
+        FigureLink("t12"),
     ),
     (
         "what spins hold",

@@ -200,8 +200,8 @@ Remark(
 #
 # The frequency is that of the limit of small motion. At an amplitude $r$ (sine of the inclination) it is off in second order:
 # parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly (derived with 5.24), and
-# `natural_rate_error` bounds every pair by $\frac12(1+k^{-2})\,r^2\,\Omega_0$, where the factor ½ is empirical. Measured on
-# exact runs of 20 swings:
+# `natural_rate_error` bounds every pair by the shift of the rate that t12 derives and what a swing's phase and the next order
+# add to it. Measured on exact runs of 20 swings:
 
 
 # %%
@@ -235,5 +235,5 @@ Remark(
         f"{100 * off:.2g} % at r = {r} (bound {100 * bound:.2g} %)"
         for r, off, bound in zip(amplitudes, shifts, bounds, strict=True)
     )
-    + f"; measured power {slope:.2f}. Refused beyond r = 0.4.",
+    + f"; measured power {slope:.2f}. Refused beyond r = 0.4, and where the shift may pass 0.12.",
 )

@@ -21,6 +21,9 @@ from lagrotor.theory.calibrated_factors import CANCELLING, FARTHEST_TURN, FIFTH_
 from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 from lagrotor.theory.shock_response import shock_response
 
+# What the factors were calibrated on: ell/R, sigma (a bar's weight and shape), the pulse's width over the swing's 1/Omega_0.
+BARS, SHAPES, BROADEST = (0.4, 2.5), (0.3, 3.0), 1.2
+
 
 @dataclass(frozen=True)
 class _Drift:
@@ -42,7 +45,8 @@ def toppling_error(scene: Scene, duration: float) -> float:
     """Error (rad/s) of `toppling_after_shock` as the mean rate over `duration` s from the pulse's peak.
 
     Raises as `toppling_after_shock`; DomainError where the shock or the duration is out of the range that was calibrated:
-    q > 0.4, a turn by more than 3 rad, a mean x beyond 0.5.
+    q > 0.4, a turn by more than 3 rad, a mean x beyond 0.5; a bar shorter than 0.4 or longer than 2.5 axes, or of sigma below
+    0.3 or above 3; a pulse wider than 1.2/Omega_0.
     """
     d = _drift(scene, duration, "toppling_error")
     c, k = FOURTH_ORDER.value, d.ratio
@@ -78,7 +82,15 @@ def _drift(scene: Scene, duration: float, where: str) -> _Drift:
     turning, wander = toppling_after_shock(scene), abs(wander_after_shock(scene))
     response, (a, b) = shock_response(scene), scene.inertias
     assert scene.link is not None
-    spin, k = abs(scene.momenta[0]), scene.link.length / scene.rotor.length
+    spin, k = abs(scene.momenta[0]), scene.k
+    assert scene.shock is not None
+    broad = response.frequency * scene.shock.width
+    if not (BARS[0] <= k <= BARS[1] and SHAPES[0] <= scene.sigma <= SHAPES[1] and broad <= BROADEST):
+        raise DomainError(
+            f"{where}: ell/R = {k:.3g} ({BARS[0]:g} to {BARS[1]:g}), sigma = {scene.sigma:.3g} ({SHAPES[0]:g} to {SHAPES[1]:g}), "
+            f"width Omega_0 = {broad:.3g} (at most {BROADEST:g}): beyond the pairs that the next order was calibrated on; run it "
+            "with lagrotor.simulate, or follow the mean by lagrotor.theory.slow_motion"
+        )
     p_x, p_y = abs(float(response.impulse[0])), abs(float(response.impulse[1] + response.impulse[2]))
     size = sqrt(p_x**2 + (a + b) / (a - b) * p_y**2) / spin
     taken, length, turn = spin * size**2 / (2 * k), wander * duration, abs(turning) * duration

@@ -9,7 +9,7 @@ from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
 from lagrotor.theory.rate_shift import frequency_shift, opposite_share
 
-FARTHEST_SHIFT = 0.15  # relative shift of the rate, all its terms positive, beyond which the next order is not small
+FARTHEST_SHIFT = 0.12  # relative shift of the rate, all its terms positive, beyond which the next order is not small
 
 
 @generated(((),))
@@ -64,10 +64,10 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
     With c and share of `theory.rate_shift`, c the shift of the orbit about upright and d = share² sigma/(2 k²) what a swing adds
     that begins in another phase and so turns about the joint line, and with C what c becomes with all its terms positive,
 
-        Omega_0 ( (|c| + d) r²/(1 − r²) + (C r²)² ).
+        Omega_0 ( (|c| + d) r²/(1 − r²) + 3 (C r²)² ).
 
     One rotor alone precesses at Omega_0 / cos theta exactly. A swing of opposite spins that is made to turn at nu besides is
-    shifted by −(a + b) nu/(k G) of Omega_0 more. Raises DomainError unless 0 <= r <= 0.4 and C r² <= 0.15.
+    shifted by −(a + b) nu/(k G) of Omega_0 more. Raises DomainError unless 0 <= r <= 0.4 and C r² <= 0.12.
     """
     rate = natural_rate(scene)
     if not 0 <= amplitude <= LARGEST_SWING.value:
@@ -87,7 +87,7 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
             f"{sqrt(FARTHEST_SHIFT / in_all):.2g}; use lagrotor.simulate, or precession_orbit for opposite spins"
         )
     turning = share**2 * sigma / (2 * k * k)
-    return rate * ((abs(frequency_shift(scene)) + turning) * square / (1 - square) + (in_all * square) ** 2)
+    return rate * ((abs(frequency_shift(scene)) + turning) * square / (1 - square) + 3 * (in_all * square) ** 2)
 
 
 @dataclass(frozen=True)

@@ -268,6 +268,11 @@ PAST = [
     ("t10", "E, G_1, P and B are conserved", lambda d: d["largest swing of E, G_1, P, B"] < 1e-9, ("P", moved(1e-8))),
     ("t10", "the paper's A is not: it swings as the square of the amplitude",
      lambda d: abs(d["power of A's swing"] - 2) < 0.1 and d["A"].min() > 1e-3, ("A", lambda swings: swings**1.5)),
+    ("t11", "an exact run stays by its curve, and exact multipliers by the law", lambda d:
+     d["largest distance from the curve"] < 0.15 and d["largest relative distance of the frequency squared"] < 0.15,
+     ("half", wider(1.3))),
+    ("t12", "exact orbits lie on both laws", lambda d:
+     d["largest distance, shift"] < 0.02 and d["largest distance, drift"] < 0.02, ("exact shift", wider(1.05))),
     ("b1", "no method lies below the front", lambda d: all(
         any(n <= spent and error <= least for n, error in d["front"])
         for spent, least in zip(d["evaluations"].ravel(), d["errors"].ravel(), strict=True) if least == least),
@@ -342,7 +347,17 @@ PLOTS = {  # key → panels, entries of the legend
     **{"17": (3, 6), "18": (2, 5), "19": (2, 5), "20": (2, 5), "21": (3, 3), "22": (3, 3)},
     **{"23": (2, 5), "24": (3, 3), "25": (5, 4), "26": (3, 2), "27": (5, 4), "28": (4, 4)},
     **{"t1": (2, 6), "t2": (3, 6), "t3": (2, 12), "t4": (3, 4), "t5": (2, 9)},
-    **{"t6": (2, 5), "t7": (2, 6), "t8": (2, 6), "t9": (2, 6), "t10": (2, 5), "b1": (1, 12), "b2": (4, 8)},
+    **{
+        "t6": (2, 5),
+        "t7": (2, 6),
+        "t8": (2, 6),
+        "t9": (2, 6),
+        "t10": (2, 5),
+        "t11": (3, 5),
+        "t12": (2, 3),
+        "b1": (1, 12),
+        "b2": (4, 8),
+    },
     **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3), "n6": (2, 6)},
 }
 # Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
