@@ -99,7 +99,7 @@ def portrait(panel: Axes, motion: SlowMotion, name: str) -> None:
     levels = np.unique([*(start + np.array([-2.0, -1.2, -0.6, -0.2, 0.4, 1.2, 3, 8, 20]))])
     panel.contour(np.degrees(lean), half, W, levels, colors=[MODEL_COLOUR], linewidths=0.8, linestyles="-")
     panel.contour(np.degrees(lean), half, W, [start], colors=[CORRECTION_COLOUR], linewidths=1.8, linestyles="-")
-    panel.set(xlabel="lean β [degrees]", title=name, ylim=(-2.2, 2.2))
+    panel.set(xlabel="lean β [deg]", title=name, ylim=(-2.2, 2.2))
 
 
 def figure() -> Figure:
