@@ -142,7 +142,11 @@ def test_the_corner_falls_from_any_push_in_a_time_as_one_over_it():
 @pytest.mark.slow
 @pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
 def test_the_law_in_many_directions(shape, spins):
-    """No exact run falls before the least time, each falls, and the normal form says when."""
+    """No exact run falls before the least time, each falls, and the normal form says when to a tenth.
+
+    The farthest of the 32 is off by 8 % (square, direction 7, 0.01), where the terms of fourth order turn the growth back for a
+    while; at half the push by 3 %.
+    """
     s = at(1.0607, shape, spins)
     found, rate = s.stands(), local_hamiltonian(s).rate
     for push in directions(s, 8, seed=3):
@@ -150,7 +154,7 @@ def test_the_law_in_many_directions(shape, spins):
             said = found.fall_time(speed * rate * push) * rate
             exact = measured_fall(s, speed * rate * push, 400 / rate)[0] * rate
             assert found.fall_time(speed * rate) * rate < exact < inf
-            assert exact == pytest.approx(said, abs=0.04 * said + 6)
+            assert exact == pytest.approx(said, rel=0.1)
 
 
 @pytest.mark.slow
