@@ -33,6 +33,20 @@ def test_my_own_pair() -> None:
     assert ends[4].axes
 
 
+def test_structures() -> None:
+    _, ends = ran("structures")
+    assert len(ends[0]) == 10 and ends[1].stands and not ends[2].stands
+
+
+def test_speed_against_accuracy() -> None:
+    _, ends = ran("speed_against_accuracy")
+    rows = [ends[1][tol] for tol in sorted(ends[1], reverse=True)]
+    assert all(
+        true <= estimate <= tol for tol, (_, estimate, true) in zip((1e-4, 1e-6, 1e-8, 1e-10), rows, strict=True)
+    )
+    assert [evaluations for evaluations, _, _ in rows] == sorted(evaluations for evaluations, _, _ in rows)
+
+
 def test_the_paired_precession() -> None:
     _, ends = ran("paired_precession")
     assert ends[1] < 1e-7, "the run comes back"
@@ -128,6 +142,8 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
         "paired_precession",
         "rolling",
         "small_motions",
+        "speed_against_accuracy",
+        "structures",
     ]
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]

@@ -80,7 +80,10 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
     moving = [*(line for _, carried in outlines for line in carried), *drawn]
     if not moving:
         raise InputError(_NOTHING.format("view"))
-    return view_lines(frames.t, moving, inks, f"motion of {', '.join(map(str, run.system.c.q))}")
+    # Of a body the first line leaves a path, from the frame to the centre: paths of its rim would hide it.
+    firsts = np.cumsum([0, *(len(carried) for _, carried in outlines)])[:-1].tolist()
+    traced = [*firsts, *range(len(moving) - len(drawn), len(moving))]
+    return view_lines(frames.t, moving, inks, f"motion of {', '.join(map(str, run.system.c.q))}", traced)
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
