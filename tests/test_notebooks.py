@@ -106,7 +106,7 @@ def test_rolling() -> None:
     w, g, r = (names[letter] for letter in "wgr")
     (s,) = ends[1].free_symbols - {w, g, r}
     assert (ends[1] - s**6 * (s**2 + 12 * w**2 / 5 - 4 * g / (5 * r))).expand() == 0
-    assert "canvas" in ends[2].page and 0.9 < ends[3] < 1
+    assert "canvas" in ends[2].html and 0.9 < ends[3] < 1
 
 
 def test_small_motions() -> None:
