@@ -26,7 +26,7 @@ _DIGITS = 40  # halvings of the interval between two numbers
 @dataclass(frozen=True, eq=False)
 class RootLocus:
     """rates (m, n), 1/s, at the numbers (m,) of a letter; boundaries: its values at which the motion becomes stable or unstable,
-    each alone between two of the numbers that were asked for, among which they are put. They are known to about a millionth:
+    each alone between two of the numbers that were given, among which they are put. They are known to about a millionth:
     rates that coincide, as zero ones do, are not known better than to the root of rounding."""
 
     letter: sp.Symbol
