@@ -175,7 +175,7 @@ KINDS: dict[str, tuple[Callable[[], tuple[str, CertifiedLine]], list[tuple[str, 
     ),
     "a number of a run, with roots": (
         lambda: read_off(sp.Rational("1.41"), sp.sqrt(2 * R**2 + 2 * J) / sp.sqrt(R**2 + J), "1/100"),
-        [("(141 / 100) =", "(142 / 100) ="), ("<= (1 / 100)", "<= (1 / 500)"), ("(defined_1 : 0 < J + R_ ^ 2)", "")],
+        [("(141 / 100) =", "(142 / 100) ="), ("<= (1 / 100)", "<= (1 / 500)")],
     ),
     "a ratio that changes": (
         lambda: read_off(R / sp.cos(x), R * (1 + sp.sin(x) ** 2), "1/100", known=(x, 3)),
