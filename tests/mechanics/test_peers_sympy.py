@@ -115,7 +115,6 @@ QUICK = {
 LONG = {
     "test_kane": "aux parallel_axis input_format implicit_kinematics",
     "test_kane2": "aux_dep non_central_inertia",
-    "test_kane3": "bicycle",
     "test_kane5": "kane_rolling_disc_lu",
     "test_lagrange": "rolling_disc",
     "test_jointsmethod": (
