@@ -32,23 +32,37 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Hamiltonian:
-    """H(q, p, t) with the bracket of its variables; p_dot F as in the module. constraints: g(q) = 0."""
+    """H(q, p, t) with the bracket of its variables; p_dot F as in the module. constraints: g(q) = 0; v: q' of the Lagrangian.
+
+    Every method raises InputError for a function with a velocity, or with another symbol of the name of q, p or t: it would
+    count as a constant.
+    """
 
     H: sp.Expr
     q: tuple[sp.Symbol, ...]
     p: tuple[sp.Symbol, ...]
     field: sp.Matrix
     constraints: tuple[sp.Expr, ...] = ()
+    v: tuple[sp.Symbol, ...] = ()
 
     def bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
         """{f, g}; under constraints Dirac's, which is that of functions on them."""
-        f, g = (expression("bracket", e) for e in (f, g))
+        f, g = self._function("bracket", f), self._function("bracket", g)
         plain = self._bracket(f, g)
         if not self.constraints:
             return shortest(plain)
         left = sp.Matrix([[self._bracket(f, phi) for phi in self._bound]])
         right = sp.Matrix([self._bracket(phi, g) for phi in self._bound])
         return shortest(plain - (left * self._dirac * right)[0])
+
+    def _function(self, where: str, given: sp.Expr) -> sp.Expr:
+        e, names = expression(where, given), {str(s): s for s in (*self.q, *self.p, t)}
+        for s in sorted(e.free_symbols, key=str):
+            if s in self.v:
+                raise InputError(f"{where}: {e} contains the velocity {s}: write it by the momenta {self.p}")
+            if names.get(str(s), s) != s:
+                raise InputError(f"{where}: {s} in {e} is another symbol than the {s} of H: use those of h.q, h.p and t")
+        return e
 
     def _bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
         fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
@@ -123,6 +137,8 @@ class Hamiltonian:
                 "normal_form: H must have canonical momenta, no constraints and no time: use independent coordinates"
             )
         letters = by_symbol(values or {}, self.H.free_symbols)
+        if wrong := [s for s, v in letters.items() if not sp.sympify(v).is_finite]:
+            raise InputError(f"normal_form: {wrong[0]} = {letters[wrong[0]]} must be a finite number")
         H = self.H.xreplace({s: sp.sympify(v) for s, v in letters.items()})
         point = {s: sp.sympify(v) for s, v in by_symbol(at, x).items()}
         if strange := [str(s) for s in point if s not in x]:
@@ -159,7 +175,7 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, k
     curl = jacobian(b, c.q)
     field = (curl.T - curl).applyfunc(shortest) if kinetic else sp.zeros(len(c.q))
     return Hamiltonian(
-        shortest(legendre(L - b.dot(sp.Matrix(c.v)) if kinetic else L, c, p)), c.q, p, field, system.constraints
+        shortest(legendre(L - b.dot(sp.Matrix(c.v)) if kinetic else L, c, p)), c.q, p, field, system.constraints, c.v
     )
 
 
@@ -169,7 +185,16 @@ def rotational_bracket(f: sp.Expr, g: sp.Expr, momentum: Sequence[sp.Symbol], *v
         {M_i, M_j} = −ε_ijk M_k,   {M_i, γ_j} = −ε_ijk γ_k,   {γ_i, γ_j} = 0,
 
     so that M' = {M, H} = M × ∂H/∂M + γ × ∂H/∂γ are Euler's equations. Marsden & Ratiu, ch. 15.
+
+    Raises InputError for a vector that is not three symbols, and for another symbol of the name of one of them.
     """
+    for vector in (momentum, *vectors):
+        if len(vector) != 3 or not all(isinstance(s, sp.Symbol) for s in vector):
+            raise InputError(f"rotational_bracket: {tuple(vector)} must be three symbols")
+    names = {str(s): s for vector in (momentum, *vectors) for s in vector}
+    f, g = (expression("rotational_bracket", e) for e in (f, g))
+    if strange := [s for s in f.free_symbols | g.free_symbols if names.get(str(s), s) != s]:
+        raise InputError(f"rotational_bracket: {strange[0]} is another symbol than that of the vectors: use theirs")
     by_M = [gradient(e, momentum) for e in (f, g)]
     result = -sp.Matrix(momentum).dot(by_M[0].cross(by_M[1]))
     for gamma in vectors:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.errors import DomainError
+from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import System, coordinates, rotational_bracket, t
 
 m, g, k, B = sp.symbols("m g k B", positive=True)
@@ -117,3 +117,27 @@ def test_what_has_no_hamiltonian_is_refused():
         System(c, c.v[0] ** 2 / 2, dissipation=c.v[0] ** 2).hamiltonian()
     with pytest.raises(DomainError, match="canonical momenta"):
         System(c, c.v[0] ** 2 / 2 - c.q[0] ** 2 * (1 + sp.cos(t))).hamiltonian().normal_form(4, {"x": 0})
+
+
+def test_another_symbol_of_the_same_name_and_a_velocity_are_no_constants():
+    """sympy's Symbol("p_x") is not the real p_x of H: as a constant it would be "conserved"."""
+    c = coordinates("x")
+    h = System(c, m * c.v[0] ** 2 / 2 - k * c.q[0] ** 2 / 2).hamiltonian()
+    (x,), (p,) = h.q, h.p
+    for wrong in (sp.Symbol("p_x"), sp.Symbol("x"), x * sp.Symbol("t"), c.v[0] ** 2):
+        for ask in (h.conserved, h.rate, lambda f: h.bracket(x, f), lambda f: h.in_involution(h.H, f)):
+            with pytest.raises(InputError, match="another symbol than|the velocity x_dot"):
+                ask(wrong)
+    assert h.conserved(m * k).answer == "zero" and h.conserved(p).answer == "nonzero"  # letters are constants
+    with pytest.raises(InputError, match="k = nan must be"):
+        h.normal_form(4, {x: 0}, {k: sp.nan, m: 1})
+
+
+def test_a_rotational_bracket_takes_three_symbols_and_no_others_of_their_names():
+    M = sp.symbols("M1:4", real=True)
+    assert rotational_bracket(M[0], M[1], M) == -M[2]
+    with pytest.raises(InputError, match="another symbol"):
+        rotational_bracket(sp.Symbol("M1"), M[1], M)
+    for few in (M[:2], (1, 2, 3)):
+        with pytest.raises(InputError, match="three symbols"):
+            rotational_bracket(M[0], M[1], few)
