@@ -5,12 +5,14 @@ For H = p²/2m(q) + b(q) p + V(q), with W = V − m b²/2 what is left at the ve
     J(E) = (1/2π) ∮ p dq = (1/π) ∫ sqrt(2m (E − W)) dq,      2π/ω = 2π dJ/dE = 2 ∫ sqrt(m/(2 (E − W))) dq.
 
 q = middle + half sin θ makes both integrands smooth and periodic, so that the trapezoid rule converges faster than any power.
+Beside a turning point E − W is its Taylor series there, and no difference of like numbers. Near a separatrix ω falls as one over
+the logarithm of what is left of the energy, and E itself is rounded: `frequency_error` is what rounding of E and W changes.
 Arnold, Mathematical Methods of Classical Mechanics, § 50; Trefethen & Weideman, SIAM Review 56 (2014) 385.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import pi
+from math import factorial, isfinite, nan, pi
 from typing import Any
 
 import sympy as sp
@@ -26,45 +28,48 @@ _FARTHEST, _MOST_CROSSINGS = (
     1e5,
 )  # in units of 1 + |at|: where it is said to escape; of the time at the start's speed
 _ROUNDED = 1e-8  # of the largest kinetic energy
+_TERMS = 6  # of the Taylor series beside a turning point
+_MOST_ROUNDED = 1e-2  # of the period, which on a separatrix is one over the logarithm of rounding
+_UNSURE = "libration: the energy is that of a separatrix or of rest, to rounding: give one farther from it"
+_EPS = 4 * 2.2e-16  # of the largest energy on the way: what rounding does to E and W
 
 
 @dataclass(frozen=True)
 class Libration:
-    """action J (J s), frequency ω = dE/dJ (rad/s) of the libration of an energy (J) between the turning points q."""
+    """action J (J s), frequency ω = dE/dJ (rad/s) of the libration of an energy (J) between the turning points q.
+
+    error, frequency_error: of the action and of the frequency, relative: from half the points, and from rounding.
+    """
 
     energy: float
     action: float
     frequency: float
     turning_points: tuple[float, float]
     error: float
+    frequency_error: float
 
 
 def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None = None) -> Libration:
-    """The libration of that energy about the place `at`, where it can be; error: of the action, relative, from half the points.
+    """The libration of that energy about the place `at`, where it can be.
 
     Raises DomainError for more than one degree of freedom or an H that is not quadratic in p, InputError where the energy is
-    below that of rest `at`, IntegrationError where it does not turn on both sides: it goes round, or escapes.
+    below that of rest `at` or no number, IntegrationError where it does not turn on both sides: it goes round, escapes, or
+    is so near a separatrix that rounding decides.
     """
     import numpy as np
     from scipy.integrate import solve_ivp
 
-    if len(h.q) != 1 or h.constraints or h.H.has(sp.Symbol("t", real=True)):
-        raise DomainError(
-            "libration: one degree of freedom without constraints and time: reduce by Routh's transform first"
-        )
+    H, energy, at = _in_one_freedom(h, energy, at, values)
     (q,), (p,) = h.q, h.p
-    H = h.H.xreplace({s: sp.sympify(v) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
     curvature = sp.diff(H, p, 2)
-    if decide_zero(sp.diff(curvature, p)).answer != "zero" or curvature == 0:
-        raise DomainError(f"libration: H = {H} must be quadratic in {p}")
-    if letters := H.free_symbols - {q, p}:
-        raise InputError(
-            f"libration: {', '.join(sorted(map(str, letters)))} without a value: give every letter a number"
-        )
     slope = sp.diff(H, p).subs(p, 0)
     mass = sp.lambdify(q, 1 / curvature + 0 * q, "numpy")
     rest = energy - H.subs(p, 0) + slope**2 / (2 * curvature)
-    left, pull = sp.lambdify(q, rest + 0 * q, "numpy"), sp.lambdify(q, sp.diff(rest, q) + 0 * q, "numpy")
+    left = sp.lambdify(q, rest + 0 * q, "numpy")
+    slopes = [
+        sp.lambdify(q, sp.diff(rest, q, k).replace(sp.DiracDelta, lambda *_: sp.S.Zero) / factorial(k), "numpy")
+        for k in range(1, _TERMS + 1)
+    ]
     if not left(at) > 0:
         raise InputError(
             f"libration: energy = {energy:g} is not above that of rest at {q} = {at:g}: raise it, or start elsewhere"
@@ -89,24 +94,73 @@ def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any
             raise IntegrationError(
                 f"libration: it does not turn before {q} = {far:g}: at this energy it goes round, or escapes"
             )
-        end = float(run.y[0, -1])
-        for _ in range(4):  # Newton's steps from where the motion turned
-            end -= float(left(end) / pull(end))
-        ends.append(end)
-    middle, half, points = sum(ends) / 2, (ends[1] - ends[0]) / 2, 16
-    before = np.inf
-    while points <= _MOST_POINTS:
-        theta = (np.arange(points) + 0.5) * pi / points - pi / 2
-        place = middle + half * np.sin(theta)
-        E, m, ends_pull = left(place), mass(place) + 0 * place, np.where(theta < 0, pull(ends[0]), -pull(ends[1]))
-        # Beside a turning point E − W is the force times the distance, 1 − |sin θ| = cos² θ/(1 + |sin θ|), and not rounding.
-        by_force = half * ends_pull * np.cos(theta) ** 2 / (1 + np.abs(np.sin(theta)))
-        E = np.where(_ROUNDED * E.max() > E, by_force, E)
-        action = half * (np.sqrt(2 * m * E) * np.cos(theta)).mean()
-        if abs(action - before) <= 1e-13 * action:
-            break
-        before, points = action, 2 * points
-    period = 2 * pi * half * (np.sqrt(m / (2 * E)) * np.cos(theta)).mean()
+        ends.append(float(run.y[0, -1]))
+
+    def cycle(lower: float) -> tuple[float, float, float, float, list[float]]:
+        """Action and period of the energy less `lower`, how far each was from half the points, and the turning points."""
+        turned = [_turning_point(lambda x: float(left(x)) - lower, lambda x: float(slopes[0](x)), end) for end in ends]
+        series = [[float(f(end)) for f in slopes] for end in turned]
+        middle, half, points = sum(turned) / 2, (turned[1] - turned[0]) / 2, 16
+        action = period = np.inf
+        while True:
+            theta = (np.arange(points) + 0.5) * pi / points - pi / 2
+            place, away = middle + half * np.sin(theta), half * np.cos(theta) ** 2 / (1 + np.abs(np.sin(theta)))
+            E, m = left(place) - lower, mass(place) + 0 * place
+            near = np.where(
+                theta < 0, *(np.polyval([*c[::-1], 0], d) for c, d in zip(series, (away, -away), strict=True))
+            )
+            E = np.where(_ROUNDED * E.max() > E, near, E)
+            if not (E > 0).all():
+                raise IntegrationError(_UNSURE)
+            before, action = action, half * (np.sqrt(2 * m * E) * np.cos(theta)).mean()
+            coarse, period = period, 2 * pi * half * (np.sqrt(m / (2 * E)) * np.cos(theta)).mean()
+            off = abs(action / before - 1), abs(period / coarse - 1)
+            if points >= _MOST_POINTS or (off[0] <= 1e-13 and off[1] <= 1e-12):
+                return float(action), float(period), float(off[0]), float(off[1]), turned
+            points *= 2
+
+    action, period, off, period_off, turned = cycle(0.0)
+    rounding = _EPS * max(abs(energy), float(np.abs(energy - left(np.linspace(turned[0], turned[1], 33))).max()))
+    lower, longer, *_ = cycle(rounding)
+    if abs(longer / period - 1) > _MOST_ROUNDED:
+        raise IntegrationError(_UNSURE)
     return Libration(
-        float(energy), float(action), float(2 * pi / period), (ends[0], ends[1]), float(abs(action - before) / action)
-    )
+        energy, action, 2 * pi / period, (turned[0], turned[1]),
+        off + abs(lower / action - 1), period_off + abs(longer / period - 1),
+    )  # fmt: skip
+
+
+def _in_one_freedom(
+    h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None
+) -> tuple[sp.Expr, float, float]:
+    """H(q, p) with its values, quadratic in p, the energy and the place as numbers."""
+    if len(h.q) != 1 or h.constraints or h.H.has(sp.Symbol("t", real=True)):
+        raise DomainError(
+            "libration: one degree of freedom without constraints and time: reduce by Routh's transform first"
+        )
+    try:
+        energy, at = float(energy), float(at)
+    except (TypeError, ValueError):
+        energy = nan
+    if not (isfinite(energy) and isfinite(at)):
+        raise InputError("libration: energy and at must be finite numbers, in J and as q")
+    (q,), (p,) = h.q, h.p
+    H = h.H.xreplace({s: sp.sympify(v) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
+    curvature = sp.diff(H, p, 2)
+    if decide_zero(sp.diff(curvature, p)).answer != "zero" or curvature == 0:
+        raise DomainError(f"libration: H = {H} must be quadratic in {p}")
+    if letters := H.free_symbols - {q, p}:
+        raise InputError(
+            f"libration: {', '.join(sorted(map(str, letters)))} without a value: give every letter a number"
+        )
+    return H, energy, at
+
+
+def _turning_point(left: Callable[[float], float], pull: Callable[[float], float], start: float) -> float:
+    """Where E = W beside `start`, by Newton's steps. Raises IntegrationError where they lead away, as on a separatrix."""
+    end = start
+    for _ in range(8):
+        end -= left(end) / pull(end) if pull(end) else 0.0
+    if not abs(end - start) < 1e-3 * (1 + abs(start)) or abs(left(end)) > 1e-4 * abs(pull(end)) * (1 + abs(end)):
+        raise IntegrationError(_UNSURE)
+    return end

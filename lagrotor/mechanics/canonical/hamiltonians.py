@@ -61,7 +61,9 @@ class Hamiltonian:
             if s in self.v:
                 raise InputError(f"{where}: {e} contains the velocity {s}: write it by the momenta {self.p}")
             if names.get(str(s), s) != s:
-                raise InputError(f"{where}: {s} in {e} is another symbol than the {s} of H: use those of h.q, h.p and t")
+                raise InputError(
+                    f"{where}: {s} in {e} is another symbol than the {s} of H: use those of h.q, h.p and t"
+                )
         return e
 
     def _bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:

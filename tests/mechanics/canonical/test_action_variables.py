@@ -55,3 +55,27 @@ def test_what_does_not_librate_is_refused():
     two = coordinates("x y")
     with pytest.raises(DomainError, match="one degree of freedom"):
         libration(System(two, sum(u**2 for u in two.v)).hamiltonian(), 1.0, 0.0)
+
+
+@pytest.mark.parametrize("below", [1e-6, 1e-9, 1e-11])
+def test_beside_the_separatrix_the_frequency_is_right_to_its_error(below):
+    """The place where the force vanishes is a turning point's neighbour: E − W bends there and is no force times a distance."""
+    from mpmath import mp
+
+    with mp.workdps(30):
+        m = (1 + mp.mpf(1 - below)) / 2
+        frequency, action = mp.pi / (2 * mp.ellipk(m)), 8 / mp.pi * (mp.ellipe(m) - (1 - m) * mp.ellipk(m))
+    found = libration(PENDULUM, 1 - below, 0.0)
+    assert found.frequency == pytest.approx(float(frequency), rel=found.frequency_error)
+    assert found.action == pytest.approx(float(action), rel=found.error)
+    assert found.error < 1e-12 and found.frequency_error < 1e-14 / below + 1e-10
+    assert found.frequency != pytest.approx(
+        float(frequency) * (1 + 1e3 * found.frequency_error), rel=found.frequency_error
+    )
+
+
+@pytest.mark.parametrize("energy", [1.0, 1.0 + 1e-9, float("nan"), "1"])
+def test_on_the_separatrix_and_without_an_energy_there_is_no_frequency(energy):
+    """Stepped with an error of 1e-10 a pendulum of 1e-9 too much seems to turn after some rounds."""
+    with pytest.raises((IntegrationError, InputError), match=r"separatrix|finite numbers"):
+        libration(PENDULUM, energy, 0.0)
