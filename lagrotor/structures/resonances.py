@@ -15,7 +15,7 @@ All of it is of the terms of degree d; d = 3 are the waves of Cherry, Trans. Cam
 actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
@@ -25,10 +25,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm, birkhoff, normal_quadratic
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
-from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_coordinates
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, finite
@@ -43,7 +43,11 @@ _GROUP = 4.0  # times the least detuning of a group: what is detuned no more is 
 _NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
 _FALLEN = 1.0  # the sine of a tilt
 _TRUSTED = 0.1  # the sine of a tilt
+_EQUAL = 1e-6  # of the largest rate
+_ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _MOST_STEPS = 8  # of the search for the edge of a window
+_STOPPED = "no: its own terms stop it; how far it grows before is not known"
+_FASTEST = 1e9  # times the critical factor: beyond, no spins are sought
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
 
 
@@ -106,7 +110,7 @@ class Resonance(Shown):
             "order": str(self.order),
             "at the factor on all spins": f"{self.factor:.6g}",
             "coefficient": f"{self.growth:.4g} 1/s",
-            "falls": f"from {self.push():.3g} rad/s on" if self.falls else "no: its own terms stop it",
+            "falls": f"from {self.push():.3g} rad/s on" if self.falls else _STOPPED,
         }
 
 
@@ -233,13 +237,7 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
     """The normal form of a structure about upright with all spins multiplied, in units of its `LocalHamiltonian`."""
     H = local_hamiltonian(s, order).at_spins(factor)
-    n, A = H.variables // 2, np.zeros((H.variables, H.variables))
-    for e, c in H.part(2).terms.items():
-        i, j = (k for k, m in enumerate(e) for _ in range(m))
-        A[i, j] += c
-        A[j, i] += c
-    bracket = np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
-    normal = normal_coordinates(A, bracket)
+    n, (A, normal) = H.variables // 2, _linear_modes(H)
     rows = [
         polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
         for row in normal.vectors
@@ -249,24 +247,40 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
     return birkhoff(total([quadratic, *parts]), normal.weights, order, detuning, normal.vectors)
 
 
-def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
-    """When the push with the axes' rates (N, 2), rad/s, from upright falls by the normal form of fourth order, s.
+def _linear_modes(H: Polynomial) -> tuple[Array, NormalCoordinates]:
+    """A of the quadratic part ½ x·A x, and its normal coordinates."""
+    n, A = H.variables // 2, np.zeros((H.variables, H.variables))
+    for e, c in H.part(2).terms.items():
+        i, j = (k for k, m in enumerate(e) for _ in range(m))
+        A[i, j] += c
+        A[j, i] += c
+    return A, normal_coordinates(A, np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]]))
 
-    inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s.
+
+def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> tuple[float, float]:
+    """When the push with the axes' rates (N, 2), rad/s, from upright falls by the normal form of fourth order, s, and its error.
+
+    inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s. The error is what the
+    terms of fourth order change, and the time from a tilt of ⅓ on, where those left out are no longer small.
     """
+    low, high = (_tilted_after(s, rates, longest, detuning, order) for order in (3, 4))
+    return high[1], abs(high[1] - low[1]) + high[1] - high[0] if high[1] < inf else inf
+
+
+def _tilted_after(s: Assembly, rates: ArrayLike, longest: float, detuning: float, order: int) -> tuple[float, float]:
+    """When an axis tilts by the sine ⅓, and by 1, after a push by the normal form of an order, s; inf within the `longest`."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
-    n = normal_form_of(s, 1.0, detuning / h.rate)
+    n = normal_form_of(s, 1.0, detuning / h.rate, order)
     size = len(n.frequencies)
     push = finite("fall_time: push", rates)
-    if push.shape != (len(s.joints), 2):
-        raise InputError(
-            f"fall_time: push must be a number or rates ({len(s.joints)}, 2) in rad/s, not of shape {push.shape}"
-        )
+    off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
+    if np.abs(off).max() > _ON_BARS * np.abs(push).max():
+        raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")
     momentum = h.mass @ (h.basis.T @ push.ravel()) / h.rate
     start = np.linalg.inv(n.vectors) @ np.concatenate([0 * momentum, momentum])
-    begin = np.array([f.at(start) for f in _new_coordinates(n)])[:size]
+    begin = np.array([f.at(start) for f in _new_coordinates(n, order - 1)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
     turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
     slow = n.series - polynomial(
@@ -279,21 +293,22 @@ def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: flo
         point = np.concatenate([z, z.conj()])
         return np.array([-1j * f.at(point) for f in slopes])
 
-    def fallen(_: float, z: Complex) -> float:
-        return float(np.hypot(*np.moveaxis(tilts @ np.abs(z), 1, 0)).max()) - _FALLEN
+    def over(sine: float) -> Callable[[float, Complex], float]:
+        return lambda _, z: float(np.hypot(*np.moveaxis(tilts @ np.abs(z), 1, 0)).max()) - sine
 
+    third, fallen = over(_FALLEN / 3), over(_FALLEN)
     fallen.terminal = True  # type: ignore[attr-defined]
-    run = solve_ivp(
-        flow, (0, longest * h.rate), begin, events=fallen, rtol=1e-7, atol=1e-10 * np.abs(begin).max(), method="DOP853"
-    )
-    return float(run.t[-1]) / h.rate if run.status == 1 else inf
+    events, tight = (third, fallen), 1e-10 * np.abs(begin).max()
+    run = solve_ivp(flow, (0, longest * h.rate), begin, events=events, rtol=1e-7, atol=tight, method="DOP853")
+    times = [float(t[0]) / h.rate if len(t) and run.status == 1 else inf for t in run.t_events]
+    return times[0], times[1]
 
 
-def _new_coordinates(n: NormalForm) -> list[Polynomial]:
-    """The normal form's coordinates as polynomials of those of the quadratic part, through third order."""
+def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
+    """The normal form's coordinates as polynomials of those of the quadratic part, through an order."""
     new = [variable(j, 2 * len(n.frequencies)) for j in range(2 * len(n.frequencies))]
     for generator in reversed([g for g in n.generators if len(g.coefficients)]):
-        new = [lie_transform(f, generator.times(-1), n.weights, 3) for f in new]
+        new = [lie_transform(f, generator.times(-1), n.weights, order) for f in new]
     return new
 
 
@@ -325,7 +340,7 @@ def largest_push(s: Assembly) -> LargestPush:
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it falls to first order", None)
     first = next((r for r in resonances(s) if r.falls), None)
-    trusted = _trusted_push(s)
+    trusted = trusted_push(s)
     if first is None or first.push() > trusted:
         return LargestPush(
             trusted, f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}", first
@@ -333,13 +348,31 @@ def largest_push(s: Assembly) -> LargestPush:
     return LargestPush(float(first.push()), f"a resonance of order {first.order}: {first.words()}", first)
 
 
-def _trusted_push(s: Assembly) -> float:
-    """The push (rad/s) from which no axis tilts by more than `_TRUSTED` in the linear motion."""
-    h, n = local_hamiltonian(s), normal_form_of(s)
-    size = len(n.frequencies)
+def trusted_push(s: Assembly, factor: float = 1.0) -> float:
+    """The push (rad/s) from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
+    if not len(signed_rates(small_motion(s), factor)):
+        return 0.0
+    h = local_hamiltonian(s)
+    try:
+        _, n = _linear_modes(h.at_spins(factor))
+    except SingularError:  # at the critical spins two modes are one
+        return 0.0
+    rates = n.frequencies.real
+    size, shapes = len(rates), h.basis @ n.vectors[: len(rates), : len(rates)]
     over = np.linalg.inv(n.vectors)[:size, size:] @ h.mass / h.rate
-    tilts = 2 * np.abs(h.basis @ n.vectors[:size, :size]) @ np.abs(over)
-    return float(_TRUSTED / np.linalg.norm(tilts.reshape(-1, 2, size), axis=(1, 2)).max())
+    equal = np.abs(rates[:, None] - rates) < _EQUAL * np.abs(rates).max()  # of equal rates only the sum has a meaning
+    groups = {tuple(np.flatnonzero(row).tolist()) for row in equal}
+    tilts = sum(
+        2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2)) for g in map(list, groups)
+    )
+    return float(_TRUSTED / np.max(tilts))
+
+
+def checked_push(where: str, push: Any) -> float:
+    """A push as a number. Raises InputError for what is no rate above zero."""
+    if isinstance(push, bool) or not isinstance(push, int | float | np.number) or not 0 < push < inf:
+        raise InputError(f"{where}: push = {push!r} must be a rate above zero, rad/s")
+    return float(push)
 
 
 def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, float]:
@@ -367,21 +400,68 @@ def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float)
 
 
 def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
-    """The factors on all spins, from the critical one on, at which no push of that size (rad/s) falls, as intervals.
+    """The factors on all spins at which no push of that size (rad/s) falls, by `largest_push` there, as intervals.
 
-    The last one ends at inf. Empty where no spins hold it. Raises InputError as `resonances` does.
+    The last one ends at inf. They begin beyond the critical spins, where the two modes that become one there are far
+    enough apart for the expansion to be trusted. Empty where no spins are known to hold it. Raises InputError as
+    `resonances` does.
     """
-    if not push > 0:
-        raise InputError(f"spin_intervals: push = {push!r} must be a rate above zero, rad/s")
-    low = spin_threshold(small_motion(s))
-    if low == inf:
+    push = checked_push("spin_intervals", push)
+    if spin_threshold(small_motion(s)) == inf:
         return ()
+    windows = sorted(window_of(s, r, push) for _, r in resonant_factors(s))
     kept = []
-    for start, end in sorted(window_of(s, r, push) for _, r in resonant_factors(s)):
-        if start > low:
-            kept.append((float(low), start))
-        low = max(low, end)
-    return (*kept, (float(low), inf))
+    for low, high in _trusted_factors(s, push):
+        for start, end in windows:
+            if low < start < high:
+                kept.append((low, start))
+            low = max(low, end)
+        if low < high:
+            kept.append((low, high))
+    return tuple(kept)
+
+
+def _trusted_factors(s: Assembly, push: float) -> list[tuple[float, float]]:
+    """Intervals of the factors at which a push is trusted; from the critical one on only where none falls at the first."""
+    linear = small_motion(s)
+    least, spin = spin_threshold(linear), float(np.abs(linear.gyroscopic).max())
+    unit = least or (2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / spin if spin else 1.0)
+    grid = (
+        [float(x) for x in unit * (1 + np.geomspace(1e-6, _TOP, 60))]
+        if least
+        else [0.0, *unit * np.geomspace(1e-3, 1e3, 60)]
+    )
+    while trusted_push(s, grid[-1]) < push and grid[-1] < _FASTEST * unit:
+        grid.append(2 * grid[-1])
+    enough = [trusted_push(s, f) >= push for f in grid]
+
+    def edge(outside: float, inside: float) -> float:
+        while abs(inside - outside) > 1e-6 * inside:
+            middle = (inside + outside) / 2
+            outside, inside = (outside, middle) if trusted_push(s, middle) >= push else (middle, inside)
+        return inside
+
+    kept, start = [], grid[0] if enough[0] else None
+    for k in range(1, len(grid)):
+        if enough[k] and not enough[k - 1]:
+            start = edge(grid[k - 1], grid[k])
+        elif enough[k - 1] and not enough[k] and start is not None:
+            kept.append((start, edge(grid[k], grid[k - 1])))
+            start = None
+    kept += [(start, inf)] if start is not None else []
+    if least and kept:  # beside it the modes that become one there are in resonance, whatever their detuning
+        low, high = kept[0]
+        while low < min(high, 2 * least) and any(
+            r.falls and r.push() < push and _colliding(r) for r in resonances(s, low)
+        ):
+            low = least + 1.2 * (low - least)
+        kept[0] = (low, high)
+    return kept
+
+
+def _colliding(r: Resonance) -> bool:
+    """Whether what resonates is as many times one mode as another, of the other sign: k = (2, 2)."""
+    return r.order == 4 and any(sorted(m for m in k if m) == [2, 2] for k in r.vectors)
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:

@@ -12,23 +12,26 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import SingularError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex, coefficients
+from lagrotor.structures.coefficients import Complex, coefficients, finite
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_FREEDOMS,
     Resonance,
+    checked_push,
     fall_time_along,
     resonances,
     signed_rates,
+    trusted_push,
     window_of,
 )
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
+_FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -62,7 +65,8 @@ class Standing(Shown):
           smaller ones as `largest_push` says;
         - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
         - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
-          friction acts, or there are more degrees of freedom than are expanded.
+          friction acts, there are more degrees of freedom than are expanded, or the critical spins are so near that such
+          a push tilts it by more than 0.1.
         """
         linear = small_motion(self.structure)
         if not self.stands:
@@ -76,12 +80,19 @@ class Standing(Shown):
             found = self.resonance
         except SingularError:  # at the critical spins two modes are one
             return "to first order"
-        return "falls at a resonance" if found and found.push() < self._reference else "holds"
+        if found and found.push() < self._reference:
+            return "falls at a resonance"
+        return "to first order" if self._too_near else "holds"
 
     @cached_property
     def resonance(self) -> Resonance | None:
         """The resonance that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
         return next((r for r in resonances(self.structure) if r.falls), None)
+
+    @cached_property
+    def _too_near(self) -> bool:
+        """Whether a push of PUSH is beyond what the expansion is trusted, as beside the critical spins."""
+        return trusted_push(self.structure) < self._reference
 
     @property
     def _reference(self) -> float:
@@ -91,45 +102,83 @@ class Standing(Shown):
     def why(self) -> str:
         """Why it stands or falls, in words."""
         if self.kind == "falls at a resonance" and self.resonance:
-            time, least = self.resonance.least_time(self._reference), self.resonance.push()
-            return (
+            least = self.resonance.push()
+            words = (
                 f"{self.first_order}, but it falls at a resonance of order {self.resonance.order}, "
-                f"{self.resonance.words()}: from a push of {least:.2g} rad/s on, one of {self._reference:.3g} rad/s in "
-                f"{time:.3g} s or more"
+                f"{self.resonance.words()}: from a push of {least:.2g} rad/s on"
             )
+            if self._reference > _FARTHEST * trusted_push(self.structure):
+                return f"{words}; one of {self._reference:.3g} rad/s tilts it so far that its time is not known"
+            return f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more"
         if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
-            return f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s"
+            return (
+                f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s; "
+                "what higher orders do, and when, is not known"
+            )
+        if self.kind == "to first order" and self.__dict__.get("_too_near"):
+            return (
+                f"{self.first_order}; so near the critical spins a push of {self._reference:.3g} rad/s tilts it too far for more "
+                "to be known"
+            )
         return self.first_order
 
     def window(self, push: float) -> tuple[float, float] | None:
         """The factors on all spins, about these, between which a push of that size (rad/s) may fall; None without a resonance."""
+        push = checked_push("window", push)
         return window_of(self.structure, self.resonance, push) if self.resonance else None
 
     def fall_time(self, push: float | ArrayLike) -> float:
         """When it falls, s. A number: the least time of pushes of that size (rad/s), inf where none falls. Rates (N, 2) of
         the axes: that of this push from upright, by the normal form, inf where it does not fall in 20 least times: an
-        estimate whose error falls with the push, at most 8 % in 32 exact runs of a corner and a square.
+        estimate with the error `fall_time_error`.
 
-        Raises InputError as `resonances` does.
+        Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
+        return self._falls(push)[0]
+
+    def fall_time_error(self, push: float | ArrayLike) -> float:
+        """How far `fall_time` of rates (N, 2) may be off, s: what the terms of fourth order change, and the time from a tilt
+        of ⅓ on, where those left out are no longer small. 0 for a number, which is a bound; inf where it is inf.
+        """
+        return self._falls(push)[1]
+
+    def _falls(self, push: float | ArrayLike) -> tuple[float, float]:
+        along = np.ndim(push) > 0
+        if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
+            raise InputError(
+                f"fall_time: push must be a number or rates {shape} in rad/s, not of shape {np.shape(push)}"
+            )
+        size = float(np.linalg.norm(finite("fall_time: push", push))) if along else checked_push("fall_time", push)
         if not self.stands:
-            return 0.0
-        if self.resonance is None:
-            return inf
-        size = float(np.linalg.norm(np.asarray(push, dtype=float)))
-        if size <= self.resonance.push():
-            return inf
-        if np.ndim(push) == 0:
-            return self.resonance.least_time(size)
-        reach = max(abs(np.dot(k, self.resonance.rates)) for k in self.resonance.vectors)
-        return fall_time_along(self.structure, push, 20 * self.resonance.least_time(size), 1.001 * reach)
+            return 0.0, 0.0
+        resonance, trusted = self.resonance, trusted_push(self.structure)
+        if resonance and size <= resonance.push():
+            resonance = None
+        if size > (_FARTHEST if resonance else 1) * trusted:
+            raise InputError(
+                f"fall_time: a push of {size:.3g} rad/s tilts an axis too far for the expansion, which is trusted to "
+                f"{trusted:.3g} rad/s: simulate it"
+            )
+        if not resonance:
+            return inf, 0.0
+        least = resonance.least_time(size)
+        if not along:
+            return least, 0.0
+        reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
+        time, error = fall_time_along(self.structure, push, 20 * least, 1.001 * reach)
+        if time == inf and size > trusted:
+            raise InputError(
+                f"fall_time: this push of {size:.3g} rad/s does not fall in {20 * least:.3g} s by the expansion, which is "
+                f"trusted to {trusted:.3g} rad/s: simulate it"
+            )
+        return time, error
 
     def summary(self) -> dict[str, str]:
         """Whether it stands and why, and what spins it needs, name → words."""
         least = "none" if self.critical_spin == inf else f"{self.critical_spin:.6g}"
         return {
             "stands to first order": "yes" if self.stands else "no",
-            "beyond": self.kind,
+            "beyond": "never at these spins" if self.kind == "never" and self.critical_spin < inf else self.kind,
             "why": self.why,
             "least factor on all spins, to first order": least,
         }
