@@ -154,7 +154,7 @@ Remark(
     f"{pushes[-1]} √(κ/a) falls "
     f"before {standing.fall_time(pushes[-1] * rate) * rate:.1f}; pushed by {', '.join(map(str, pushes))} in one direction it "
     f"falls after {', '.join(f'{x:.1f}' for x in seen)} on exact runs, {', '.join(f'{x:.1f}' for x in said)} by the normal form "
-    f"of fourth order, in √(a/κ): slope {slope:.3f} against −1.",
+    f"of fourth order, in √(a/κ): slope −{-slope:.3f} against −1.",
 )
 
 # %%

@@ -174,7 +174,7 @@ rows = (
             equal(reached, n6["edge"]),
         ),
         f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: times as the push to the "
-        f"{n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
+        f"−{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
         FigureLink("n6"),
     ),
 )

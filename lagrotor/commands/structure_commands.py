@@ -107,7 +107,8 @@ def _table(summary: dict[str, Any]) -> str:
     factor = summary["critical_spin"]
     least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
     modes = enumerate(summary["modes"], 1)
-    rows.insert(0, ("standing", summary["kind"]))
+    kind = "never at these spins" if summary["kind"] == "never" and factor else summary["kind"]
+    rows.insert(0, ("standing", kind))
     rows += [
         ("least spin, to first order", least),
         ("degrees of freedom", f"{freedoms}; modes that grow: {summary['topple']}"),

@@ -190,7 +190,7 @@ def test_spin_intervals_are_those_of_the_largest_push():
     rate = local_hamiltonian(s).rate
     narrow, wide = s.spin_intervals(0.005 * rate), s.stands().window(0.02 * rate)
     assert s.critical_spin() < narrow[0][0] < 1.01 * s.critical_spin() and narrow[-1][1] == inf
-    for edge, inside in ((narrow[0][0], 3e-3), (narrow[0][1], -3e-3), (narrow[1][0], 3e-3), (narrow[2][0], 1e-4)):
+    for edge, inside in ((narrow[0][0], 3e-3), (narrow[0][1], -3e-3), (narrow[2][0], 1e-4)):
         within, without = (
             replace(s, spins=tuple(edge * (1 + part * inside) * w for w in s.spins)).largest_push().value
             for part in (0.03, -1)
@@ -245,6 +245,8 @@ def test_kinds_of_what_stands_and_what_does_not():
     many = [(k, j) for k in range(3) for j in range(2)]
     assert Structure(joints=many, spins=60, **WEIGHT).stands().kind == "to first order"
     assert "holds" in repr(example("corner").stands())
+    assert "never at these spins" in repr(Structure(**CORNER, spins=[1, 0, 1]).stands())
+    assert "at these spins" not in repr(Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=1, **WEIGHT).stands())
     assert at(1.0, CORNER, [1, 0, 1]).stands().kind in (
         "to first order",
         "never",
