@@ -12,7 +12,7 @@ Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969) 12.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
 from typing import Any
@@ -48,8 +48,8 @@ class NormalForm(Shown):
     expressions. series: H as a polynomial in z_1 … z_n, w_1 … w_n, {z_j, w_j} = weights_j, w_j = z̄_j where floating-point
     numbers are (k z̄_j, k > 0, where they are exact). generators: χ of degree 3, 4, … in the order in which exp(L_χ) are
     applied. vectors: x − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂. error: how far the inverse transformation
-    of the series is from the Hamiltonian, the largest difference of coefficients of a degree over the largest one; 0 where
-    it is exact. field: that of the coefficients, None for numbers.
+    of the series is from the Hamiltonian, the largest difference of coefficients of a degree over the largest one, and the
+    brackets of the coordinates from what they should be; 0 where it is exact. field: that of the coefficients, None for numbers.
     """
 
     frequencies: tuple[Any, ...]
@@ -213,7 +213,7 @@ def normal_form_at(
     """
     if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
         raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
-    if not 0 <= detuning < np.inf:
+    if not isinstance(detuning, int | float | np.number) or not 0 <= detuning < np.inf:
         raise InputError(f"normal_form: detuning = {detuning!r} must be a rate from 0 on, in rad/s")
     letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v).free_symbols for v in at.values()))
     try:
@@ -235,7 +235,12 @@ def normal_form_at(
     full = _expanded(H, x, at, normal.vectors, order, _number, complex)
     quadratic = normal_quadratic(A.real, normal.vectors, normal.weights, normal.frequencies)
     series = total([quadratic, *(full.part(d) for d in (0, *range(3, order + 1)))])
-    return birkhoff(series, normal.weights, order, detuning, normal.vectors)
+    form = birkhoff(series, normal.weights, order, detuning, normal.vectors)
+    # Rates so near that they are taken as equal have coordinates that are not quite canonical, or a rest of H₂.
+    pair, none = np.diag(normal.weights), np.zeros((n, n))
+    brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - bracket
+    rest = np.abs((full.part(2) - quadratic).coefficients).max(initial=0.0) / np.abs(A).max(initial=1e-300)
+    return replace(form, error=max(form.error, float(rest), float(np.abs(brackets).max())))
 
 
 def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: Coefficients) -> Polynomial:

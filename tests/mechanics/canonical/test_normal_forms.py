@@ -271,3 +271,14 @@ def test_what_makes_no_sense_is_refused():
         System(c, v**2 / 2 - sp.Abs(x) ** 3 - x**2).hamiltonian().normal_form(order=4, at={x: 0})
     with pytest.raises(DomainError, match="singular"):
         System(c, v**2 / 2 - x**2 - x**3 * sp.log(x)).hamiltonian().normal_form(order=4, at={x: 0})
+
+
+def test_frequencies_that_are_taken_as_equal_tell_what_that_leaves_out():
+    """1 and 1 + 5e-9 are one frequency in floating-point numbers; in rational ones they are two."""
+    near = lambda square: plane(lambda x, y: (x**2 + square * y**2) / 2 + x**2 * y)  # noqa: E731
+    at = {"x": 0, "y": 0}
+    merged, apart = near(1.00000001).normal_form(4, at), near(1.0001).normal_form(4, at)
+    assert merged.error == pytest.approx(5e-9, rel=0.01)
+    assert apart.error < 1e-9 and apart.frequencies[1] == pytest.approx(sqrt(1.0001), rel=1e-12)
+    with pytest.raises(InputError, match="detuning"):
+        near(1.0).normal_form(4, at, detuning="a")
