@@ -160,9 +160,16 @@ rows = (
     (
         "unequal spins",
         "none",
-        ("the rate shifts by c r_0² of itself, one formula from equal (ζ = 0) to opposite spins (ζ = 1):", t12["law"]),
+        (
+            "the rate shifts by c r_0² of itself, one formula from equal (ζ = 0) to opposite spins (ζ = 1); a twist grows by "
+            "lambda a radian, leading term:",
+            t12["law"],
+            equal(power**2, t12["growth"]),
+        ),
         "orders of the error, of the shift and of the drift of the azimuth: "
-        + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in t12["measured"].items()),
+        + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in t12["measured"].items())
+        + "; of the growth: "
+        + ", ".join(f"{order:.2f} ({name})" for name, order in t12["grown"].items()),
         FigureLink("t12"),
     ),
     (

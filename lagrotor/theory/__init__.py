@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from lagrotor.theory.rate_shift import drift_coefficient as drift_coefficient
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
     from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
+    from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
     from lagrotor.theory.single_rotor import free_precession_rate as free_precession_rate
     from lagrotor.theory.single_rotor import pair_precession_rate as pair_precession_rate
     from lagrotor.theory.toppling import linear_toppling as linear_toppling

@@ -18,6 +18,33 @@ LARGEST_SWING = Calibrated(
     "150 pairs with 0.5 < k < 2, any two spins, 20 swings; beyond it runs over 24 swings topple over",
     _RATE + "test_an_amplitude_out_of_range_is_refused",
 )
+_SWUNG = (
+    "pairs with 0.15 < k < 4, bars up to 50 kg, any two spins, swings of any phase over 20 turns and exact orbits; "
+)
+NEXT_SHIFT = Calibrated(
+    3.0,
+    "N r⁴, of which size the next order of the natural rate's shift is",
+    _SWUNG + "1.05 is the most of 2,194 orbits",
+    _RATE + "test_natural_rate",
+)
+LARGEST_SHIFT = Calibrated(
+    0.12,
+    "sqrt(N) r², beyond which the orders of the natural rate's shift no longer fall",
+    _SWUNG + "1,521 swings miss by at most 0.67 of the error, no orbit by more than it",
+    _RATE + "test_the_rate_of_an_orbit_about_upright",
+)
+LIGHTEST_TWIST = Calibrated(
+    0.5,
+    "sigma r²: what the lean adds to the inertia of a twist, a − b, over that",
+    _SWUNG + "beyond it orbits of nearly equal spins missed",
+    _RATE + "test_where_the_twist_grows_or_has_little_inertia_is_refused",
+)
+MOST_GROWTH = Calibrated(
+    6.0,
+    "lambda t over 20 turns: a twist that grows more takes the swing away from upright",
+    _SWUNG + "the least at which one missed is 31",
+    _RATE + "test_where_the_twist_grows_or_has_little_inertia_is_refused",
+)
 FOURTH_ORDER = Calibrated(
     (1.0, 1.1, 0.1, 0.7),
     "|G| q⁴ (c_1/k + c_2/k³) + |P| q² (c_3 + c_4/k²), over a + b: the toppling rate's next order",

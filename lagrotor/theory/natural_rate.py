@@ -1,15 +1,15 @@
 """The natural rate of a scene, its error and its limits, by functions generated from `lagrotor.theory.natural_frequency`."""
 
 from dataclasses import dataclass, replace
-from math import hypot, sqrt
+from math import hypot, pi, sqrt
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.theory.calibrated_factors import LARGEST_SWING
-from lagrotor.theory.rate_shift import frequency_shift, opposite_share
+from lagrotor.theory.calibrated_factors import LARGEST_SHIFT, LARGEST_SWING, LIGHTEST_TWIST, MOST_GROWTH, NEXT_SHIFT
+from lagrotor.theory.rate_shift import frequency_shift, opposite_share, twist_coefficient
 
-FARTHEST_SHIFT = 0.12  # relative shift of the rate, all its terms positive, beyond which the next order is not small
+TURNS = 20  # over which the rate of a swing is held to its error
 
 
 @generated(((),))
@@ -59,15 +59,19 @@ def natural_rate(scene: Scene) -> float:
 
 
 def natural_rate_error(scene: Scene, amplitude: float) -> float:
-    """Error (rad/s) of `natural_rate` for a swing about the upright position, of `amplitude` r = sine of its inclination.
+    """Error (rad/s) of `natural_rate` for an orbit about upright, or for 20 turns of a swing that starts on the linear mode.
 
-    With c and share of `theory.rate_shift`, c the shift of the orbit about upright and d = share² sigma/(2 k²) what a swing adds
-    that begins in another phase and so turns about the joint line, and with C what c becomes with all its terms positive,
+    `amplitude` r is the sine of the larger inclination. With c and share of `theory.rate_shift`, c the shift of the orbit, with
+    d = share² sigma/(2 k²) what a swing adds that begins in another phase and so turns about the joint line, and C what c becomes
+    with all its terms positive,
 
-        Omega_0 ( (|c| + d) r²/(1 − r²) + 3 (C r²)² ).
+        Omega_0 ( (|c| + d) r²/(1 − r²) + 3 N r⁴ ),  N = C² + share sigma |sigma − 1| + share³ sigma²/k⁴.
 
-    One rotor alone precesses at Omega_0 / cos theta exactly. A swing of opposite spins that is made to turn at nu besides is
-    shifted by −(a + b) nu/(k G) of Omega_0 more. Raises DomainError unless 0 <= r <= 0.4 and C r² <= 0.12.
+    In N are the powers of the next order; its factor is empirical. One rotor alone precesses at Omega_0 / cos theta exactly. A
+    swing of opposite spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
+
+    Raises DomainError unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than
+    exp(6) in 20 turns.
     """
     rate = natural_rate(scene)
     if not 0 <= amplitude <= LARGEST_SWING.value:
@@ -81,13 +85,22 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
         return 0.0
     k, sigma, share, square = scene.k, scene.sigma, opposite_share(scene), amplitude**2
     in_all = 0.5 + 0.75 * share * (abs(sigma - 1) + share * sigma / k**2) + share**2 * abs(sigma**2 - 1) / 4
-    if not in_all * square <= FARTHEST_SHIFT:
+    following = in_all**2 + share * sigma * abs(sigma - 1) + share**3 * sigma**2 / k**4
+    growth = sqrt(max(twist_coefficient(sigma, share), 0.0)) * 2 * pi * TURNS
+    limits = {
+        "the next order is not small": sqrt(LARGEST_SHIFT.value / sqrt(following)),
+        "its twist has little inertia": sqrt(LIGHTEST_TWIST.value / sigma),
+        f"a twist beside the swing grows within {TURNS} turns": MOST_GROWTH.value / growth if growth else 1.0,
+    }
+    why, most = min(limits.items(), key=lambda limit: limit[1])
+    if not amplitude <= most:
         raise DomainError(
-            f"natural_rate_error: amplitude = {amplitude:g} is too large for this bar: at most "
-            f"{sqrt(FARTHEST_SHIFT / in_all):.2g}; use lagrotor.simulate, or precession_orbit for opposite spins"
+            f"natural_rate_error: amplitude = {amplitude:g} is too large for this bar: at most {most:.2g}, beyond which {why}; "
+            "use lagrotor.simulate, or precession_orbit for opposite spins"
         )
     turning = share**2 * sigma / (2 * k * k)
-    return rate * ((abs(frequency_shift(scene)) + turning) * square / (1 - square) + 3 * (in_all * square) ** 2)
+    first = (abs(frequency_shift(scene)) + turning) * square / (1 - square)
+    return rate * (first + NEXT_SHIFT.value * following * square**2)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""How the natural rate of any two spins changes with the amplitude, and how fast the azimuth of an orbit about upright drifts.
+"""An orbit about upright of any two spins: how its rate shifts with the amplitude, how its azimuth drifts, how a twist grows.
 
 An orbit about upright swings between x = ±r0, where the axes are parallel, and closes up to a turn about the joint line. With
 share = sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²), 0 for equal and 1 for opposite spins, and k = ell/R,
@@ -6,6 +6,10 @@ share = sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²), 0 for e
     Omega = Omega_0 (1 + c r0² + …),
     c = 1/2 + 3/4 share (sigma − 1) − 1/4 share² (sigma² − 1) − 3/4 share² sigma/k²,
     alpha' = Omega_0 share^(3/2) sqrt(sigma) (sigma − 5)/(16 k) r0⁴ + …, of the sign of G_1 − G_2.
+
+About a twist eta the pair swings at Omega_0 (1 − (sigma − 1)((sigma + 1) share − 1)/(2 sigma) eta² + …). Where that falls with
+the twist, for a heavy bar and spins far from equal or for a light one with b < 0 and spins near equal, a twist beside the orbit
+grows, as exp(lambda t) with lambda² = Omega_0² (1 − share)(sigma − 1)((sigma + 1) share − 1)/2 r0² + ….
 
 Derived in derivations/t12_unequal_spins.py.
 """
@@ -25,6 +29,11 @@ def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
     """alpha'/(Omega_0 r0⁴), of numbers or symbols; root = sqrt(share/sigma), of the sign of G_1 − G_2."""
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
+
+
+def twist_coefficient(sigma: Any, share: Any) -> Any:
+    """lambda²/(Omega_0 r0)², of numbers or symbols: growth of a twist where positive, its slow frequency where negative."""
+    return (1 - share) * (sigma - 1) * ((sigma + 1) * share - 1) / 2
 
 
 def opposite_share(scene: Scene) -> float:

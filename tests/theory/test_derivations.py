@@ -67,6 +67,7 @@ MUTANTS = [
         "apart**3 * sigma**2 * (sigma - 5) / (16 * k)",
         "apart**3 * sigma**2 * (sigma - 5) / (8 * k)",
     ),
+    ("t12_unequal_spins", "slower = (sigma - 1) * ((sigma + 1)", "slower = (sigma - 1) * ((sigma - 1)"),
     ("t8_toppling", "e = b * nu**2 - G * nu / k", "e = b * nu**2 + G * nu / k"),
     ("t8_toppling", "(-(G_1 + G_2) * nu, 0, 0)", "(0, 0, 0)"),
     ("t9_twist", "2 * mu_1 * mu_3 - mu_1**2 / 2", "2 * mu_1 * mu_3"),

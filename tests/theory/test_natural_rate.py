@@ -10,8 +10,12 @@ from hypothesis import strategies as st
 from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_frequency, simulate, sweep
 from lagrotor.errors import DomainError, InputError, LagrotorError, LagrotorWarning
 from lagrotor.models import exact_orbit, upright_orbit
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order, peak, spectrum
-from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error
+from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
+from lagrotor.theory.natural_rate import TURNS
+from lagrotor.theory.rate_shift import opposite_share
 from tests.theory.random_pairs import COUNTS, held, random_pair, swinging
 
 
@@ -63,9 +67,9 @@ def any_pair(rng):
 
 @pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_natural_rate(count):
-    """Swings on the linear mode in any phase, over 20 turns. Of amplitudes beyond the range, refused ones are drawn again."""
-    rng, turns, held_so_far = np.random.default_rng(1), 20, 0
-    times = np.linspace(0, turns * 2 * np.pi, 60 * turns + 1)
+    """Swings on the linear mode in any phase. Of amplitudes beyond the range, refused ones are drawn again."""
+    rng, held_so_far = np.random.default_rng(1), 0
+    times = np.linspace(0, TURNS * 2 * np.pi, 60 * TURNS + 1)
     while held_so_far < count:
         scenes, errors = [], []
         while len(scenes) < min(500, count - held_so_far):
@@ -135,6 +139,39 @@ def test_the_shift_joins_equal_and_opposite_spins():
     assert frequency_shift(scene) == pytest.approx(1e6 * series, rel=1e-6)
     with pytest.raises(InputError, match="needs a bar"):
         frequency_shift(Scene((7, 3), link=None))
+
+
+HEAVY = Link(1.15, 6.0, 0.04)
+
+
+def exponent_squared(scene, amplitude):
+    """Of the exact orbit: the square, per radian, of the exponent that is not zero."""
+    orbit = upright_orbit(scene, amplitude)
+    slope = flow(orbit.scene)(MODEL.start(orbit.scene), 2 * np.pi / orbit.frequency).slope
+    squares = (np.log(np.linalg.eigvals(slope).astype(complex)) / (2 * np.pi)) ** 2
+    return squares[np.argmax(np.abs(squares))].real
+
+
+@pytest.mark.parametrize(
+    ("spins", "link", "grows"),
+    [((9, 3), HEAVY, True), ((9, 8), HEAVY, False), ((9, 8), Link(1.3, 0.03, 0.13), True), ((9, 0), Link(1), None)],
+)
+def test_a_twist_beside_the_orbit_grows_or_not(spins, link, grows):
+    scene, r0 = Scene(spins, link=link), 0.02
+    law = twist_coefficient(scene.sigma, opposite_share(scene))
+    assert np.sign(law) == {True: 1, False: -1, None: 0}[grows]
+    assert exponent_squared(scene, r0) / r0**2 == pytest.approx(law, rel=4e-3, abs=2e-3)
+
+
+def test_where_the_twist_grows_or_has_little_inertia_is_refused():
+    """Of the heavy bar a swing of r = 0.07 leaves upright within 20 turns: its rate is off by more than the formula has."""
+    with pytest.raises(
+        DomainError, match=r"at most 0\.0\d+, beyond which a twist beside the swing grows within 20 turns"
+    ):
+        natural_rate_error(Scene((-53.7, -30.3), Rotor(1.62, 1.3, 1.18, 0.356), Link(1.79, 21.9)), 0.07)
+    with pytest.raises(DomainError, match="its twist has little inertia"):
+        natural_rate_error(Scene((10, 10), link=Link(1, 30.0)), 0.35)
+    assert natural_rate_error(Scene((10, 10), link=Link(1, 30.0)), 0.1) > 0
 
 
 @pytest.mark.parametrize("count", COUNTS)
