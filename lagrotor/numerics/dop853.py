@@ -13,10 +13,11 @@ _FIRST = 1e-6  # of a segment: the first step, where the one that is tried leave
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
 
 
-def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
+def dop853_steps(segment: Segment, error: float, first: float = 1.0) -> Iterator[Any]:
     """scipy's solver after each step at a local error `error`, relative and absolute: its t_old, t, y and dense_output().
 
-    A state is brought back onto constraints before the next step. Raises StopError where it stops.
+    first: the first step over the one that scipy would take. A state is brought back onto constraints before the next step.
+    Raises StopError where it stops.
     """
     from scipy.integrate import DOP853
 
@@ -35,6 +36,7 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
         raise StopError(segment.left, "the right-hand side is not finite", evaluations=solver.nfev)
     if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
         solver.h_abs = _FIRST * (segment.right - segment.left)
+    solver.h_abs *= first
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail
             turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)

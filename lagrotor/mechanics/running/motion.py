@@ -164,4 +164,4 @@ def integration_of(
 ) -> Integrate:
     if h.smooth and scales:
         return smooth_motion(system, values, engine, scales.sizes, scales.turn, start, scales.stiff)
-    return lambda start, times, local, companion, budget: march(h, start, times, local, budget)
+    return lambda start, times, local, companion, budget: march(h, start, times, local, budget, companion=companion)

@@ -34,6 +34,9 @@ from lagrotor.numerics.zeros import zeros_between
 
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
 _FRESH = 0.01  # of the first step of a phase, in which that is looked at
+_COMPANION_FIRST = (
+    0.6  # first step of a phase of a run's companion over that of the run: short phases are one step in both
+)
 _NOISE = 1e-12  # of a velocity or a reaction, below which it is zero
 _MOST = 20_000  # events of a run
 _AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
@@ -252,20 +255,26 @@ def _outside(spline: Piece, w: float) -> str:
 
 
 def march(
-    h: Switched, start: Array, times: Array, local: float, budget: float, observe: Observer | None = None
+    h: Switched,
+    start: Array,
+    times: Array,
+    local: float,
+    budget: float,
+    observe: Observer | None = None,
+    companion: bool = False,
 ) -> Stretch:
     """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
 
     Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
     observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
-    Raises StopError with what was
-    reached, where the solver stops.
+    companion: by steps that a run without it does not take, in phases that are too short for the local error to set them.
+    Raises StopError with what was reached, where the solver stops.
     """
     end, y, now, mode, spent = float(times[-1]), start[: h.size], float(times[0]), h.mode(start), 0
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
     parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
-    span = end - now
+    span, first = end - now, _COMPANION_FIRST if companion else 1.0
 
     def add(states: Array) -> None:
         later = times[times > now]
@@ -275,7 +284,7 @@ def march(
 
     while now < end and not mode.ended:
         try:
-            stretch, hit = _smooth(h, y, now, mode, times[times > now], local, budget - spent, observe, habit)
+            stretch, hit = _smooth(h, y, now, mode, times[times > now], local, budget - spent, observe, habit, first)
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
@@ -323,9 +332,10 @@ def _smooth(
     budget: float,
     observe: Observer | None,
     habit: float,
+    first: float,
 ) -> tuple[Stretch, Hit | None]:
     """The motion in one phase, from `now` to the first of its conditions that ends, or to the last time. habit: the time that
-    has passed between the last two events of a kind."""
+    has passed between the last two events of a kind. first: as `dop853_steps` has it."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -340,7 +350,7 @@ def _smooth(
     )
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in dop853_steps(segment, local / SAFETY):
+        for solver in dop853_steps(segment, local / SAFETY, first):
             left, right, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:

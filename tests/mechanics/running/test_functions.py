@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
 from lagrotor.mechanics import Event, Frame, System, SystemRun, coordinates, t
+from lagrotor.mechanics.running import phases
 
 U, y, u, F = (sp.Function(name) for name in ("U", "y_s", "u", "F"))
 m, k, d, g, l = sp.symbols("m k d g l", positive=True)
@@ -172,3 +173,20 @@ def test_all_equilibria_of_a_written_potential_are_found() -> None:
             WELL.equilibria(values={m: 1, U: value}, box={x: (-2, 2.5)})
     with pytest.raises(InputError, match="U without a value"):
         WELL.equilibria(values={m: 1}, box={x: (-2, 2.5)})
+
+
+def test_where_knots_set_the_steps_two_runs_take_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pieces that are shorter than the step that the local error allows: each is one step at any tolerance."""
+    knots, times = np.linspace(-4, 4, 196), np.linspace(0, 3.8343069565883634, 9)
+    values = {m: 1, U: CubicSpline(knots, knots**4 / 4 - 1.8699354963624109 * knots**2 / 2)}
+    start = (-2.036901243128301,), (-0.1818360756544576,)
+    exact = WELL.simulate(values, *start, times, 1e-10)
+
+    def told_too_little() -> int:
+        runs = [WELL.simulate(values, *start, times, tol) for tol in (2e-6, 1e-6)]
+        true = [np.abs(np.hstack([run.q - exact.q, run.v - exact.v]) / run.scales.sizes).max() for run in runs]
+        return sum(off > run.error for run, off in zip(runs, true, strict=True))
+
+    assert told_too_little() == 0
+    monkeypatch.setattr(phases, "_COMPANION_FIRST", 1.0)  # twin
+    assert told_too_little() > 0
