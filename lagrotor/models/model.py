@@ -122,9 +122,9 @@ class Model:
     scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
     projection: brings states that drifted off the constraints back onto them. outside: whether a state of a pair with its
     bar lies where the model must not be integrated; time_to_singular: the time after which a state may be there, at the
-    earliest. singular: the words of the singular position that axes (2, 3) at which a solver stopped are at, or none. angles:
-    which states may grow without end, their rates being states. progress: called with the time of each evaluation of the
-    right-hand side.
+    earliest. slack: of states (n, d) of such a pair, as `Evolution` has it. singular: the words of the singular position that
+    axes (2, 3) at which a solver stopped are at, or none. angles: which states may grow without end, their rates being states.
+    progress: called with the time of each evaluation of the right-hand side.
     """
 
     name: str
@@ -138,6 +138,7 @@ class Model:
     projection: Callable[[Scene], Projection] | None = None
     outside: Callable[[Array], bool] | None = None
     time_to_singular: Callable[[Array], float] | None = None
+    slack: Callable[[Array], Array] | None = None
     angles: tuple[int, ...] = ()
     progress: Callable[[float], None] | None = None
 

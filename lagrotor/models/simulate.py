@@ -370,6 +370,7 @@ def evolution_of(
         patience=patience,
         project=model.projection(scene) if model.projection else None,
         unsure=start_unsure(model, scene, start),
+        slack=model.slack if scene.link else None,
         defect=defect,
         difference=difference,
         watch=nodes.t if nodes else np.empty(0),

@@ -80,6 +80,16 @@ def time_to_dead_point(y: Array) -> float:
     return _across(y) / float(np.linalg.norm(speed)) if across @ speed < 0 else inf
 
 
+def slack(states: Array) -> Array:
+    """How far off (n,), in units of rounding, the constraints leave states (n, 12).
+
+    The third constraint's gradient is off the plane of the two others by the axes' components across the joint line: bringing
+    a state back divides the rounding of the constraints by them.
+    """
+    across = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
+    return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(across, np.finfo(float).tiny, 1.0), 1.0)
+
+
 def _across(y: Array) -> float:
     return hypot(y[1], y[2], y[4], y[5])
 
@@ -114,5 +124,16 @@ def _singular(axes: Array) -> str:
 
 
 MODEL = Model(
-    "spheres", 12, _kind, program, _rhs, _start, _observe, _singular, _projection, at_dead_point, time_to_dead_point
+    "spheres",
+    12,
+    _kind,
+    program,
+    _rhs,
+    _start,
+    _observe,
+    _singular,
+    _projection,
+    at_dead_point,
+    time_to_dead_point,
+    slack,
 )

@@ -63,6 +63,7 @@ class Evolution:
     the same clock, with what was reached. distance: two runs (n, d) → how far apart they are (n,), relative to the size of the
     states. turn: the time (s) in which the motion typically turns. project: brings a state back onto its constraints.
     unsure: how far, in units of rounding, the start may be off what it was given as: the companion's is off by as much.
+    slack: states (n, d) → how far off, in units of rounding, constraints that are nearly dependent there leave them (n,).
     defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
     difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
@@ -77,6 +78,7 @@ class Evolution:
     patience: Patience
     project: Projection | None = None
     unsure: float = 1.0
+    slack: Callable[[Array], Array] | None = None
     defect: Callable[[Array, Array], float] | None = None
     difference: Callable[[Array, Array], float] | None = None
     watch: Array = field(default_factory=lambda: np.empty(0))
@@ -237,6 +239,9 @@ class _Course:
     def _beside_start(self) -> Array:
         start, project = self.evolution.start, self.evolution.project
         beside = start_beside(start, self.evolution.unsure)
+        if self.evolution.slack:  # in each component, however small: a factor of it would be taken back by `project`
+            off = np.finfo(float).eps * (self.evolution.slack(start[None])[0] - 1)
+            beside = beside + off * np.cos(np.arange(1, len(start) + 1))
         return project(beside) if project else beside
 
 
@@ -246,14 +251,19 @@ def start_beside(start: Array, unsure: float = 1.0) -> Array:
 
 
 def estimated_errors(
-    apart: Array, local: float, turns: Array, refused: bool = False, independent: bool = False
+    apart: Array,
+    local: float,
+    turns: Array,
+    refused: bool = False,
+    independent: bool = False,
+    slack: Array | float = 1.0,
 ) -> Array:
     """Errors (n,) of the better of two runs that are `apart` (n,), its local error, after so many turns (n,).
 
-    refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED.
-    independent: of the two, as `Evolution` has it.
+    refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED, or
+    `slack` (n,) times it. independent and slack: of the two, as `Evolution` has them.
     """
-    safety = SAFETY.value ** (2 if refused or local < RESOLVED.value else 1)
+    safety = SAFETY.value ** np.where(refused | (local < RESOLVED.value * np.asarray(slack)), 2, 1)
     least = 0.0 if independent else LEAST.value * local
     return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
 
@@ -382,7 +392,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     """The two up to the stage in which they part or one stops; refused if the better one does not conserve what it must."""
     evolution, pairs, lost, stop = course.evolution, list[tuple[Array, Array]](), inf, None
     alone = list[NDArray[np.bool_]]()  # where one of the two has passed an event that the other has not
-    parts, farther, spent = list[Array](), 0.0, (0, 0)
+    parts, slacks, farther, spent = list[Array](), [np.ones(1)], 0.0, (0, 0)
     for n, t in enumerate(course.stages):
         one = yield from _states(course, loose, n, None)
         stop = loose.stops[0] if len(loose.stages) <= n else None
@@ -402,8 +412,10 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         if evolution.difference and together.any():
             farther = max(farther, evolution.difference(*(states[together] for states in pairs[-1])))
         parts.append(evolution.distance(*pairs[-1]))
+        slack = evolution.slack(other.states[:m]) if evolution.slack else np.ones(m)
+        slacks.append(np.maximum.accumulate(np.append(slacks[-1][-1:], slack))[1:])
         errors = estimated_errors(
-            parts[-1], tight.local, course.turns(t[:m]), bool(course.refused), evolution.independent
+            parts[-1], tight.local, course.turns(t[:m]), bool(course.refused), evolution.independent, slacks[-1]
         )
         lost = _first(t[:m], (errors > LOST.value) & together)
         if lost < inf or stop:
@@ -417,7 +429,10 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     if evolution.defect and finite and not (stop and evolution.elsewhere):
         off = evolution.defect(t, looser), evolution.defect(t, better)
     alike = _alike(spent, off, TELLING.value * ROUNDING.value * (START.value + float(course.turns(t[-1]))))
-    errors = estimated_errors(alike * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent)
+    slack = np.concatenate(slacks[1:])
+    errors = estimated_errors(
+        alike * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
+    )
     grown = errors_up_to(t, np.where(between, 0.0, errors), np.array(evolution.turn))
     known = max(float(grown[-1]) / alike, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
