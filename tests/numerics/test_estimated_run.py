@@ -102,6 +102,43 @@ def test_below_what_is_resolved_safety_counts_twice() -> None:
     assert above.local > RESOLVED and above.errors[-1] < 1.01 * SAFETY * 0.1 * above.local * (APART - 1) * T[-1] + 1e-13
 
 
+def test_constraints_that_are_nearly_dependent_are_resolved_as_far_as_they_can_be() -> None:
+    """RESOLVED counts slack times, from where the slack was largest; the companion starts off by it in what is zero, too."""
+    starts = dict[bool, Array]()
+
+    def told(slack: bool) -> Array:
+        made = Made(share=0.01)
+
+        def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+            starts.setdefault(companion, start)
+            part = made(start, times, local, companion, budget)
+            states = np.column_stack([part.states, np.zeros(len(times)), times])
+            return Stretch(states, states[-1], part.evaluations)
+
+        def at(states: Array) -> Array:  # within the first tenth of the run
+            return np.where(states[:, 2] < 1, 1e6, 1.0)
+
+        return estimate_run(
+            Evolution(
+                np.array([1.0, 0, 0]),
+                integrate,
+                lambda one, other: np.abs(one - other)[:, 0],
+                turn=1.0,
+                patience=ENOUGH,
+                slack=at if slack else None,
+            ),
+            T,
+            1e-8,
+        ).errors
+
+    assert told(True)[1:] == pytest.approx(SAFETY * told(False)[1:], rel=1e-4)
+    eps = np.finfo(float).eps
+    assert not starts[False][1:].any()
+    starts.clear()
+    told(True)
+    assert starts[True][1] == pytest.approx(1e6 * eps * np.cos(2), rel=1e-4) and not starts[False][1:].any()
+
+
 def test_two_that_agree_are_known_no_better_than_a_share_of_their_local_error() -> None:
     run = Made(share=0.0).run(1e-4)
     assert run.errors == pytest.approx(LEAST * run.local + rounding(T))
@@ -366,3 +403,27 @@ def test_of_too_many_turns_nothing_is_begun() -> None:
     with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, after which rounding leaves nothing known"):
         made.run(1e-6, np.array([0.0, 1e300]))
     assert not made.locals
+
+
+@pytest.mark.parametrize(
+    ("growth", "reach"),
+    [
+        # A difference that grows as t⁴ is LOST where TIGHTEST t⁴ is.
+        (lambda t: 1e-6 * t**4, (LOST / TIGHTEST) ** 0.25),
+        # One that grows at once, late, by e^(λt) as if from the start.
+        (
+            lambda t: 1e-6 * np.exp(np.log(LOST / 1e-6) * np.maximum(t - 9, 0)),
+            10 * np.log(LOST / TIGHTEST) / np.log(LOST / 1e-6),
+        ),
+    ],
+    ids=["power", "exponential"],
+)
+def test_two_that_parted_are_hopeless_only_beyond_the_reach_of_the_tightest(growth: Any, reach: float) -> None:
+    integration = estimated_run._Integration(1e-6, True)
+    for end, hopeless in ((reach / 1.1, False), (reach * 1.1, True)):
+        course = estimated_run._Course(Made().evolution(), np.linspace(0, end, 4001))
+        errors = growth(course.t)
+        lost = float(course.t[np.argmax(errors > LOST)])
+        comparison = estimated_run._Comparison(integration, integration, 1, errors, lost)
+        assert bool(estimated_run._hopeless(course, comparison)) is hopeless
+        assert not estimated_run._hopeless(course, replace(comparison, lost=np.inf))
