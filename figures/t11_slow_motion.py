@@ -23,8 +23,8 @@ UNIT = (10 / (2 * 1.25)) ** 2 * R0**6  # g² s⁶ of the massless bar
 TITLE = "The slow motion of opposite spins"
 ALT = (
     "Left and middle: curves of lean against half the angle between the axes, in units of the swing. With the light bar the "
-    "curve of the shock, in green, runs out to large lean, and an exact run follows it; with the heavy bar it closes about the "
-    "middle. Right: squared slow frequency against the push; exact circles lie near the curve, positive from zero to about 1.2, "
+    "curve of the shock, in green, runs out to large lean, and an exact run follows it; with the heavy bar it closes beside "
+    "upright. Right: squared slow frequency against the push; exact circles lie near the curve, positive from zero to about 1.2, "
     "negative outside."
 )
 
@@ -83,7 +83,8 @@ _off, _lean, _apart = measure().values()
 CAPTION = (
     f"Opposite spins ±10 rad/s, {FORCE:g} N along x. Left: bar of 0.01 kg; the exact run, averaged over three swings, leans to "
     f"{np.degrees(_lean):.0f}° in {LASTS:g} s and leaves its curve by at most {_off:.2f} of the half-angle at the start. Middle: "
-    "bar of 12 kg, beyond the threshold from which x turns back. Right: square of the slow frequency beside the paired "
+    "bar of 12 kg, beyond the threshold from which x turns back; the curves of the same value at large lean are not reached. "
+    "Right: square of the slow frequency beside the paired "
     f"precession of r₀ = {R0}, massless bar, against a push d = k P/G about the joint line, in units of g² s⁶; exact multipliers "
     f"are off by at most {_apart:.2f} of the largest. Negative: a neighbour grows."
 )

@@ -21,7 +21,8 @@ from lagrotor.theory.calibrated_factors import CANCELLING, FARTHEST_TURN, FIFTH_
 from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 from lagrotor.theory.shock_response import shock_response
 
-# What the factors were calibrated on: ell/R, sigma (a bar's weight and shape), the pulse's width over the swing's 1/Omega_0.
+# What the factors were calibrated on, and held for by 600 pairs from end to end of it: ell/R,
+# sigma (a bar's weight and shape), the pulse's width over the swing's 1/Omega_0.
 BARS, SHAPES, BROADEST = (0.4, 2.5), (0.3, 3.0), 1.2
 
 
