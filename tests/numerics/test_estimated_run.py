@@ -427,3 +427,5 @@ def test_two_that_parted_are_hopeless_only_beyond_the_reach_of_the_tightest(grow
         comparison = estimated_run._Comparison(integration, integration, 1, errors, lost)
         assert bool(estimated_run._hopeless(course, comparison)) is hopeless
         assert not estimated_run._hopeless(course, replace(comparison, lost=np.inf))
+        begun_lost = replace(comparison, loose=estimated_run._Integration(LOST, True))
+        assert not estimated_run._hopeless(course, begun_lost)  # nothing is known of how it grows
