@@ -27,7 +27,7 @@ from lagrotor.proved.tails import TailError, max_of
 SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
 MOST = 5_000  # steps
 _SHORTER, _LONGER = 0.7, 1.2
-_WIDER = 2**-9  # of a set's size, added at each node
+_WIDER, _WIDER_BY_ALL = 2**-9, 2**-26  # of a set's size and of the largest one's, added at each node
 _WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
 _SLOPE_TERMS = 0.85  # of the series' terms, for derivatives: they multiply what is small already
 
@@ -192,12 +192,13 @@ def carried(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
     moved = D * node.C
     C = arb_mat(moved.nrows(), moved.ncols(), [exact(x) for x in moved.entries()])
     S = turned * node.S + back * (moved - C)
-    return Node(node.t + h, m, Q, [*map(widened, s)], C, arb_mat(C.nrows(), C.ncols(), [*map(widened, S.entries())]))
+    return Node(node.t + h, m, Q, widened(s), C, arb_mat(C.nrows(), C.ncols(), widened(S.entries())))
 
 
-def widened(x: Ball) -> Ball:
-    """A ball a little wider than what is needed, so that another program's rounding stays within."""
-    return x if x.is_zero() else x + arb(0, (abs(x) * _WIDER).upper())
+def widened(values: Balls) -> Balls:
+    """Balls a little wider than what is needed, by their own size and the largest, so that another program's stay within."""
+    least = max_of(values) * _WIDER_BY_ALL
+    return [x if x.is_zero() else x + arb(0, (abs(x) * _WIDER + least).upper()) for x in values]
 
 
 def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Iterator[CarriedStep]:
