@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.quantities import Spins
+from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.claims.precession_runs import (
@@ -20,6 +21,7 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     once_round,
     precession_scene,
 )
+from lagrotor.paper.rotor_pair.claims.proved_parts import rate_changes
 
 Array = NDArray[np.float64]
 AS_PRINTED = 1e-3  # of the length, in m: what the printed four digits of figure 18 could show
@@ -129,4 +131,12 @@ C16 = ClaimTest(
     measure_c16,
     decide_c16,
 )
-C17 = ClaimTest("C17", OPPOSITE, {SAME_RATE: EQUAL}, "exact orbits, massless bar", measure_c17, decide_c17)
+C17 = ClaimTest(
+    "C17",
+    OPPOSITE,
+    {SAME_RATE: EQUAL},
+    "exact orbits, massless bar",
+    measure_c17,
+    decide_c17,
+    lambda spins: rate_changes(SAME_RATE, Scene(spins, link=MASSLESS), PAPER_R0, UNCHANGED),
+)

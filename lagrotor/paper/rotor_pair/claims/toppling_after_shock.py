@@ -14,6 +14,7 @@ from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.proved_parts import topples
 from lagrotor.paper.rotor_pair.shocked_runs import (
     PAPER_RUN,
     after_shock,
@@ -225,7 +226,13 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
 
 _EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 C10 = ClaimTest(
-    "C10", (0, 0), {TOPPLES: (10, 10), TURNS: (10, 10)}, f"{_EXACT}; spring-linked bodies", measure_c10, decide_c10
+    "C10",
+    (0, 0),
+    {TOPPLES: (10, 10), TURNS: (10, 10)},
+    f"{_EXACT}; spring-linked bodies",
+    measure_c10,
+    decide_c10,
+    lambda spins: topples(TOPPLES, spins),
 )
 C11 = ClaimTest(
     "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, _EXACT, measure_c11, decide_c11

@@ -13,6 +13,7 @@ from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.claims.precession_runs import OPPOSITE
+from lagrotor.paper.rotor_pair.claims.proved_parts import axes_part
 from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, after_shock, angle_between, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
@@ -142,6 +143,7 @@ C12 = ClaimTest(
     "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²",
     measure_c12,
     decide_c12,
+    lambda case: axes_part(PARTS, Link(mass=1, inertia=case.K)) if case == Twistable() else (),
 )
 C13 = ClaimTest(
     "C13",
