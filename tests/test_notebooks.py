@@ -144,6 +144,7 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
         "small_motions",
         "speed_against_accuracy",
         "structures",
+        "velocities_and_joints",
     ]
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 import sympy as sp
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, steady_motions, symmetry, typeset, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
@@ -106,6 +107,8 @@ class System(Equations):
         coefficients change with time.
         """
         point = at.at if isinstance(at, Equilibrium) else at
+        if not isinstance(point, Mapping):
+            raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")
         if values is None:
             moves = any(str(s) in map(str, self.c.v) and x != 0 for s, x in dict(point).items())
             if inputs or outputs or (self.rolling and moves):

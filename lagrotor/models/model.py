@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.segment import COMPANION_STEP, OutsideError, Projection, RightHandSide, Stretch
+from lagrotor.numerics.pulse import COMPANION_STEP
+from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 if TYPE_CHECKING:

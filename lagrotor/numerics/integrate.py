@@ -11,6 +11,7 @@ from lagrotor.numerics.adams import adams
 from lagrotor.numerics.calibrated import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
+from lagrotor.numerics.pulse import segments
 from lagrotor.numerics.segment import (
     Array,
     OutsideError,
@@ -20,7 +21,6 @@ from lagrotor.numerics.segment import (
     SegmentSolver,
     StopError,
     Stretch,
-    segments,
 )
 
 TIGHTEST = 1e-13

@@ -1,37 +1,13 @@
-"""A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns; how a run is cut
-at the edges of a Gaussian pulse exp(−(s/width)²), s the time from its peak."""
+"""A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
-
-# Beyond |s| = 6.5 widths a pulse is below the last bit of its peak: exp(−6.5²) = 4e-19.
-PULSE_REACH = 6.5
-# Longest step in a pulse, over its width, of a run's companion: were it 1 as the run's, both might take the same steps and agree.
-COMPANION_STEP = 0.8
-
-
-class _Part(NamedTuple):
-    """A part of a run without a pulse's edge inside; `pulsed`: it lies within the pulse."""
-
-    left: float
-    right: float
-    pulsed: bool
-
-
-def segments(begin: float, end: float, width: float) -> Iterator[_Part]:
-    """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width; 0: there is none."""
-    reach = PULSE_REACH * width
-    cuts = [begin, *(s for s in (-reach, reach) if width and begin < s < end), end]
-    for left, right in pairwise(cuts):
-        yield _Part(left, right, abs(left + right) / 2 < reach)
-
 
 Array = NDArray[np.float64]
 RightHandSide = Callable[[float, Array], list[float]]

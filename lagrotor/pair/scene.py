@@ -7,7 +7,7 @@ from html import escape
 from math import fsum, hypot, pi, sqrt
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.segment import PULSE_REACH
+from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.pair.quantities import (
     Vector,
     finite_number,

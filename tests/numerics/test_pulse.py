@@ -5,7 +5,7 @@ from math import exp
 import pytest
 
 from lagrotor import Scene, Shock
-from lagrotor.numerics.segment import PULSE_REACH, segments
+from lagrotor.numerics.pulse import PULSE_REACH, segments
 
 
 def test_beyond_its_reach_a_pulse_is_below_the_last_bit_of_its_peak():

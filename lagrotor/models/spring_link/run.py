@@ -23,10 +23,11 @@ from lagrotor.numerics.any_run import Ending, Quantity, Run, read_run
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import check_tolerance
+from lagrotor.numerics.pulse import COMPANION_STEP, segments
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
-from lagrotor.numerics.segment import COMPANION_STEP, StopError, Stretch, segments
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
+from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock

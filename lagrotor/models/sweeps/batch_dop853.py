@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.estimated_run import Leg
-from lagrotor.numerics.segment import COMPANION_STEP, PULSE_REACH, StopError, Stretch
+from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
+from lagrotor.numerics.segment import StopError, Stretch
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

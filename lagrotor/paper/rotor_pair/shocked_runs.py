@@ -8,7 +8,7 @@ from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, run_steps
 from lagrotor.models.spring_link.system import paper_system
 from lagrotor.numerics.curves import best_harmonics, peak, spectrum
-from lagrotor.numerics.segment import PULSE_REACH
+from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link, Scene, Shock
