@@ -27,7 +27,7 @@ from lagrotor.proved.tails import TailError, max_of
 SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
 MOST = 5_000  # steps
 _SHORTER, _LONGER = 0.7, 1.2
-_WIDER, _WIDER_BY_ALL = 2**-9, 2**-26  # of a set's size and of the largest one's, added at each node
+_WIDER, _WIDER_BY_ALL = 2**-9, 2**-28  # of a set's size and of the largest one's, added at each node
 _WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
 _SLOPE_TERMS = 0.85  # of the series' terms, for derivatives: they multiply what is small already
 

@@ -16,7 +16,7 @@ from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, a
 from lagrotor.proved.tails import ZERO, Evaluation, Tailed, TailError, max_of, series_values
 from lagrotor.proved.tape import Tape
 
-SLACK = 64  # on each bound of a rest, so that another program's bound of it is below, too
+SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
 SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"
 _TRIES = 4  # of a bound of the rest, each from the one before
 
