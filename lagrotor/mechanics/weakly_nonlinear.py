@@ -327,7 +327,8 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
     nodes = sorted((e for e in F.atoms(sp.sin, sp.cos) if t in e.free_symbols), key=sp.default_sort_key)
     ratios = []
     for e in nodes:
-        ratio = sp.nsimplify(sp.simplify(e.args[0] / (nu * t)))
+        ratio = sp.cancel(e.args[0] / (nu * t))
+        ratio = sp.Rational(str(ratio)) if ratio.is_Float else ratio
         if not ratio.is_Rational or ratio <= 0:
             raise DomainError(
                 f"averaged: {e} has no rate that is a rational part of ν = {nu}: write it with rates like 2 ν"

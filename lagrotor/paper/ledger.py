@@ -337,7 +337,8 @@ def _where_apart(relation: Relation, under: Hypotheses) -> tuple[tuple[int, int]
 
 def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Finding:
     """A printed number against the bounds of a theorem, within what its digits allow."""
-    within, printed = relation.within or sp.S.Zero, sp.nsimplify(relation.printed, rational=True)
+    within = relation.within or sp.S.Zero
+    printed = sp.Rational(str(relation.printed)) if relation.printed.is_Float else relation.printed
     if not printed.is_Rational or low > high or low * high <= 0:
         return _Finding("undecided", reasons=("a theorem bounds numbers of one sign, and a number must be printed",))
     off = [printed / end - 1 for end in (low, high)]

@@ -40,7 +40,7 @@ class Characteristic(Shown):
 
 
 def characteristic(structure: Assembly) -> Characteristic:
-    """det(M s² + C s + K) on the freedoms that the bars leave, factored, in symbols; at most 6 rotors.
+    """det(M s² + C s + K) on the degrees of freedom that the bars leave, factored, in symbols; at most 6 rotors.
 
     Raises InputError for more, or where a bar is not as long as its tips are apart when upright.
     """

@@ -1,4 +1,4 @@
-"""Small motion about upright: matrices on the freedoms that the bars leave, modes, and how many topple.
+"""Small motion about upright: matrices on the degrees of freedom that the bars leave, modes, and how many topple.
 
 With u_i = (x, y) of axis i, M u'' + C u' + K u = 0 under n_b . (R_i u_i − R_j u_j) = 0 for each bar along n_b:
 
@@ -56,7 +56,7 @@ class Modes(Shown):
 
 @dataclass(frozen=True, eq=False)
 class SmallMotion:
-    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the freedoms u = basis q, basis (2 N, n).
+    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the degrees of freedom q, u = basis q, basis (2 N, n).
 
     Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
     """
@@ -70,7 +70,7 @@ class SmallMotion:
 
     @property
     def freedoms(self) -> int:
-        """How many freedoms the bars leave."""
+        """How many degrees of freedom the bars leave."""
         return int(self.mass.shape[-1])
 
     def at_spins(self, factor: float) -> "SmallMotion":

@@ -137,7 +137,7 @@ def test_a_trivial_gap_has_none() -> None:
     [
         (straight_row(spins=1.0), "one step"),
         (honeycomb(spins=(30.0, -10.0), hinge=200.0), "self-stress"),
-        (square(spins=30.0, hinge=200.0), "more freedoms"),
+        (square(spins=30.0, hinge=200.0), "more degrees of freedom"),
         (honeycomb(spring=50.0, spins=30.0), "rate zero"),
         (honeycomb(**SPRINGS, spins=1.0, gravity=900.0), "falls"),
         (honeycomb(**SPRINGS, spins=1.0, friction=0.1), "friction"),

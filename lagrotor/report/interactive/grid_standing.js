@@ -3,7 +3,7 @@
 // A bar along x holds the tilts along x of its two tips equal, a bar along y those along y. So rotors joined along x share
 // one freedom, a row, and those joined along y another, a column; each rotor lies in one of each, and its axial momentum
 // couples the two. With a the inertia of an axis about its joint and kappa the moment of its weight, both the same for all,
-// a motion s of the pair of freedoms with the coupling beta obeys a² s⁴ + (beta² − 2 a kappa) s² + kappa² = 0: it is bounded
+// a motion s of the pair of degrees of freedom with the coupling beta obeys a² s⁴ + (beta² − 2 a kappa) s² + kappa² = 0: it is bounded
 // where beta >= 2 sqrt(a kappa). beta: the singular values of W, W[row][column] the sum of the G of the rotors in both, over
 // the root of the two's numbers of rotors. Freedoms without a partner have beta = 0, and fall at any spin.
 
@@ -69,7 +69,7 @@ function standing(spins, right, up, load) {
   };
 }
 
-// The tilts (x, y) of the places after a push, by steps of Runge and Kutta; `state` holds freedoms and their rates.
+// The tilts (x, y) of the places after a push, by steps of Runge and Kutta; `state` holds the coordinates and their rates.
 function stepper(found, spins) {
   const { rows, columns, a, kappa } = found, h = rows.length, n = h + columns.length;
   const runsOf = [...rows, ...columns], places = rows.flat();

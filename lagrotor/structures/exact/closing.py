@@ -1,4 +1,4 @@
-"""Whether the bars can close, and what freedoms they leave."""
+"""Whether the bars can close, and what degrees of freedom they leave."""
 
 import numpy as np
 

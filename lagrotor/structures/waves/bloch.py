@@ -42,8 +42,8 @@ class Bloch:
         return _wave_sum(q, self.apart, self.parts, k), _wave_sum(q, self.away, self.rows, k)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
-        """Of the wave numbers q (n_q, d) those at which the bars leave equally many freedoms, by their places in q, and the
-        linear systems there."""
+        """Of the wave numbers q (n_q, d) those at which the bars leave equally many degrees of freedom, by their places in q,
+        and the linear systems there."""
         parts, rows = self.at(q)
         rows = np.where(np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0), 0, rows)
         ranks, vectors = left_by(rows)

@@ -96,7 +96,7 @@ def _local_minima(apart: Array) -> NDArray[np.intp]:
 
 def _distances(b: Bloch, q: Array, band: NDArray[np.intp], d: Dispersion) -> Array:
     """From each of the bands to the next at wave numbers q (m, p, 2), (m, p); the highest rate where the
-    bars leave another number of freedoms."""
+    bars leave another number of degrees of freedom."""
     apart, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
     n = d.rates.shape[1]
     for places, motion in b.motions(q.reshape(-1, 2)):
@@ -120,7 +120,8 @@ def _check(d: Dispersion) -> None:
         raise InputError("chern_numbers: the bars leave no freedom at any wave number: there are no bands")
     if np.isnan(d.rates).any():
         raise InputError(
-            "chern_numbers: the bars leave more freedoms at some wave numbers, where they carry a self-stress (often q = 0): "
+            "chern_numbers: the bars leave more degrees of freedom at some wave numbers, where they "
+            "carry a self-stress (often q = 0): "
             "the bands break off there and have no Chern number; put springs for bars"
         )
     if any(d.pattern.friction) or any(brace[4] for brace in d.pattern.braces):

@@ -23,8 +23,8 @@ class Dispersion(Shown):
 
     rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
     rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). freedoms (n_q,): the f that the
-    bars leave at q; n_bands is their most, and where there are fewer the row ends in nan. zero_bands: freedoms, where the
-    bars leave the fewest, on which neither spins nor springs nor weight act.
+    bars leave at q; n_bands is their most, and where there are fewer the row ends in nan. zero_bands: where the bars leave
+    the fewest degrees of freedom, those on which neither spins nor springs nor weight act.
     """
 
     pattern: Cell
@@ -113,7 +113,7 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
 
 
 def _still(motion: SmallMotion) -> int:
-    """How many freedoms nothing acts on, the fewest of the wave numbers."""
+    """How many degrees of freedom nothing acts on, the fewest of the wave numbers."""
     acting = np.concatenate(
         [motion.stiffness / motion.rate**2, (motion.gyroscopic + motion.damping) / motion.rate], axis=-2
     )
