@@ -221,9 +221,13 @@ class Paper(Catalogue):
         """One claim after its test; where theorems cannot be proved here, with those on record that its run bears out."""
         with self.importable():
             result = self.claim_tests[identifier].result
-        if result.test.prove is None or can_prove() or identifier not in self.recorded:
+        return result if can_prove() else self.with_theorems_on_record(result)
+
+    def with_theorems_on_record(self, result: Result) -> Result:
+        """The parts of a claim with their theorems that are on record, where the run bears them out."""
+        row = self.recorded.get(result.test.id)
+        if result.test.prove is None or row is None:
             return result
-        row = self.recorded[identifier]
         parts = [replace(part, theorems=row.theorems_of(part.says)) for part in result.finding.parts]
         return replace(result, finding=replace(result.finding, parts=tuple(parts)))
 

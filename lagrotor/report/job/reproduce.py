@@ -171,9 +171,9 @@ def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> 
 
 
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
-    """Every claim with its measured numbers, decided anew."""
-    tests = paper.claim_tests
-    return [Result(test, products[f"claim {i}"], test.decide(products[f"claim {i}"]), 0.0) for i, test in tests.items()]
+    """Every claim with its measured numbers, decided anew; theorems are those on record, `lagrotor claims` proves them again."""
+    results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
+    return [paper.with_theorems_on_record(result) for result in results]
 
 
 def _write(folder: Path, report: Report) -> None:
