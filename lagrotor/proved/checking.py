@@ -728,7 +728,7 @@ def check_family(certificate: Any) -> None:
     flow = Flow(certificate["motion"])
     for signs in certificate["reversals"]:
         check_reversal(flow, signs)
-    pieces = [FamilyPiece(certificate["motion"], piece) for piece in certificate["pieces"]]
+    pieces = [CheckedPiece(certificate["motion"], piece) for piece in certificate["pieces"]]
     for one, other in pairwise(pieces):
         demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
         same = [
@@ -744,7 +744,7 @@ def check_family(certificate: Any) -> None:
         demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
 
 
-class FamilyPiece:
+class CheckedPiece:
     """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
 
     def __init__(self, motion: Any, data: Any) -> None:

@@ -179,7 +179,7 @@ SPOILS = {
     "not one unit of s": lambda c: c["pieces"][0]["steps"].pop(),
     "leave a part out": lambda c: c["pieces"][0]["cuts"].pop(1),
     "fixed set of the reversal": lambda c: c["pieces"][0]["x"].__setitem__(1, ["1p-20"]),
-    "Krawczyk's test does not close": lambda c: c["pieces"][0]["x"][6].__setitem__(0, "1p-2"),
+    "the tube about a family is too narrow": lambda c: c["pieces"][0]["x"][6].__setitem__(0, "1p-2"),
     "no precession of the pair": lambda c: c["reversals"].pop(),
     "time reversed is no motion": lambda c: next(
         o for o in c["motion"]["operations"] if o[0] == "subtract"
