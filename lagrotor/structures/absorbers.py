@@ -6,8 +6,10 @@ c hold:
     M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
 
 For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), z the mean y or the
-yaw. Brace k_z = m Ω² f², damper c = 2 ζ m Ω. Derived in derivations/n2_shaken.py; the tuned mass is Den Hartog's
-(Mechanical Vibrations, 1956, § 3.3) and Warburton's (Earthquake Eng. Struct. Dyn. 10, 1982).
+yaw. Brace k_z = m Ω² f², damper c = 2 ζ m Ω. In the worst case both peaks of |X| are equally high, at the least height that
+any brace and damper leave, which Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) only bound from below. Derived
+in derivations/n2_shaken.py; the tuned mass is that of Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002) and Warburton
+(Earthquake Eng. Struct. Dyn. 10, 1982).
 """
 
 from dataclasses import dataclass
@@ -21,7 +23,7 @@ from lagrotor.structures.coefficients import Array
 
 @dataclass(frozen=True, eq=False)
 class Absorber:
-    """f², the brace's tuning; ζ, the damper; value: the largest |X K/F| over all rates, or the mean square.
+    """f², the brace's tuning; ζ, the damper; value: the peak, the largest |X K/F| over all rates, or the mean square.
 
     The mean square, under white noise, is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
     absorber and with a damping ratio ζ of its own, 1/(2ζ).
@@ -32,13 +34,32 @@ class Absorber:
     value: Array
 
 
-def spins_worst_case(gamma: ArrayLike) -> Absorber:
-    """The spins' best brace and damper in the worst case: f² = 1 − γ²/2, ζ² = 3γ²/8; the largest |X K/F| is √2/γ.
+def _worst_case(d: Array) -> tuple[Array, Array]:
+    """γ² and 1 − ρ of the best brace and damper, ρ² = 1 − 1/peak²; d = 1 − f²/ρ goes from 0 to 1 as γ from 0 to √2."""
+    over = 8 - 8 * d - d**2 + 2 * d**3
+    return 2 * d * (2 - d) ** 2 * (4 - 3 * d) / over, d * (8 - 11 * d + 4 * d**2) / over
 
-    That is its height at the two fixed points. Raises DomainError unless 0 < γ < √2.
+
+def _d_where(quantity: int, values: Array) -> Array:
+    """d at which a quantity of `_worst_case` has the values; both grow with it."""
+    from scipy.optimize import brentq
+
+    solve = np.vectorize(
+        lambda value: brentq(lambda d: _worst_case(d)[quantity] - value, 0, 1, xtol=1e-30), otypes=[float]
+    )
+    return np.asarray(solve(values))
+
+
+def spins_worst_case(gamma: ArrayLike) -> Absorber:
+    """The spins' best brace and damper in the worst case, exactly; value is the peak, and no other pair has a lower one.
+
+    With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
+    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ these are f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
+    Raises DomainError unless 0 < γ < √2.
     """
-    g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
-    return Absorber(1 - g2 / 2, np.sqrt(3 * g2 / 8), np.sqrt(2 / g2))
+    d = _d_where(0, _in_domain("gamma", gamma, 2**0.5) ** 2)
+    below = _worst_case(d)[1]
+    return Absorber((1 - d) * (1 - below), np.sqrt(below * (3 - 2 * d) / 2), 1 / np.sqrt(below * (2 - below)))
 
 
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
@@ -51,12 +72,18 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
 
 
 def mass_worst_case(mu: ArrayLike) -> Absorber:
-    """The best tuned mass in the worst case (Den Hartog): f = 1/(1 + μ), ζ² = 3μ/(8 (1 + μ)) of the mass' own rate.
+    """The best tuned mass in the worst case, exactly (Nishihara & Asami), with s = sqrt(4 + 3μ), ζ of the mass' own rate:
 
-    The largest |X K/F| is sqrt(1 + 2/μ), μ the ratio of masses. Raises DomainError unless μ > 0.
+        f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
+        peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))),
+
+    μ the ratio of masses; Den Hartog's fixed points lie at sqrt(1 + 2/μ). Raises DomainError unless μ > 0.
     """
     m = _in_domain("mu", mu, np.inf)
-    return Absorber(1 / (1 + m) ** 2, np.sqrt(3 * m / (8 * (1 + m))), np.sqrt(1 + 2 / m))
+    s = np.sqrt(4 + 3 * m)
+    form = 3 * s**2 + 4 * s + 4
+    damping = np.sqrt(9 * m * (3 * s + 2) / (s + 2) / (s**2 - 1)) / 4
+    return Absorber(24 / ((s - 1) ** 2 * form), damping, form / (3 * np.sqrt(m * (s + 2) * (3 * s + 2))))
 
 
 def mass_white_noise(mu: ArrayLike) -> Absorber:
@@ -70,9 +97,9 @@ def mass_white_noise(mu: ArrayLike) -> Absorber:
 
 
 def spins_win_worst_case(mu: ArrayLike) -> Array:
-    """γ from which on the spins do better than a tuned mass in the worst case: sqrt(2μ/(2 + μ))."""
-    m = _in_domain("mu", mu, np.inf)
-    return np.asarray(np.sqrt(2 * m / (2 + m)))
+    """γ from which on the spins' peak is lower than a tuned mass': sqrt(μ) for a small one."""
+    inverse = mass_worst_case(mu).value ** -2.0
+    return np.asarray(np.sqrt(_worst_case(_d_where(1, inverse / (1 + np.sqrt(1 - inverse))))[0]))
 
 
 def spins_win_white_noise(mu: ArrayLike) -> Array:

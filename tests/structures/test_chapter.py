@@ -19,7 +19,8 @@ MUTANTS = [
     ("n1_standing", "(2 * G_1**2 + G_2**2 + 2 * G_3**2) * lam", "(2 * G_1**2 - G_2**2 + 2 * G_3**2) * lam"),
     ("n1_standing", "(G_1 * G_3 - G_2 * G_4) ** 2", "(G_1 * G_3 + G_2 * G_4) ** 2"),
     ("n2_shaken", "tuning = 1 - gamma**2 / 2", "tuning = 1 - gamma**2"),
-    ("n2_shaken", "(3 + sign * gamma / sp.sqrt(2))", "(3 - sign * gamma / sp.sqrt(2))"),
+    ("n2_shaken", "(4 - 3 * d)", "(4 - 2 * d)"),
+    ("n2_shaken", "(r + 2) * (3 * r + 2) / form", "(r + 2) * (3 * r + 1) / form"),
     ("n2_shaken", '4 / gamma**2 - 1, "the least', '4 / gamma**2 + 1, "the least'),
     ("n4_damped", "decay = c * (A + D) / (2 * A * D)", "decay = c * (A + D) / (A * D)"),
     pytest.param(

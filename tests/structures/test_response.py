@@ -62,18 +62,43 @@ def transfer(w, gamma, f2, zeta):
 RATES = np.linspace(1e-4, 3, 40_001)
 
 
-@pytest.mark.parametrize("gamma", [0.05, 0.3, 1.0])
-def test_the_worst_case_is_at_its_least(gamma) -> None:
+def weighted(w, mu, f2, zeta):
+    """The sway under a mass mu on a spring and damper of its own."""
+    own = f2 + 2j * zeta * np.sqrt(f2) * w
+    return 1 / (1 - w**2 - mu * w**2 * own / (own - w**2))
+
+
+WORST_CASES = [(absorbers.spins_worst_case, transfer, x) for x in (0.05, 0.3, 1.0, 1.35)]
+WORST_CASES += [(absorbers.mass_worst_case, weighted, x) for x in (0.004, 0.1, 3.0)]
+
+
+@pytest.mark.parametrize(("law", "response", "ratio"), WORST_CASES)
+def test_the_worst_case_is_the_peak_and_no_other_is_lower(law, response, ratio) -> None:
     from scipy.optimize import minimize
 
-    best = absorbers.spins_worst_case(gamma)
+    best, width = law(ratio), ratio if law is absorbers.spins_worst_case else np.sqrt(ratio)
+    rates = np.linspace(max(1e-4, 1 - 3 * width), 1 + 3 * width, 6_001)
 
     def peak(x):
-        return np.abs(transfer(RATES, gamma, *x)).max()
+        heights = np.abs(response(rates, ratio, *x))
+        top = heights.argmax()
+        bend, slope, height = np.polyfit([-1, 0, 1], heights[top - 1 : top + 2], 2)
+        return height - slope**2 / (4 * bend)
 
-    found = minimize(peak, [best.tuning, best.damping], method="Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-9})
-    # Den Hartog's fixed points are a bound from below; the best peak is within the tolerance of his rule above it.
-    assert best.value <= found.fun <= peak([best.tuning, best.damping]) <= (1 + 0.06 * gamma**2 + 5e-3) * best.value
+    start = np.array([best.tuning, best.damping])
+    assert peak(start) == pytest.approx(best.value, rel=1e-7)
+    found = minimize(peak, start * [1.05, 0.9], method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-10})
+    assert found.fun == pytest.approx(best.value, rel=1e-6)
+
+
+def test_fixed_points_bound_the_worst_case_from_below() -> None:
+    """By γ²/64 and μ/64 of Den Hartog's height."""
+    ratio = np.array([0.02, 0.04])
+    for above in (
+        absorbers.spins_worst_case(ratio).value / (np.sqrt(2) / ratio) - 1,
+        absorbers.mass_worst_case(ratio**2).value / np.sqrt(1 + 2 / ratio**2) - 1,
+    ):
+        assert above / ratio**2 == pytest.approx(1 / 64, rel=0.01)
 
 
 @pytest.mark.parametrize("gamma", [0.05, 0.3, 1.0])
