@@ -287,19 +287,25 @@ def _tilted_after(s: Assembly, rates: ArrayLike, longest: float, detuning: float
         {tuple(int(i in (j, size + j)) for i in range(2 * size)): w for j, w in enumerate(turning)}, 2 * size
     )
     slopes = [slow.derivative(size + j) for j in range(size)]
-    tilts = 2 * np.abs(h.basis @ n.vectors[:size, :size]).reshape(-1, 2, size)
+    shapes = 2 * (h.basis @ n.vectors[:size, :size])
+    groups = _of_equal_rates(np.real(n.frequencies))
 
     def flow(_: float, z: Complex) -> Complex:
         point = np.concatenate([z, z.conj()])
         return np.array([-1j * f.at(point) for f in slopes])
 
     def over(sine: float) -> Callable[[float, Complex], float]:
-        return lambda _, z: float(np.hypot(*np.moveaxis(tilts @ np.abs(z), 1, 0)).max()) - sine
+        def at(t: float, z: Complex) -> float:
+            z = z * np.exp(-1j * turning * t)
+            tilts = sum(np.abs(shapes[:, g] @ z[g]) for g in groups)
+            return float(np.hypot(*np.reshape(tilts, (-1, 2)).T).max()) - sine
+
+        return at
 
     third, fallen = over(_FALLEN / 3), over(_FALLEN)
     fallen.terminal = True  # type: ignore[attr-defined]
     events, tight = (third, fallen), 1e-10 * np.abs(begin).max()
-    run = solve_ivp(flow, (0, longest * h.rate), begin, events=events, rtol=1e-7, atol=tight, method="DOP853")
+    run = solve_ivp(flow, (0, longest * h.rate), begin, events=events, rtol=1e-10, atol=tight, method="DOP853")
     times = [float(t[0]) / h.rate if len(t) and run.status == 1 else inf for t in run.t_events]
     return times[0], times[1]
 
@@ -360,12 +366,17 @@ def trusted_push(s: Assembly, factor: float = 1.0) -> float:
     rates = n.frequencies.real
     size, shapes = len(rates), h.basis @ n.vectors[: len(rates), : len(rates)]
     over = np.linalg.inv(n.vectors)[:size, size:] @ h.mass / h.rate
-    equal = np.abs(rates[:, None] - rates) < _EQUAL * np.abs(rates).max()  # of equal rates only the sum has a meaning
-    groups = {tuple(np.flatnonzero(row).tolist()) for row in equal}
     tilts = sum(
-        2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2)) for g in map(list, groups)
+        2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2))
+        for g in _of_equal_rates(rates)
     )
     return float(_TRUSTED / np.max(tilts))
+
+
+def _of_equal_rates(rates: Array) -> list[list[int]]:
+    """The modes by groups of equal rates, of which only the sum has a meaning: their shapes are any basis of what they span."""
+    equal = np.abs(rates[:, None] - rates) < _EQUAL * np.abs(rates).max()
+    return [list(g) for g in {tuple(np.flatnonzero(row).tolist()) for row in equal}]
 
 
 def checked_push(where: str, push: Any) -> float:

@@ -8,7 +8,10 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.structures import exact_motion, example, local_hamiltonian, measured_fall, resonant_factors
+from lagrotor.structures import resonances as resonances_module
+from lagrotor.structures.resonances import normal_form_of
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
@@ -142,6 +145,31 @@ def test_the_corner_falls_from_any_push_in_a_time_as_one_over_it():
     assert (
         found.fall_time_error(push / 4) < 0.25 * found.fall_time(push / 4) and found.fall_time_error(0.02 * rate) == 0
     )
+
+
+@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+def test_what_is_said_does_not_depend_on_the_basis_of_modes_of_equal_rates(monkeypatch, shape, spins):
+    """Both rates are double there: any unitary mixture of the two modes of a rate is as good, and a BLAS kernel picks one."""
+    s, told, shapes = at(1.0607, shape, spins), [], []
+    mixture = np.kron(np.eye(2), [[0.6, 0.8j], [0.8j, 0.6]])
+
+    def rotated(A, bracket):
+        normal = normal_coordinates(A, bracket)
+        z = normal.vectors[:, : len(A) // 2] @ mixture
+        return replace(normal, vectors=np.hstack([z, z.conj()]))
+
+    for coordinates in (normal_coordinates, rotated):
+        monkeypatch.setattr(resonances_module, "normal_coordinates", coordinates)
+        normal_form_of.cache_clear()
+        found, rate = s.stands(), local_hamiltonian(s).rate
+        push = 0.02 * rate * next(directions(s, 1, seed=7))
+        told.append(
+            [found.fall_time(push), found.fall_time_error(push), s.largest_push().value, *found.window(0.02 * rate)]
+        )
+        shapes.append(np.abs(normal_form_of(s, order=3).vectors))
+    assert np.abs(shapes[0] - shapes[1]).max() > 0.05 and np.isfinite(told).all()
+    assert told[1] == pytest.approx(told[0], rel=3e-8)
+    normal_form_of.cache_clear()
 
 
 @pytest.mark.slow
