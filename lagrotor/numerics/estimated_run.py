@@ -381,7 +381,7 @@ def _following(course: _Course, comparison: _Comparison, tol: float) -> Generato
     third = comparison.error * tight.local / loose.local <= tol / 2
     for companion in (tight,) if third else (course.integration(local, True), tight):
         better = course.integration(max(companion.local / APART.value, TIGHTEST), not companion.companion)
-        if better.local > max(course.refused, default=0.0):
+        if better.local > 1.1 * max(course.refused, default=0.0):  # the same by another way, but for rounding
             following = yield from _compare(course, companion, better)
             if not following.refusal:
                 return following

@@ -170,6 +170,25 @@ def test_where_the_two_differ_by_too_much_a_third_is_enough_or_a_pair_follows_in
     assert run.evaluations == far.spent == 400
 
 
+@pytest.mark.parametrize(("share", "integrations"), [(0.3, 3), (0.4, 4)])
+def test_a_third_is_to_give_half_of_the_tolerance(share: float, integrations: int) -> None:
+    """A third would be off by 8/5 share tol: 0.48 tol is enough, 0.64 tol is not, although it would keep tol."""
+    made = Made(share=share)
+    run = made.run(1e-6)
+    assert len(made.locals) == integrations and run.errors[-1] < 0.51e-6
+
+
+@pytest.mark.parametrize("off", [0.9, 1 - 1e-15, 1.0, 1 + 1e-15])
+def test_a_pair_at_a_local_error_that_was_refused_is_not_begun(off: float) -> None:
+    """The same local error is reached by other ways, which differ by rounding."""
+    course = estimated_run._Course(Made().evolution(), T)
+    tight = estimated_run._Integration(1e-7, False)
+    comparison = estimated_run._Comparison(estimated_run._Integration(5e-7, True), tight, 1, np.full(65, 2e-6), np.inf)
+    course.refused.append(off * tight.local / APART)
+    asked = next(estimated_run._following(course, comparison, 1e-6), None)
+    assert (asked is None) is (off > 0.99)
+
+
 def test_what_no_tolerance_keeps_is_the_best_there_is_and_is_said() -> None:
     made = Made(share=1e4)
     run = made.run(1e-12)
@@ -209,6 +228,29 @@ def test_where_two_have_parted_nothing_is_known_and_the_better_one_goes_on_alone
     said = rf"only up to t = [\d.]+ s; from t = {run.loosened:.6g} s its local error is {beyond:g}"
     with pytest.warns(LagrotorWarning, match=said):
         run.warn_unless_kept("made", 1e-6)
+
+
+def test_nothing_is_known_from_the_very_time_at_which_two_have_parted() -> None:
+    run = Made(growth=1.0).run(1e-6, np.arange(201.0))
+    at = int(np.searchsorted(run.t, run.ending.at))
+    assert run.t[at] == run.ending.at and run.errors[at] == UNKNOWN > run.errors[at - 1] > LOST / 10
+
+
+def test_a_run_that_stops_where_it_goes_on_more_loosely_goes_on_at_its_own_local_error() -> None:
+    beyond = estimated_run.BEYOND.value
+
+    class Loose(Made):
+        def __call__(self, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+            part = super().__call__(start, times, local, companion, budget)
+            if local == beyond:
+                raise StopError(float(times[0]), "too loose", evaluations=part.evaluations)
+            return part
+
+    made = Loose(growth=1.0)
+    run = made.run(1e-7, np.linspace(0.0, 200.0, 21))
+    after = made.locals[made.locals.index(beyond) + 1 :]
+    assert after and set(after) == {run.local}
+    assert run.ending.kind == "lost" and run.t[-1] == 200 and run.loosened == np.inf
 
 
 def test_the_stages_double() -> None:

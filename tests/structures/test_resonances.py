@@ -9,9 +9,15 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
-from lagrotor.structures import exact_motion, example, local_hamiltonian, measured_fall, resonant_factors
+from lagrotor.structures import (
+    exact_motion,
+    example,
+    local_hamiltonian,
+    measured_fall,
+    normal_form_of,
+    resonant_factors,
+)
 from lagrotor.structures import resonances as resonances_module
-from lagrotor.structures.resonances import normal_form_of
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
