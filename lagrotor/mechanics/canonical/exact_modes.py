@@ -37,9 +37,7 @@ def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, letters: set[sp.Symbol],
     rates = _frequencies(bracket * A)
     field = _field(letters, sp.Tuple(H, A, *rates))
     modes: list[tuple[sp.Expr, sp.Matrix, sp.Matrix]] = []
-    for omega in rates:
-        if any(_same(omega, abs_omega) for abs_omega in (abs(mode[0]) for mode in modes)):
-            continue
+    for omega in {elements(field)(omega): omega for omega in rates}.values():
         for v in _orthogonal(_null_vectors(bracket * A + sp.I * omega * sp.eye(A.rows), field), A, field):
             modes.append(_signed(omega, v, A, field))
     modes.sort(key=lambda mode: sp.default_sort_key(abs(mode[0])) if A.free_symbols else float(abs(mode[0])))
@@ -155,7 +153,3 @@ def _sign(energy: sp.Expr) -> int:
     if not (odd.is_positive or odd.is_negative):
         raise NotExactError(f"normal_form: the sign of the energy {energy} is not known")
     return 1 if odd.is_positive else -1
-
-
-def _same(a: sp.Expr, b: sp.Expr) -> bool:
-    return bool((a - b).equals(0))

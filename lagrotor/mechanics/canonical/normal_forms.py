@@ -21,6 +21,7 @@ import numpy as np
 import sympy as sp
 from sympy.polys.polyerrors import CoercionFailed
 
+from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.mechanics.canonical.exact_modes import elements, exact_coordinates
 from lagrotor.mechanics.canonical.local_series import LocalSeries
@@ -274,8 +275,11 @@ def _exact(
         elif where:
             A[where[0], where[1]] += c
             A[where[1], where[0]] += c
-    if any(not e.equals(0) for e in slope):
+    answers = {decide_zero(e).answer for e in slope}
+    if "nonzero" in answers:
         raise InputError(f"normal_form: {dict(at)} is no equilibrium: ∂H/∂x = {list(slope)} there")
+    if "undecided" in answers:
+        raise NotExactError(f"normal_form: whether ∂H/∂x = {list(slope)} is zero at {dict(at)} is not decided")
     bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
     letters = H.free_symbols - {*x} | A.free_symbols
     normal = exact_coordinates(A, bracket, letters, H)
