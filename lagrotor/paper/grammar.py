@@ -86,6 +86,8 @@ class _Reader:
 
     def _number(self, node: ast.Constant) -> sp.Expr:
         text = self.source[node.col_offset : node.end_col_offset].decode()
+        if type(node.value) is complex and text[-1] == "j":
+            return sp.I * parsed(text[:-1], {}, "number")
         if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
             raise self._refused(node)
         if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):

@@ -7,15 +7,16 @@ Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python wri
 import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
 
 from lagrotor.errors import InputError
+from lagrotor.paper.grammar import parsed
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.letters import FUNCTIONS, read
-from lagrotor.paper.premises import premises_of
+from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
 from lagrotor.paper.source.usage import notation_of
@@ -86,11 +87,37 @@ def judge_text(
     premises = [_relation(text, letters) for text in assumed]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
+    poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
         first, *rest = (read(side, letters, "judge") for side in text.sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
+        for side in text.sides:
+            written = _poles(parsed(side, {**FUNCTIONS, **letters}, "judge", as_written=True))
+            poles, cancelled = poles | written, cancelled | (written - _poles(read(side, letters, "judge")))
     verdict = decide(Statement("", tuple(relations), premises_of(premises)))
-    return Judgement(verdict, tuple(map(str, (*texts, *assumed))))
+    # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
+    kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
+    unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)
+    domain = tuple(dict.fromkeys((*verdict.domain, *(sp.Ne(e, 0) for e in unseen))))
+    return Judgement(replace(verdict, domain=domain), tuple(map(str, (*texts, *assumed))))
+
+
+def _poles(e: Any) -> set[sp.Expr]:
+    """What is divided by, and what a logarithm is taken of; not what cannot vanish."""
+    if isinstance(e, sp.MatrixBase):
+        return set().union(*map(_poles, e))
+    bases = {power.base for power in e.atoms(sp.Pow) if power.exp.could_extract_minus_sign()}
+    bases |= {log.args[0] for log in e.atoms(sp.log)}
+    factors = (
+        factor.as_base_exp()[0] for b in bases for factor in sp.Mul.make_args(b.doit().together().as_numer_denom()[0])
+    )
+    return {factor for factor in factors if factor.free_symbols and not factor.is_nonzero}
+
+
+def _strict(premises: Iterable[Premise]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """The sides of a > b, a < b and a ≠ b among the premises."""
+    conditions = (relation for premise in premises for relation in premise.conditions)
+    yield from (r.args for r in conditions if isinstance(r, sp.StrictGreaterThan | sp.StrictLessThan | sp.Unequality))
 
 
 def _statements(text: str, where: str) -> Iterator[_Text]:

@@ -76,6 +76,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
         name: getattr(sp, name)
         for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "Abs", "sinh", "cosh", "tanh", "asin", "acos", "atan")
     },
+    **{name: getattr(sp, name) for name in ("asinh", "acosh", "atanh", "atan2", "sign", "factorial", "besselj")},
     **{name: getattr(sp, name) for name in ("eye", "diag", "zeros", "diff", "integrate")},
     **{name: getattr(sp, name) for name in ("pi", "oo", "Integer", "Float", "Rational")},
 }

@@ -5,6 +5,7 @@ import pytest
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import judge_text
+from lagrotor.paper.premises import relation_text
 
 
 @pytest.mark.parametrize(
@@ -26,6 +27,31 @@ from lagrotor.paper import judge_text
 )
 def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
     assert judge_text(equation, given, positive=["g", "l"] if "g" in given[:1] else ()).verdict.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("equation", "given", "domain"),
+    [
+        ("x/x = 1", [], ["x ≠ 0"]),
+        ("exp(log(x)) = x", [], ["x ≠ 0"]),
+        (r"\frac{x y}{x} = y", [], ["x ≠ 0"]),
+        ("x/(x*y) = 1/y", [], ["x ≠ 0", "y ≠ 0"]),
+        ("x/x = 1", ["x > 0"], ["x ≠ 0"]),
+        ("sqrt(1/x) = 1/sqrt(x)", ["x > 0"], []),
+        ("besselj(0, x) + besselj(2, x) = 2*besselj(1, x)/x", [], ["x ≠ 0"]),
+        ("tan(x/2) = sin(x)/(1 + cos(x))", [], ["cos(x/2) ≠ 0"]),
+        ("x - x = 0", [], []),
+    ],
+)
+def test_the_domain_has_what_cancels_while_the_text_is_read(equation: str, given: list[str], domain: list[str]) -> None:
+    verdict = judge_text(equation, given).verdict
+    assert verdict.verdict in ("holds", "holds-if")
+    assert [relation_text(relation) for relation in verdict.domain] == domain
+
+
+def test_the_imaginary_unit_is_written_as_in_python() -> None:
+    assert judge_text("exp(1j*x) = cos(x) + 1j*sin(x)").verdict.verdict == "holds"
+    assert judge_text("exp(1j*x) = cos(x) - 1j*sin(x)").verdict.verdict == "refuted"
 
 
 def test_what_is_positive_counts() -> None:
