@@ -6,12 +6,12 @@
 # **Assumptions.** Opposite spins ±10. A massless bar where the theory is meant, the bar of 5.2.1 ($m = 0.01$, $K = 0.1$)
 # where the simulation is. $r_0 = 0.204$ is the paper's amplitude (figure 21).
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/`: `freedoms_and_modes.py`, `ansatz.py`,
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/`: `degrees_of_freedom.py`, `ansatz.py`,
 # `correction.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.ansatz import C15
-from lagrotor.paper.rotor_pair.claims.freedoms_and_modes import C14
+from lagrotor.paper.rotor_pair.claims.degrees_of_freedom import C14
 from lagrotor.paper.rotor_pair.claims.link_swing import C16, C17
 
 # %% [markdown]

@@ -380,11 +380,11 @@ counted = {
     "honeycomb, opposite spins": opposite,
     "square": dispersion(square(spins=10.0), draw),
 }
-lines = dispersion(square(spins=10.0), [[0.0, 1.0], [1.0, 0.0], [0.0, 0.0]]).freedoms
+lines = dispersion(square(spins=10.0), [[0.0, 1.0], [1.0, 0.0], [0.0, 0.0]]).dof
 assert [v.zero_bands for v in counted.values()] == [1, 0, 1, 0, 0] and lines.tolist() == [1, 1, 2]
 Remark(
     "Freedoms a cell, and how many of them nothing acts on",
-    "; ".join(f"{name}: {v.freedoms.min()}, {v.zero_bands}" for name, v in counted.items())
+    "; ".join(f"{name}: {v.dof.min()}, {v.zero_bands}" for name, v in counted.items())
     + f". The square net has {lines[0]} on the lines q_x = 0 and q_y = 0 and {lines[2]} at q = 0.",
 )
 

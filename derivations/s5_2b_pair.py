@@ -159,11 +159,10 @@ prove(bar_upright, sp.Matrix([ell, 0, 0]), "the bar, the axes upright", names=r"
 # %%
 state = {theta_1: sp.Rational(1, 3), phi_1: sp.Rational(2, 5), theta_2: sp.Rational(1, 4), phi_2: sp.Rational(-3, 7)}
 somewhere = {**dict.fromkeys(PAIR.q, 0), **state, a: 1, b: 0, I3: 1, k: 1}
-freedoms = degrees_of_freedom(system, somewhere)
 verdict(
     "5.09",
     {
-        r"\text{degrees of freedom}": freedoms,
+        r"\text{degrees of freedom}": degrees_of_freedom(system, somewhere),
         r"\text{degrees of freedom without the bar}": len(PAIR.q),
     },
     evidence=["The length R = 1 is chosen: that ℓ = R is what the line says, and no premise of it."],

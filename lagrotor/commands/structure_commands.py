@@ -77,7 +77,7 @@ def _write(s: Any, out: Path, duration: float) -> None:
 
 def _summary(s: Any) -> dict[str, Any]:
     rotors, bars = len(s.joints), len(s.bars)
-    summary: dict[str, Any] = {"rotors": rotors, "bars": bars, "freedoms": 2 * rotors - bars}
+    summary: dict[str, Any] = {"rotors": rotors, "bars": bars, "degrees_of_freedom": 2 * rotors - bars}
     if not s.natural:
         why = "upright, a bar is not as long as its tips are apart; a film shows how it moves (--out FILE.gif)"
         return summary | {"stands": None, "why": why}
@@ -101,9 +101,9 @@ def _table(summary: dict[str, Any]) -> str:
 
     verdict = {True: "yes", False: "no", None: "not judged"}[summary["stands"]]
     rows = [("stands", f"{verdict}: {summary['why']}")]
-    freedoms = f"{summary['freedoms']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
+    count = f"{summary['degrees_of_freedom']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
     if summary["stands"] is None:
-        return table(("structure", ""), [*rows, ("degrees of freedom", freedoms)])
+        return table(("structure", ""), [*rows, ("degrees of freedom", count)])
     factor = summary["critical_spin"]
     least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
     modes = enumerate(summary["modes"], 1)
@@ -111,7 +111,7 @@ def _table(summary: dict[str, Any]) -> str:
     rows.insert(0, ("standing", kind))
     rows += [
         ("least spin, to first order", least),
-        ("degrees of freedom", f"{freedoms}; modes that grow: {summary['topple']}"),
+        ("degrees of freedom", f"{count}; modes that grow: {summary['topple']}"),
     ]
     energies = {1: "", 0: "", -1: ", of negative energy"}
     rows += [

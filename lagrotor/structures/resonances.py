@@ -36,7 +36,7 @@ from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import SmallMotion, small_motion
 from lagrotor.structures.upright_hamiltonian import LocalHamiltonian, local_hamiltonian
 
-MOST_FREEDOMS = 8  # for which the terms of fourth order are expanded
+MOST_DOF = 8  # for which the terms of fourth order are expanded
 _BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
 _NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
 _GROUP = 4.0  # times the least detuning of a group: what is detuned no more is part of it
@@ -138,8 +138,8 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
         )
     if not (rates[0] < 0 < rates[-1]):
         return ()
-    if linear.freedoms > MOST_FREEDOMS:
-        raise InputError(f"resonances: {linear.freedoms} degrees of freedom: at most {MOST_FREEDOMS} are expanded")
+    if linear.dof > MOST_DOF:
+        raise InputError(f"resonances: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
     slope = _slopes(linear, factor)
     found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
@@ -229,7 +229,7 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
     step = 1e-5 * factor
     near = [signed_rates(linear, factor + sign * step) for sign in (-1, 1)]
     if not all(map(len, near)):
-        return np.full(linear.freedoms, np.nan)
+        return np.full(linear.dof, np.nan)
     return (near[1] - near[0]) / (2 * step)
 
 
@@ -487,7 +487,7 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
     tracks = [(f, rates) for f in factors if len(rates := signed_rates(linear, f))]
     roots = set()
     for order in orders:
-        n = linear.freedoms
+        n = linear.dof
         for c in combinations_with_replacement(range(n), order):
             sums = [rates[list(c)].sum() for _, rates in tracks]
             for k in np.flatnonzero(np.sign(sums[:-1]) * np.sign(sums[1:]) < 0):

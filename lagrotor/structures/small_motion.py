@@ -69,7 +69,7 @@ class SmallMotion:
     rate: float
 
     @property
-    def freedoms(self) -> int:
+    def dof(self) -> int:
         """How many degrees of freedom the bars leave."""
         return int(self.mass.shape[-1])
 
@@ -86,7 +86,7 @@ class SmallMotion:
         """All 2n roots s of det(M s² + C s + K), nearly zero ones set to zero."""
         if self._definite:
             return self._in_seconds(-1j * np.linalg.eigvalsh(self._hermitian[0]))
-        return self._in_seconds(np.linalg.eigvals(self._first_order))
+        return self._in_seconds(np.linalg.eigvals(self.first_order))
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
@@ -94,9 +94,9 @@ class SmallMotion:
         if self._definite:
             H, over_L = self._hermitian
             rates, vectors = np.linalg.eigh(H)
-            return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.freedoms :, :]
-        s, vectors = np.linalg.eig(self._first_order)
-        return self._in_seconds(s), vectors[..., : self.freedoms, :] + 0j
+            return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.dof :, :]
+        s, vectors = np.linalg.eig(self.first_order)
+        return self._in_seconds(s), vectors[..., : self.dof, :] + 0j
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
         """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
@@ -107,7 +107,7 @@ class SmallMotion:
     @cached_property
     def _definite(self) -> bool:
         """Whether the rest is one of least energy and nothing damps: all roots are imaginary."""
-        if self.damping.any() or not self.freedoms:
+        if self.damping.any() or not self.dof:
             return False
         sizes = np.linalg.eigvalsh(self.stiffness)
         return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
@@ -116,7 +116,7 @@ class SmallMotion:
     def _hermitian(self) -> tuple[Complex, Matrix]:
         """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
         |x|² is twice the energy; 1/L."""
-        n = self.freedoms
+        n = self.dof
         L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
         over_L = np.linalg.inv(L)
         lower = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
@@ -125,9 +125,9 @@ class SmallMotion:
         return -1j * lower, over_L
 
     @property
-    def _first_order(self) -> Matrix:
+    def first_order(self) -> Matrix:
         """The matrix of (q, q')' in units of the rate, (2n, 2n)."""
-        n, unit = self.freedoms, self.rate
+        n, unit = self.dof, self.rate
         below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
         W = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
         W[..., :n, n:] = np.eye(n)
@@ -168,7 +168,7 @@ def small_motion(s: Assembly) -> SmallMotion:
         )
     c = coefficients(s)
     rank, vectors = left_by(bar_rows(c))
-    return on_freedoms(matrices(c), vectors[:, int(rank) :], c.rate)
+    return on_basis(matrices(c), vectors[:, int(rank) :], c.rate)
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
@@ -179,7 +179,7 @@ def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
     return ranks, _dagger(vectors)
 
 
-def on_freedoms(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
+def on_basis(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
     """The system of `matrices`, (…, 4, n, n), on the vectors of a basis (…, n, f); all may be complex."""
     if basis.shape[-1] < basis.shape[-2]:
         parts = _dagger(basis)[..., None, :, :] @ parts @ basis[..., None, :, :]
@@ -237,7 +237,7 @@ def modes(s: Assembly) -> Modes:
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
-    real = real[np.argsort(-roots[real].real, kind="stable")][: linear.freedoms - len(turning)]
+    real = real[np.argsort(-roots[real].real, kind="stable")][: linear.dof - len(turning)]
     kept = np.concatenate([turning, real])
     kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
     shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, 2)

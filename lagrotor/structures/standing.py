@@ -18,7 +18,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex, coefficients, finite
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
-    MOST_FREEDOMS,
+    MOST_DOF,
     Resonance,
     checked_push,
     fall_time_along,
@@ -71,10 +71,10 @@ class Standing(Shown):
         linear = small_motion(self.structure)
         if not self.stands:
             return "never"
-        if linear.freedoms and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
+        if linear.dof and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
             return "holds"
         rubs = linear.damping.any() or coefficients(self.structure).decay.any()
-        if rubs or linear.freedoms > MOST_FREEDOMS or not len(signed_rates(linear)):
+        if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)):
             return "to first order"
         try:
             found = self.resonance
@@ -197,7 +197,7 @@ def stands(s: Assembly) -> Standing:
 
 def _why(linear: SmallMotion, factor: float) -> str:
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
-    n, falling = linear.freedoms, int((K < -1e-12).sum())
+    n, falling = linear.dof, int((K < -1e-12).sum())
     if linear.growth == 0:
         if linear.drifts:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"

@@ -50,7 +50,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     linear, c = small_motion(s), coefficients(s)
     if linear.damping.any() or c.decay.any():
         raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
-    n = linear.freedoms
+    n = linear.dof
     axes = _axes(c, linear.basis, order)
     inertia = float(np.abs(linear.mass).max())
     rate = float(np.sqrt(np.abs(linear.stiffness).max() / inertia)) or c.rate

@@ -223,7 +223,7 @@ def test_after_the_dead_point_side_force_and_softness_decide(results):
     assert np.linalg.norm(run.axes[1, 1] - run.axes[0, 1]) > 10 * np.linalg.norm(run.axes[1, 0] - run.axes[0, 0])
 
 
-def test_the_freedoms_are_those_of_a_pair_with_its_bar(results):
+def test_the_degrees_of_freedom_are_those_of_a_pair_with_its_bar(results):
     own, freed = results["C14"].measured, evaluated("C14", "without the rotor spins it has 3").measured
     assert [m["degrees_of_freedom"] for m in (own, freed)] == [5, 6]
     assert [m["degrees_of_freedom_without_spins"] for m in (own, freed)] == [3, 4]

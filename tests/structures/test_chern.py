@@ -58,7 +58,7 @@ def energy_chern(pattern, grid: int) -> tuple[int, ...]:
     root_M = (vectors / np.sqrt(heavy)[:, None]) @ dagger(vectors)
     across = 1j * root_K @ root_M
     _, v = np.linalg.eigh(np.block([[0 * across, across], [dagger(across), -1j * root_M @ m.gyroscopic @ root_M]]))
-    f = m.freedoms
+    f = m.dof
     v = np.concatenate([m.basis @ v[:, :f, f:], m.basis @ v[:, f:, f:]], axis=-2).swapaxes(-1, -2)
     v = v.reshape(grid, grid, *v.shape[1:])
     link = [(v.conj() * np.roll(v, -1, axis)).sum(-1) for axis in (0, 1)]

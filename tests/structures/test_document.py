@@ -62,7 +62,9 @@ def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     assert "yes: to first order: the spins hold" in capsys.readouterr().out
     assert main(["structure", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["stands"] and found["freedoms"] == 4 and len(found["modes"]) == 4 and found["critical_spin"] < 1
+    assert (
+        found["stands"] and found["degrees_of_freedom"] == 4 and len(found["modes"]) == 4 and found["critical_spin"] < 1
+    )
     assert main(["structure", "list", "--json"]) == 0
     assert json.loads(capsys.readouterr().out).keys() == GALLERY.keys()
     assert main(["structure", "list"]) == 0

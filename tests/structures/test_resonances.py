@@ -64,7 +64,7 @@ def test_modes_have_the_signs_of_their_energies():
 
 
 def exact_accelerations(s: Structure, q, v):
-    """q'' of the exact motion at the freedoms q and their rates v."""
+    """q'' of the exact motion at the coordinates q and their rates v."""
     motion, linear = exact_motion(s), small_motion(s)
     back = np.linalg.pinv(bar_rows(motion.c))
 

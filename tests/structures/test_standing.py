@@ -59,7 +59,7 @@ def test_a_massless_loaded_pair_falls_at_the_rate_of_no_spin() -> None:
 
 def test_a_rigid_plate_never_stands() -> None:
     s = Structure(**SQUARE | {"bars": [*SQUARE["bars"], (0, 2)]}, spins=1e3)
-    assert small_motion(s).freedoms == 3 and s.critical_spin() == inf
+    assert small_motion(s).dof == 3 and s.critical_spin() == inf
 
 
 def test_a_straight_row_never_stands() -> None:
@@ -127,7 +127,7 @@ def test_friction_undoes_what_the_spins_hold() -> None:
     s = Structure(**CORNER, spins=spins, friction=0.5)
     found, c = s.stands(), coefficients(s)
     assert not found and found.critical_spin == inf and "friction undoes" in found.why
-    # Each pair of freedoms alone: a s² + (c − i β) s − κ = 0 with β = G/√2.
+    # Each pair of degrees of freedom alone: a s² + (c − i β) s − κ = 0 with β = G/√2.
     a, kappa, beta = c.A[0], c.gravity * c.S[0], 40 / sqrt(2)
     roots = np.roots([a, 0.5 - 1j * beta, -kappa])
     assert found.growth == pytest.approx(roots.real.max(), rel=1e-9)

@@ -108,12 +108,12 @@ def test_the_straight_row_has_a_wave_across_its_bars_alone() -> None:
     A, B = J + 2 * (1 / 4 + 0.1), 1 / 4 - 0.1
     assert found.rates[:, 0] == pytest.approx(np.sqrt(50 / (A + 2 * B * np.cos(Q))), rel=1e-9)
     assert straight_row(spins=10.0).dispersion(Q).zero_bands == 1
-    assert straight_row(spins=10.0).dispersion([0.0, 1.0]).freedoms.tolist() == [2, 1]
+    assert straight_row(spins=10.0).dispersion([0.0, 1.0]).dof.tolist() == [2, 1]
     assert np.isnan(straight_row(spins=10.0).dispersion([0.0, 1.0]).rates).sum() == 1
 
 
 def test_the_square_net_moves_along_whole_rows_and_columns_alone() -> None:
-    assert square(spins=10.0).dispersion([[0.3, 1.0], [0, 1.0], [1.0, 0], [0, 0]]).freedoms.tolist() == [0, 1, 1, 2]
+    assert square(spins=10.0).dispersion([[0.3, 1.0], [0, 1.0], [1.0, 0], [0, 0]]).dof.tolist() == [0, 1, 1, 2]
     assert not square(spins=10.0).dispersion([[0.3, 1.0]]).gaps
 
 
@@ -165,7 +165,7 @@ def test_many_wave_numbers_at_once_give_what_each_gives_alone(more, monkeypatch:
     )
     monkeypatch.setattr(dispersion_module, "_TOGETHER", 2)
     together = dispersion(pattern, q)
-    assert together.freedoms.tolist() == [1, 2, 1, 2, 1, 1, 1, 2, 1] and together.zero_bands == 0
+    assert together.dof.tolist() == [1, 2, 1, 2, 1, 1, 1, 2, 1] and together.zero_bands == 0
     assert together.falls == ("gravity" in more)
     for k, point in enumerate(q):
         alone = dispersion(pattern, point[None])

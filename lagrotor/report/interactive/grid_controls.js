@@ -13,10 +13,10 @@ const EXAMPLES = { // of each place, from below, left to right; bars along x and
 
 // The verdict and its reason, in words.
 function verdict(found, spin) {
-  const number = (x) => x.toPrecision(3), freedoms = found.rows.length + found.columns.length;
-  if (!freedoms) return ["There is no rotor.", ""];
+  const number = (x) => x.toPrecision(3), dof = found.rows.length + found.columns.length;
+  if (!dof) return ["There is no rotor.", ""];
   if (found.stands) {
-    const bounded = `Its linear motion, of ${freedoms} degrees of freedom, stays bounded from ${number(found.factor)} times these spins on.`;
+    const bounded = `Its linear motion, of ${dof} degrees of freedom, stays bounded from ${number(found.factor)} times these spins on.`;
     const { off, fast, slow } = found.resonance;
     if (off > NEAR) return ["It stands to first order.", bounded];
     return ["It stands to first order, near a resonance.", `${bounded} But two slow precessions, of ${slow.map(number).join(" and ")} rad/s, add up to a fast one, `

@@ -1,5 +1,6 @@
 """What is said of the motion about upright compared with the exact one: growth, boundedness, the time of a fall."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -14,13 +15,6 @@ from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
-def first_order(linear: SmallMotion) -> Array:
-    """The matrix of (q, q')' = W (q, q'), (2n, 2n)."""
-    n = linear.freedoms
-    below = np.linalg.solve(linear.mass, np.hstack([-linear.stiffness, -(linear.damping + linear.gyroscopic)]))
-    return np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below])
-
-
 def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> float:
     """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
 
@@ -33,9 +27,9 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
         raise InputError("measured_growth: nothing grows about upright")
     shape = tilt * normal.shapes[0]
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
-    roots, left = np.linalg.eig(first_order(linear).T)
+    roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
     w = left[:, np.argmin(np.abs(roots - root))]
-    first, last = (abs(w @ state) for state in _freedoms(linear, run.axes, run.rates).T)
+    first, last = (abs(w @ state) for state in _coordinates(linear, run.axes, run.rates).T)
     return float(np.log(last / first) * root.real / folds)
 
 
@@ -49,13 +43,13 @@ def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: i
     linear, normal = small_motion(s), modes(s)
     rates = normal.rates[normal.rates > 0]
     t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
-    draw = np.random.default_rng(seed).standard_normal((linear.freedoms,))
+    draw = np.random.default_rng(seed).standard_normal((linear.dof,))
     run = simulate_structure(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
-    exact = _freedoms(linear, run.axes, run.rates)
-    step, states = expm(first_order(linear) * t[1]), [exact[:, 0]]
+    exact = _coordinates(linear, run.axes, run.rates)
+    step, states = expm(replace(linear, rate=1.0).first_order * t[1]), [exact[:, 0]]
     for _ in t[1:]:
         states.append(step @ states[-1])
-    n = linear.freedoms
+    n = linear.dof
     size = np.abs(exact[:n, 0]).max()
     return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
 
@@ -85,7 +79,7 @@ def measured_fall(
     return (float(run.t[-1]) / rate if run.status == 1 else inf), float(tilts(run.y.T).max())
 
 
-def _freedoms(linear: SmallMotion, axes: Array, rates: Array) -> Array:
+def _coordinates(linear: SmallMotion, axes: Array, rates: Array) -> Array:
     """(q, q') of a run, (2n, times)."""
     parts = [part[..., :2].swapaxes(0, 1).reshape(part.shape[1], -1) @ linear.basis for part in (axes, rates)]
     return np.hstack(parts).T

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, coefficients
-from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_freedoms
+from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_basis
 from lagrotor.structures.waves.cell import Cell, Shift, Site
 
 _ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
@@ -49,7 +49,7 @@ class Bloch:
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
-            yield places, on_freedoms(parts[places], vectors[places, :, rank:], self.rate)
+            yield places, on_basis(parts[places], vectors[places, :, rank:], self.rate)
 
 
 def _wave_sum(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:

@@ -22,7 +22,7 @@ class Dispersion(Shown):
     """Waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad a cell.
 
     rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
-    rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). freedoms (n_q,): the f that the
+    rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). dof (n_q,): the f that the
     bars leave at q; n_bands is their most, and where there are fewer the row ends in nan. zero_bands: where the bars leave
     the fewest degrees of freedom, those on which neither spins nor springs nor weight act.
     """
@@ -32,7 +32,7 @@ class Dispersion(Shown):
     rates: Array
     growth: Array
     shapes: Complex
-    freedoms: Array
+    dof: Array
     zero_bands: int
 
     def summary(self) -> dict[str, str]:
@@ -66,7 +66,7 @@ class Dispersion(Shown):
         """
         b, steps = bloch(self.pattern), np.array(self.pattern.steps)
         velocities = np.full((*self.rates.shape, 2), np.nan)
-        for q, f, rates, shapes, row in zip(self.q, self.freedoms, self.rates, self.shapes, velocities, strict=True):
+        for q, f, rates, shapes, row in zip(self.q, self.dof, self.rates, self.shapes, velocities, strict=True):
             u = shapes[:f].reshape(f, 2 * len(self.pattern.joints))
             row[:f] = np.stack([_slopes(b, q, k, rates[:f], u) for k in range(len(q))], axis=1) @ steps
         return velocities
@@ -91,13 +91,13 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     b, most = bloch(p), 2 * len(p.joints)
     rates, growth = np.full((2, len(points), most), np.nan)
     shapes = np.full((len(points), most, most), np.nan, dtype=complex)
-    freedoms, still = np.zeros(len(points), dtype=int), dict[int, int]()
+    dof, still = np.zeros(len(points), dtype=int), dict[int, int]()
     solved, opposite = _up_to_sign(points)
     for first in range(0, len(solved), _TOGETHER):
         together = solved[first : first + _TOGETHER]
         for places, motion in b.motions(points[together]):
-            here, f = together[places], motion.freedoms
-            freedoms[here], still[f] = f, min(still.get(f, f), _still(motion))
+            here, f = together[places], motion.dof
+            dof[here], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
                 s, vectors = motion.waves
                 u = (motion.basis @ vectors).swapaxes(-1, -2)
@@ -105,11 +105,11 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
                 rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
                 known = opposite[here] >= 0
                 there = opposite[here][known]
-                freedoms[there] = f
+                dof[there] = f
                 rates[there, :f], growth[there, :f], shapes[there, :f] = _faster(s[known].conj(), u[known].conj())
-    n = int(freedoms.max())
+    n = int(dof.max())
     kept = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
-    return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, freedoms, still[min(still)])
+    return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, dof, still[min(still)])
 
 
 def _still(motion: SmallMotion) -> int:
@@ -117,10 +117,10 @@ def _still(motion: SmallMotion) -> int:
     acting = np.concatenate(
         [motion.stiffness / motion.rate**2, (motion.gyroscopic + motion.damping) / motion.rate], axis=-2
     )
-    if not motion.freedoms:
+    if not motion.dof:
         return 0
     least = _SAME * np.maximum(1.0, np.abs(motion.mass).max((-2, -1)))
-    return int(motion.freedoms - np.linalg.matrix_rank(acting, tol=least).max())
+    return int(motion.dof - np.linalg.matrix_rank(acting, tol=least).max())
 
 
 def _up_to_sign(points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
