@@ -34,6 +34,7 @@ from lagrotor.models.model import (
     typical_rate,
 )
 from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, start_beside
 from lagrotor.numerics.integrate import check_engine, check_tolerance
@@ -132,23 +133,6 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
     return Choice("minimal", tol, f"least exact model: bar eliminated, six states; {missed}")
 
 
-def check_times(t: ArrayLike) -> Array:
-    """Times as a float array (n,), refused unless finite and increasing."""
-    try:
-        if isinstance(t, str | bytes):
-            raise TypeError
-        times = np.atleast_1d(np.asarray(t, dtype=float))
-    except (TypeError, ValueError):
-        raise InputError(f"simulate: t = {t!r} is not an array of times in s") from None
-    if times.ndim != 1 or times.size == 0:
-        raise InputError(f"simulate: t has shape {times.shape}: give a row of at least one time in s")
-    if not np.isfinite(times).all():
-        raise InputError("simulate: t holds a time that is not finite")
-    if not (times[1:] > times[:-1]).all():
-        raise InputError("simulate: the times must increase; sort them and drop repeated ones")
-    return times
-
-
 def simulate(
     scene: Scene,
     t: ArrayLike,
@@ -187,7 +171,7 @@ def simulate(
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
-    times, tolerance = check_times(t), check_tolerance(tol)
+    times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
     if model in DIRECT:

@@ -10,28 +10,15 @@ and the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Complex = NDArray[np.complex128]
-
-
-def finite(where: str, given: ArrayLike, kind: type = float) -> NDArray[Any]:
-    """What is given as an array of numbers. Raises InputError where it is none, or not finite."""
-    try:
-        numbers: NDArray[Any] = np.asarray(given, dtype=kind)
-    except (TypeError, ValueError):
-        raise InputError(f"{where} = {given!r} must be numbers") from None
-    if not np.isfinite(numbers).all():
-        raise InputError(f"{where} must be finite numbers")
-    return numbers
 
 
 @dataclass(frozen=True, eq=False)

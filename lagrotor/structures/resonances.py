@@ -29,9 +29,10 @@ from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm, birkhoff, normal_quadratic
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
 from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_coordinates
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array, Complex, finite
+from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import SmallMotion, small_motion
 from lagrotor.structures.upright_hamiltonian import LocalHamiltonian, local_hamiltonian
@@ -274,7 +275,7 @@ def _tilted_after(s: Assembly, rates: ArrayLike, longest: float, detuning: float
     h = local_hamiltonian(s)
     n = normal_form_of(s, 1.0, detuning / h.rate, order)
     size = len(n.frequencies)
-    push = finite("fall_time: push", rates)
+    push = finite_array("fall_time: push", rates)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
     if np.abs(off).max() > _ON_BARS * np.abs(push).max():
         raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")

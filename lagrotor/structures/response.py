@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex, coefficients, finite
+from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.small_motion import small_motion
 
 
@@ -27,14 +28,14 @@ def response(
     amplitudes have phases. Raises InputError for what makes no sense, and at the very rate of a resonance without damping.
     """
     c, linear = coefficients(s), small_motion(s)
-    N, w = len(c.R), np.atleast_1d(finite("response: rates", rates))
+    N, w = len(c.R), np.atleast_1d(finite_array("response: rates", rates))
     if w.ndim != 1:
         raise InputError(f"response: rates must be a row of numbers in rad/s, not of shape {w.shape}")
     F = np.zeros((N, 2), dtype=complex)
     if force is not None:
         F += c.R[:, None] * _forces(force, at, N)
     if ground is not None:
-        F -= c.S[:, None] * _amplitudes("ground", ground, (2,))
+        F -= c.S[:, None] * finite_array("response: ground", ground, (2,), complex)
     if force is None and ground is None:
         raise InputError("response: give a force (x, y) in N with its tip `at`, or ground (x, y) in m/s²")
     right = linear.basis.T @ F.ravel()
@@ -49,16 +50,9 @@ def response(
 
 def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
     if at is None:
-        return _amplitudes("force", force, (N, 2))
+        return finite_array("response: force", force, (N, 2), complex)
     if isinstance(at, bool) or not isinstance(at, int) or not 0 <= at < N:
         raise InputError(f"response: at = {at!r} is no rotor: they are numbered 0 to {N - 1}")
     amplitudes = np.zeros((N, 2), dtype=complex)
-    amplitudes[at] = _amplitudes("force", force, (2,))
-    return amplitudes
-
-
-def _amplitudes(name: str, given: ArrayLike, shape: tuple[int, ...]) -> Complex:
-    amplitudes = finite(f"response: {name}", given, complex)
-    if amplitudes.shape != shape:
-        raise InputError(f"response: {name} must be amplitudes of shape {shape}, not {amplitudes.shape}")
+    amplitudes[at] = finite_array("response: force", force, (2,), complex)
     return amplitudes

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex, coefficients, finite
+from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_DOF,
@@ -148,7 +149,9 @@ class Standing(Shown):
             raise InputError(
                 f"fall_time: push must be a number or rates {shape} in rad/s, not of shape {np.shape(push)}"
             )
-        size = float(np.linalg.norm(finite("fall_time: push", push))) if along else checked_push("fall_time", push)
+        size = (
+            float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
+        )
         if not self.stands:
             return 0.0, 0.0
         resonance, trusted = self.resonance, trusted_push(self.structure)

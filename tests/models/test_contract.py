@@ -219,23 +219,19 @@ def check_units(model: Model, name: str) -> None:
 
 
 BAD_TIMES: list[tuple[Any, str]] = [
-    ([1, 0.5], "must increase; sort them"),
-    ([0, 1, 1], "must increase; sort them and drop repeated"),
-    ([0, nan], "not finite"),
-    ([0, inf], "not finite"),
-    ([], r"shape \(0,\): give a row"),
-    ([[0, 1], [2, 3]], r"shape \(2, 2\): give a row"),
-    ("soon", "t = 'soon' is not an array of times"),
-    (None, "not finite|is not an array of times"),
-    ([0, "x"], "is not an array of times"),
-    ([[0], [1, 2]], "is not an array of times"),
+    *(
+        (t, "must be an increasing array of finite times")
+        for t in ([1, 0.5], [0, 1, 1], [0, nan], [0, inf], [], [[0, 1], [2, 3]], 1.0)
+    ),
+    *((t, "must be an array of times") for t in ("soon", [0, "x"], [[0], [1, 2]], ["0", "1"], [True, False])),
+    (None, "must be an (increasing )?array"),
 ]
 
 
 def check_refusals(model: Model, name: str) -> None:
     scene = scene_of(name)
     for t, message in BAD_TIMES:
-        with pytest.raises(InputError, match=f"simulate: .*({message})"):
+        with pytest.raises(InputError, match=f"t = .*({message})"):
             model.run(scene, t)
     for tol in (0, 1e-14, 0.11, -1e-9, nan, "tight"):
         with pytest.raises(InputError, match="tol = "):

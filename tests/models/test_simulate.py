@@ -20,7 +20,7 @@ TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
 
 
 def test_times_that_make_sense_are_kept() -> None:
-    assert simulate(UPRIGHT, 0).t.tolist() == [0]
+    assert simulate(UPRIGHT, [0]).t.tolist() == [0]
     assert simulate(UPRIGHT, (0, 1)).t.tolist() == [0, 1]
     assert simulate(UPRIGHT, [0.5]).t.tolist() == [0.5]
 
@@ -99,7 +99,7 @@ def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str)
 
 
 def test_refused_input_is_not_run_by_another_model() -> None:
-    with pytest.raises(InputError, match="must increase"):
+    with pytest.raises(InputError, match="increasing"):
         simulate(Scene((10, -10), link=None), [1, 0])
 
 

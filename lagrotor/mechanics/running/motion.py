@@ -19,8 +19,8 @@ from lagrotor.mechanics.running.phases import Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
 from lagrotor.mechanics.running.scales import Scales
-from lagrotor.mechanics.running.starts import increasing
 from lagrotor.numerics.any_run import Quantity, Run
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 
 Kind = TypeVar("Kind", bound="SampledMotion")
@@ -99,7 +99,7 @@ class SampledMotion(Run):
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
-        wanted = increasing("at", np.atleast_1d(times))
+        wanted = check_times("at", np.atleast_1d(times))
         if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
         before = np.clip(np.searchsorted(self.t, wanted, side="right") - 1, 0, len(self.t) - 1)

@@ -13,8 +13,8 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, put_in
 from lagrotor.mechanics.glossary import latex
 from lagrotor.mechanics.running.flow import Array, Values
-from lagrotor.mechanics.running.starts import increasing
 from lagrotor.mechanics.running.state_space import state_space
+from lagrotor.numerics.arrays import check_times
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
@@ -54,7 +54,7 @@ def root_locus(
 
     Raises InputError where the letter has a value already, and what `linearise` raises.
     """
-    grid, name = increasing("root_locus", numbers), str(letter)
+    grid, name = check_times("root_locus", numbers), str(letter)
     if not isinstance(values, Mapping) or name in map(str, values):
         raise InputError(
             f"root_locus: values = {values!r} must be a dictionary without {name}, which takes the numbers"

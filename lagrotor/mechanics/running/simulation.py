@@ -27,9 +27,10 @@ from lagrotor.mechanics.running.programs import (
     rows_program,
 )
 from lagrotor.mechanics.running.scales import Scales, motion_scales
-from lagrotor.mechanics.running.starts import consistent, increasing, state_vector
+from lagrotor.mechanics.running.starts import consistent, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.any_run import read_run
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 
@@ -113,7 +114,7 @@ def simulate_system(
     SingularError for a singular mass matrix, IntegrationError where nothing can be reached. A LagrotorWarning names the time
     where it passed a position at which its constraints are dependent.
     """
-    times, tol = increasing("simulate", t), check_tolerance(tol)
+    times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     given = check_events(system, events)
     system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])

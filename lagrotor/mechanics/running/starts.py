@@ -8,6 +8,7 @@ from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import parameter_values, start_program
+from lagrotor.numerics.arrays import real_array
 
 
 def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
@@ -51,7 +52,7 @@ def metric(mass: Array, slope: Array) -> Array:
 
 def state_vector(name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
     """n finite numbers; of velocities where a system is given."""
-    vector = _real(given)
+    vector = real_array(given)
     if vector is None:
         raise InputError(f"simulate: {name} = {given!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
@@ -59,32 +60,3 @@ def state_vector(name: str, given: ArrayLike, n: int, system: Equations | None =
         each = f"of {', '.join(map(str, system.speeds))}" if system and own else "one for each coordinate"
         raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, {each}")
     return vector
-
-
-def increasing(where: str, given: ArrayLike) -> Array:
-    times = _real(given)
-    if times is None:
-        raise InputError(f"{where}: t = {_short(given)} must be an array of times in s")
-    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
-        raise InputError(
-            f"{where}: t = {_short(given)} must be an increasing array of finite times, t[0] the time of q0 and v0: "
-            "np.linspace(0, 10, 101)"
-        )
-    return times
-
-
-def _real(given: ArrayLike) -> Array | None:
-    """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
-    try:
-        plain = np.asarray(given)
-        listed = given if isinstance(given, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
-        if plain.dtype.kind not in "iufO" or any(isinstance(e, str | bool) for e in listed):
-            return None
-        return np.asarray(plain, dtype=float)
-    except (TypeError, ValueError):
-        return None
-
-
-def _short(given: ArrayLike) -> str:
-    text = repr(given)
-    return text if len(text) < 60 else f"{text[:57]}…"

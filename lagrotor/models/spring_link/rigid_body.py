@@ -6,29 +6,16 @@ R (3, 3) takes body components to world components, v = R v_body, and grows by R
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.numerics.rotations import skew_matrix, turn_about
 
 Array = NDArray[np.float64]
 
 _LEAST = np.finfo(float).smallest_normal
 _CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
-
-
-def finite_array(value: ArrayLike, shape: tuple[int, ...], where: str) -> Array:
-    """`value` as floats of `shape` (−1: any length but none), copied; InputError says where and what otherwise."""
-    try:
-        array = np.array(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{where} = {value!r} is not an array of numbers: give shape {shape}") from None
-    lengths = zip(array.shape, shape, strict=False)
-    if array.ndim != len(shape) or not all(n == m or (m == -1 and n > 0) for n, m in lengths):
-        raise InputError(f"{where} has shape {array.shape}: give shape {shape}, −1 standing for any number but none")
-    if not np.isfinite(array).all():
-        raise InputError(f"{where} = {array.tolist()} holds a number that is not finite")
-    return array
 
 
 def finite_rotation(Omega: Array, dt: float) -> Array:
@@ -105,7 +92,7 @@ class RigidBody:
     def __post_init__(self) -> None:
         shapes = {"centre": (3,), "vertices": (-1, 3), "inertia": (3, 3), "rotation": (3, 3)}
         for name, shape in (shapes | {"angular_velocity": (3,), "velocity": (3,), "mass": ()}).items():
-            object.__setattr__(self, name, finite_array(getattr(self, name), shape, f"RigidBody: {name}"))
+            object.__setattr__(self, name, finite_array(f"RigidBody: {name}", getattr(self, name), shape))
         object.__setattr__(self, "mass", float(self.mass))
         if self.mass <= 0:
             raise InputError(f"RigidBody: mass = {self.mass:g} kg must be greater than zero")

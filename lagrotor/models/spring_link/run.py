@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.models.simulate import check_times
 from lagrotor.models.spring_link.rigid_body import Array, finite_rotation, inertia_transform
 from lagrotor.models.spring_link.system import TIP, RigidBodySystem, link_force, step_limit
 from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.any_run import Ending, Quantity, Run, read_run
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import check_tolerance
@@ -148,7 +148,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
     miss it).
     """
-    times = check_times(t)
+    times = check_times("run_steps", t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
         raise InputError(f"run_steps: dt = {dt!r} s must be a finite number above zero")
     counts = np.rint(times / dt).astype(int)
@@ -197,7 +197,7 @@ def run_solver(
 
     Raises InputError for bad times, tolerance or method, IntegrationError when nothing can be reached.
     """
-    times, tolerance, begin = check_times(t), check_tolerance(tol), float(check_times(t)[0])
+    times, tolerance = check_times("run_solver", t), check_tolerance(tol)
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     rate, n_b = rate_function(system, shock), len(system.vertices)
@@ -205,7 +205,9 @@ def run_solver(
     at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
     stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
     turn = (
-        2 * pi / max(sqrt(stiff), float(np.linalg.norm(system.Omega, axis=1).max()), 1 / max(times[-1] - begin, 1e-300))
+        2
+        * pi
+        / max(sqrt(stiff), float(np.linalg.norm(system.Omega, axis=1).max()), 1 / max(times[-1] - times[0], 1e-300))
     )
 
     def distance(one: Array, other: Array) -> Array:

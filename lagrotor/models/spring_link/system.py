@@ -17,11 +17,11 @@ from lagrotor.errors import InputError
 from lagrotor.models.spring_link.rigid_body import (
     Array,
     RigidBody,
-    finite_array,
     finite_rotation,
     inertia_transform,
     rotation_between,
 )
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.numerics.rotations import skew_matrix, turning_sum
 from lagrotor.pair.scene import Link, Scene
 
@@ -70,8 +70,8 @@ class RigidBodySystem:
         rotation: Callable[[Array, float], Array] = finite_rotation,
         transform: Callable[[Array, Array], Array] = inertia_transform,
     ) -> None:
-        self.stiffness = float(finite_array(stiffness, (), "RigidBodySystem: stiffness"))
-        self.damping = float(finite_array(damping, (), "RigidBodySystem: damping"))
+        self.stiffness = float(finite_array("RigidBodySystem: stiffness", stiffness, ()))
+        self.damping = float(finite_array("RigidBodySystem: damping", damping, ()))
         if self.stiffness <= 0 or self.damping < 0 or not bodies:
             raise InputError(
                 f"RigidBodySystem: S = {self.stiffness:g} N/m must be above zero, D = {self.damping:g} kg/s not below "
@@ -93,7 +93,7 @@ class RigidBodySystem:
 
     def add_external(self, body: int, force: ArrayLike) -> None:
         """A lasting force (3,) in N on the centre of mass of `body`, without torque; not counted in any energy."""
-        self.external[self._body(body)] += finite_array(force, (3,), "add_external: force")
+        self.external[self._body(body)] += finite_array("add_external: force", force, (3,))
 
     def link(self, body1: int, body2: int, vertex1: int, vertex2: int) -> None:
         """Join `vertex1` of `body1` to `vertex2` of `body2`."""
@@ -107,7 +107,7 @@ class RigidBodySystem:
     def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
         """`strength` × a force (3,) in N on `vertex` of `body` for the step to come: after `compute_forces`, before `step`."""
         i, arm = self._end(body, vertex)
-        given = finite_array(force, (3,), "push: force") * strength
+        given = finite_array("push: force", force, (3,)) * strength
         self.F[i] += given
         self.tau[i] += skew_matrix(self.R[i] @ arm) @ given
 

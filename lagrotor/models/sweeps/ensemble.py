@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import constant_momenta
-from lagrotor.models.simulate import check_times
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, chunk_folder, kind_of, run_chunk
 from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
@@ -109,7 +109,7 @@ def sweep(
 
     Raises InputError for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
-    times, tolerance, members = check_times(t), check_tolerance(tol), _checked(scenes, chunk, engine)
+    times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else chunk_folder(folder, members, times, tolerance, chunk, engine)

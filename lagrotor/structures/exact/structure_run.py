@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.numerics.any_run import Quantity, Run, read_run
+from lagrotor.numerics.arrays import check_times, finite_array
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.coefficients import Array, coefficients, finite
+from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, bar_in_line, exact_motion
@@ -171,7 +172,7 @@ def simulate_structure(
     Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
     where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
     """
-    times, tol = _times(t), check_tolerance(tol)
+    times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
     drives = _try_drive(drive, "drive", shape, times), _try_drive(ground, "ground", shape[1:], times)
@@ -263,7 +264,7 @@ def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None)
 def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
     if given is None:
         return np.zeros((N, 2))
-    vectors = finite(f"simulate: {name}", given)
+    vectors = finite_array(f"simulate: {name}", given)
     if vectors.shape not in ((N, 2), (N, 3)):
         raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
     if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():
@@ -283,10 +284,7 @@ class _TriedDrive:
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
         try:
-            value = finite(where, self.given(t))
-            if value.shape == self.shape:
-                return value
-            self.why = f"{where} must give an array of shape {self.shape}, not {value.shape}"
+            return finite_array(where, self.given(t), self.shape)
         except InputError as error:
             self.why = str(error)
         except Exception as error:
@@ -314,10 +312,3 @@ def _try_drive(drive: Drive | None, name: str, shape: tuple[int, ...], times: Ar
         tried(t)
         tried.refuse()
     return tried
-
-
-def _times(t: ArrayLike) -> Array:
-    times = np.atleast_1d(finite("simulate: t", t))
-    if times.ndim != 1 or not len(times) or (np.diff(times) <= 0).any():
-        raise InputError("simulate: t must be an increasing row of finite times in s")
-    return times

@@ -1,0 +1,53 @@
+"""Numbers that are given as arrays, checked: what makes no sense is refused with its value, the reason and the way out."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lagrotor.errors import InputError
+
+
+def finite_array(
+    where: str, given: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
+) -> NDArray[Any]:
+    """A copy of what is given as an array of finite numbers, of a shape if one is said (−1: any length but none).
+
+    Raises InputError where it is none.
+    """
+    try:
+        array: NDArray[Any] = np.array(given, dtype=kind)
+    except (TypeError, ValueError):
+        raise InputError(f"{where} = {given!r} must be numbers{f' of shape {shape}' if shape else ''}") from None
+    if shape is not None:
+        lengths = zip(array.shape, shape, strict=False)
+        if array.ndim != len(shape) or not all(n == m or (m == -1 and n > 0) for n, m in lengths):
+            raise InputError(f"{where} must be numbers of shape {shape}, not {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{where} must be finite numbers")
+    return array
+
+
+def real_array(given: ArrayLike) -> NDArray[np.float64] | None:
+    """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
+    try:
+        plain = np.asarray(given)
+        listed = given if isinstance(given, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
+        if plain.dtype.kind not in "iufO" or any(isinstance(e, str | bool) for e in listed):
+            return None
+        return np.asarray(plain, dtype=float)
+    except (TypeError, ValueError):
+        return None
+
+
+def check_times(where: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Increasing finite times (n,), the first of which is that of the start. Raises InputError for anything else."""
+    times, text = real_array(given), repr(given)
+    text = text if len(text) < 60 else f"{text[:57]}…"
+    if times is None:
+        raise InputError(f"{where}: t = {text} must be an array of times in s")
+    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
+        raise InputError(
+            f"{where}: t = {text} must be an increasing array of finite times, t[0] that of the start: np.linspace(0, 10, 101)"
+        )
+    return times
