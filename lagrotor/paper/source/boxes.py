@@ -585,8 +585,10 @@ class _Reader:
         return [Box("binomial", "", item.at, self.end, [over, under])]
 
     def _overset(self, item: Token, style: str) -> list[Box]:
-        self.plain()
+        label = self.plain()
         base = self.argument(style)
+        for box in base:
+            box.marks = (label,) if label not in ("!", r"\mathrm{def}", r"\text{def}", "def") else ()
         if any(box.kind not in ("relation", "arrow") for box in base):
             raise FormulaError(
                 item.at, f"{item.text} sets a mark on what is no relation", "give it a letter of its own"

@@ -45,8 +45,8 @@ _MOST_TERMS, _MOST_OPERATIONS = 12, 2000
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
 _MOST_SLIPS, _MEMORY = 120, 60
-# Guesses on which no refutation rests: another base of powers or logarithms has the same laws.
-_ANY_BASE = ("e is Euler's number", "log is the natural logarithm")
+# A guess that no step rests on: logarithms of another base have the same laws.
+_ANY_BASE = "log is"
 # Dimensions are reported where few equations break them: others are printed in units of their own.
 _FEW, _SHARE = 3, 0.05
 
@@ -90,7 +90,9 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
         self.before: list[_Read] = []
-        self.statements = [_Read(each, s) for each, reading in readings for s in reading.statements]
+        self.statements = [
+            _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
+        ]
 
     def findings(self) -> Iterator[StepFinding]:
         """Every finding."""
@@ -102,7 +104,8 @@ class _Checker:
             for place, statement in enumerate(reading.statements):
                 yield from self._steps(each, self._continued(each, statement) if not place else statement, reading)
             yield from self._against_cited(each, reading)
-            self.before += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
+            if not _guess(reading):
+                self.before += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
         yield from self._dimensions()
         yield from self._letters()
 
@@ -128,9 +131,8 @@ class _Checker:
             if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
                 continue
             verdict, why = self._step(left.node, right.node, first=step == 1)
-            open_guess = next((each for each in reading.guesses if each not in _ANY_BASE), None)
-            if open_guess and verdict == REFUTED:
-                verdict, why = "undecided", f"{why}; but {open_guess} is a guess"
+            if (guess := _guess(reading)) and verdict in (HOLDS, REFUTED):
+                verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
             if step > 1 or verdict == HOLDS:
                 yield self._finding(each, step, right, verdict, why)
 
@@ -299,12 +301,13 @@ class _Checker:
                 names = f"({definition.equation.id}) in ({other.equation.id})"
                 if put.free_symbols != new.free_symbols:
                     continue
-                if _proportional(put, new):
+                if guess := _guess(reading):
+                    yield self._finding(each, 0, None, "undecided", f"it cites {names}; but it is a guess that {guess}")
+                elif _proportional(put, new):
                     yield self._finding(each, 0, None, HOLDS, f"it is {names}")
                 elif (term := _flipped(put, new)) is not None:
                     why = f"{names} gives it with the other sign of {sp.sstr(term)}"
-                    verdict = "undecided" if reading.guesses else REFUTED
-                    yield self._finding(each, 0, None, verdict, why)
+                    yield self._finding(each, 0, None, REFUTED, why)
                 else:
                     yield self._finding(each, 0, None, "undecided", f"it is not {names} alone")
                 return
@@ -357,6 +360,11 @@ class _Checker:
                 yield self._finding(users[0].equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
         if self.notation.exponential and "e" in self.notation.bare:
             yield self._finding(self.readings[0][0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
+
+
+def _guess(reading: Reading) -> str:
+    """The guess that a reading rests on; nothing where it rests on none."""
+    return next((each for each in reading.guesses if not each.startswith(_ANY_BASE)), "")
 
 
 def _expression_of(node: Node, opaque: Opaque) -> Any:

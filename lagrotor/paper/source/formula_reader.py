@@ -24,6 +24,12 @@ class FormulaReader(ABC):
     exponents: int = 0
     lowered: frozenset[str] = frozenset()
 
+    def guess(self, key: str, what: str, settles: str = "") -> None:
+        """Mark a reading: what custom takes, and the line of [notation] that settles it."""
+        if key not in self.notation.usual:
+            line = settles or f'usual = "{key}"'
+            self.guesses.append(f"{what} ([notation] {line})")
+
     @abstractmethod
     def expression(self, row: list[Box]) -> Node:
         """The sum that a row of boxes is. Raises FormulaError where it is none."""

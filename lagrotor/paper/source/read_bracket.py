@@ -57,7 +57,7 @@ def _bars(reader: FormulaReader, box: Box) -> Node:
         raise FormulaError(box.at, "whether the bars are a distance of points is open", "give it a letter")
     inner = reader.expression(content)
     if isinstance(inner, Letter) and is_matrix(inner):
-        reader.guesses.append(f"|{inner.name}| is a length, no determinant")
+        reader.guess("bars", f"|{inner.name}| is a length, no determinant")
     elif is_matrix(inner):
         raise FormulaError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
     return Call("norm" if is_vector(inner) else "Abs", (inner,))
@@ -126,7 +126,7 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
         )
     name = {"[": "commutator", r"\{": "poisson"}.get(box.name, "column") if len(parts) == 2 else "column"
     if name != "column":
-        reader.guesses.append(f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")
+        reader.guess("commutator", f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")
     if box.name == r"\{" and name == "column":
         name = "set"
     return Call(name, tuple(map(reader.expression, parts)))

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_scripts import TENSOR, letter_of, mark_of, power_of
+from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import (
+    TENSOR,
     derivative_mark,
     has_differential_above,
     is_d,
@@ -59,7 +60,7 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
         if box.sup or [b.name for b in target.sup] != ["2"]:
             raise FormulaError(target.at, "a differential has a power", "write brackets around it")
         node = letter_of(reader, replace(target, sup=None))[0]
-        reader.guesses.append("ds^2 is the square of ds")
+        reader.guess("square", "ds^2 is the square of ds")
         return Call("power", (Call("differential", (node,)), number(2))), behind + 1
     args = (node, reader.expression(box.sup)) if box.sup else (node,)
     return Call("differential", args), behind + 1
@@ -139,13 +140,13 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
     if not remaining:
         return node, len(row)
     if rest[0].kind == "bracket":
-        reader.guesses.append("a derivative acts on the bracket that follows it, not on what is behind")
+        reader.guess("reach", "a derivative acts on the bracket that follows it, not on what is behind")
         return node, len(row) - len(rest) + behind
     if any(b.kind == "fraction" and derivative_mark(b) for b in rest) or any(b.kind == "partial" for b in rest[1:]):
         raise FormulaError(
             box.at, "how far the derivative reaches is open", "write brackets around what is differentiated"
         )
-    reader.guesses.append("a derivative acts on the whole product that follows it")
+    reader.guess("reach", "a derivative acts on the whole product that follows it")
     return reader.product(rest), len(row)
 
 

@@ -26,9 +26,8 @@ from lagrotor.paper.source.read_derivative import (
 from lagrotor.paper.source.read_function import read_function
 from lagrotor.paper.source.read_letter import is_called, read_letter
 from lagrotor.paper.source.read_number import read_number, read_unit
-from lagrotor.paper.source.read_scripts import TENSOR
 from lagrotor.paper.source.read_sum import read_sum
-from lagrotor.paper.source.rows import ends_with_bracket, fold_derivatives, pair_bars, refuse_words, strip
+from lagrotor.paper.source.rows import TENSOR, ends_with_bracket, fold_derivatives, pair_bars, refuse_words, strip
 from lagrotor.paper.source.tree import (
     Call,
     Node,
@@ -233,7 +232,7 @@ def _is_one_divisor(reader: FormulaReader, part: list[Box]) -> bool:
     plain = all(box.kind in ("number", "letter") for box in part)
     custom = (len(part) == 2 and plain and part[0].kind == "number" and names[1] == "pi") or names == ["k", "T"]
     if custom or (reader.exponents and plain):
-        reader.guesses.append("all that follows the slash divides")
+        reader.guess("slash", "all that follows the slash divides")
         return True
     return False
 

@@ -31,7 +31,7 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
         if name not in inverse:
             raise FormulaError(box.at, f"whether {box.name}^{{-1}} is the inverse function is open", "write a fraction")
-        reader.guesses.append(f"{box.name}^{{-1}} is the inverse function")
+        reader.guess("inverse", f"{box.name}^{{-1}} is the inverse function")
         return _applied(reader, inverse[name], replace(box, sup=None), inner), behind
     return Call("power", (node, power)), behind
 
@@ -43,7 +43,7 @@ def _applied(reader: FormulaReader, name: str, box: Box, inner: tuple[Node, ...]
     if box.sub is not None:
         raise FormulaError(box.at, f"{box.name} has an index", "write what it means")
     if box.name == "log":
-        reader.guesses.append("log is the natural logarithm")
+        reader.guess("log", "log is the natural logarithm")
     if name == "det" or name in ("tr", "Tr"):
         return Call(name.lower(), inner)
     return Call(name, inner)
@@ -117,10 +117,10 @@ def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, funct
                 f"whether the bracket belongs to the argument of {function.name} is open",
                 "write brackets",
             )
-        reader.guesses.append(f"the argument of {function.name} ends before the bracket")
+        reader.guess("argument", f"the argument of {function.name} ends before the bracket")
         return
     if only.kind == "letter" and (only.name in _ANGLES or only.name in reader.notation.angles or is_moving(after)):
-        reader.guesses.append(f"the argument of {function.name} is {only.name} alone")
+        reader.guess("argument", f"the argument of {function.name} is {only.name} alone")
         return
     if only.kind in ("fraction", "group") and is_moving(after):
         return
@@ -133,12 +133,12 @@ def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
     kept = run[:moving]
     if moving < len(run):
         if len(kept) == 1 or (kept[0].kind == "number" and len(kept) == 2):
-            reader.guesses.append(f"the argument of {function.name} ends before what moves")
+            reader.guess("argument", f"the argument of {function.name} ends before what moves")
             return moving
         raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")
     letters = [b for b in kept if b.kind == "letter"]
     if "pi" in {b.name for b in letters[:2]} and all(b.kind in ("letter", "number") for b in kept):
-        reader.guesses.append(f"the argument of {function.name} is the product that follows it")
+        reader.guess("argument", f"the argument of {function.name} is the product that follows it")
         return len(run)
     if len(letters) == len(kept) or (kept[0].kind in ("number", "fraction") and len(letters) == len(kept) - 1):
         first = letters[0].name if letters else ""
@@ -153,6 +153,6 @@ def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
             "t",
         )
         if ends and begins and (len(letters) <= 2 or kept[0].kind == "number"):
-            reader.guesses.append(f"the argument of {function.name} is the product that follows it")
+            reader.guess("argument", f"the argument of {function.name} is the product that follows it")
             return len(run)
     raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")

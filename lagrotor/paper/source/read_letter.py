@@ -136,8 +136,6 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return None
     if evidence is None:
         late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
-        if not late and any(b.kind == "letter" and b.name == "t" for b in top):  # γ(x - vt), g(x + ct)
-            reader.guesses.append(f"{box.name}(…) is a product")
         return None if late or box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
     own = {b.name for b in top if b.kind == "letter"}
     if several:
@@ -198,7 +196,7 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
             raise FormulaError(
                 box.at, "whether e is Euler's number is open", 'write in paper.toml [notation] numbers = "e"'
             )
-        reader.guesses.append("e is a letter, not Euler's number")
+        reader.guess("e", "e is a letter, and not Euler's number", 'letters = "e" or numbers = "e"')
         return False
     if "e" in known.bare:
         raise FormulaError(
@@ -206,7 +204,8 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
             "whether e is Euler's number is open",
             'write in paper.toml [notation] numbers = "e" or letters = "e"',
         )
-    reader.guesses.append("e is Euler's number")
+    if len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen:  # e^n
+        reader.guess("e", "e is Euler's number", 'numbers = "e" or letters = "e"')
     return True
 
 
@@ -228,7 +227,8 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
     if box.name in known.numbers or (box.upright and box.name == "i"):
         return True
     if known.imaginary and box.name == "i" and (beside or reader.exponents or "i" not in reader.lowered):
-        reader.guesses.append("i is the imaginary unit")
+        if "i" in known.lowered and not beside:
+            reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
         return True
     raise FormulaError(
         box.at,
@@ -252,11 +252,13 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             f'write in paper.toml [notation] letters = "{box.name}"',
         )
     if row[behind].kind != "letter":
-        reader.guesses.append(f"{box.name} acts on what follows it and is no factor")
+        reader.guess("difference", f"{box.name} acts on what follows it, and is no factor", f'letters = "{box.name}"')
         operand, behind = reader.factor(row, behind)
         return Call(box.name, (operand,)), behind
     node, raised = letter_of(reader, row[behind])
     assert isinstance(node, Letter)
-    reader.guesses.append(f"{box.name} {row[behind].name} is one quantity, a difference")
+    if not (box.name == "Delta" and row[behind].name == "t"):
+        what = f"{box.name} {row[behind].name} is one quantity, a difference, and no product"
+        reader.guess("difference", what, f'usual = "difference" or letters = "{box.name}"')
     letter = Letter(f"{box.name}_{node.name}", node.vector)
     return (letter if raised else power_of(reader, letter, row[behind])), behind + 1

@@ -40,7 +40,7 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if unit < len(row) and row[unit].kind in ("unit", "text"):
         return product_of([node, _units(reader, row[unit])]), unit + 1
     if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:
-        reader.guesses.append(f"upright {row[unit].name} behind a number is a unit")
+        reader.guess("unit", f"upright {row[unit].name} behind a number is a unit")
         return product_of([node, power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1
     return node, behind
 
@@ -54,7 +54,7 @@ def _value(reader: FormulaReader, text: str, box: Box) -> Fraction:
         if comma is None:
             comma = len(groups) == 1 and (len(groups[0]) != 3 or whole == "0")
             if not comma and len(groups) == 1:
-                reader.guesses.append(f"{text} is {whole}{groups[0]}, the comma parts thousands")
+                reader.guess("thousands", f"{text} is {whole}{groups[0]}, the comma parts thousands")
         if comma and len(groups) == 1 and "." not in text:
             return Fraction(f"{whole}.{groups[0]}")
         if not all(len(each.partition(".")[0]) == 3 for each in groups):

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.rows import without_thin
+from lagrotor.paper.source.rows import TENSOR, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
 
-TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
 
@@ -73,8 +72,6 @@ def _check_power(reader: FormulaReader, box: Box) -> None:
                 f"whether {' '.join(alike)} is an upper index or a power is open",
                 f'write brackets around the power, or in paper.toml [notation] letters = "{alike[0]}"',
             )
-        if set(alike) - set("lmn") or set(alike) & known.lowered:
-            reader.guesses.append(f"{' '.join(alike)} is a power, no upper index")
     if len(row) == 1 and row[0].kind == "letter" and row[0].sup and mark_of(reader, row[0]) is not None:
         why = f"whether the marked {row[0].name} is an upper index or a power is open"
         raise FormulaError(row[0].at, why, "write brackets around the power")

@@ -165,7 +165,7 @@ def _check_words(reader: FormulaReader, box: Box, following: Box | None) -> None
     if _DENYING.search(box.name):
         raise FormulaError(box.at, f"{box.name}: the words deny what they join", "write the statements by themselves")
     if re.search(r"\bor\b", box.name):
-        reader.guesses.append("what or joins are two statements, and both are meant")
+        reader.guess("or", "what or joins are two statements, and both are meant")
 
 
 def _goes_on(row: list[Box], place: int, part: list[Box]) -> bool:

@@ -59,7 +59,11 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
         start = reader.expression(below[2:])
         ends = [reader.expression(box.sup)] if box.sup is not None else []
         reader.bound.pop()
-        return [Letter(name), start, *ends]
+        return [
+            letter_of(reader, below[0])[0] if name not in ("i", "j") or below[0].primes else Letter(name),
+            start,
+            *ends,
+        ]
     if len(relations) == 1 and below[relations[0]].name in CONDITIONS and box.sup is None:
         names = [each for each in below if each.kind == "letter"]
         reader.bound += (bound := [each.name for each in names if each.name in ("i", "j")])

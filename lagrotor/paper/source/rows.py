@@ -10,6 +10,140 @@ _NAMES = (
     "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot"
 )
 _WORDS = frozenset(_NAMES.split())
+TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
+_JOINING = frozenset(
+    [
+        "where",
+        "with",
+        "for",
+        "if",
+        "when",
+        "and",
+        "or",
+        "so",
+        "then",
+        "thus",
+        "hence",
+        "since",
+        "because",
+        "such",
+        "that",
+        "which",
+        "is",
+        "as",
+        "at",
+        "in",
+        "on",
+        "but",
+        "while",
+        "also",
+        "let",
+        "whenever",
+        "all",
+        "any",
+        "every",
+        "otherwise",
+        "provided",
+        "from",
+        "by",
+        "via",
+        "using",
+        "to",
+        "given",
+        "here",
+        "mit",
+        "wobei",
+        "und",
+        "oder",
+        "für",
+        "wenn",
+        "mod",
+        "sonst",
+        "pour",
+        "si",
+        "avec",
+        "où",
+        "et",
+        "ou",
+    ]
+)
+_UNITS = frozenset(
+    [
+        "m",
+        "s",
+        "g",
+        "kg",
+        "K",
+        "N",
+        "J",
+        "W",
+        "V",
+        "A",
+        "C",
+        "F",
+        "H",
+        "T",
+        "Pa",
+        "Hz",
+        "rad",
+        "sr",
+        "mol",
+        "cd",
+        "eV",
+        "keV",
+        "MeV",
+        "GeV",
+        "cm",
+        "mm",
+        "nm",
+        "km",
+        "min",
+        "h",
+        "ms",
+        "ns",
+        "yr",
+        "pc",
+        "kHz",
+        "MHz",
+        "GHz",
+        "THz",
+        "kPa",
+        "MPa",
+        "GPa",
+        "kN",
+        "kJ",
+        "kW",
+        "MW",
+        "mV",
+        "kV",
+        "mA",
+        "nF",
+        "pF",
+        "mH",
+        "mT",
+        "l",
+        "L",
+        "deg",
+        "degrees",
+        "Ohm",
+        "ohm",
+        "m/s",
+        "m/s^2",
+        "km/h",
+        "kg/m^3",
+        "N/m",
+        "Nm",
+        "rad/s",
+        "fm",
+        "fs",
+        "ps",
+        "µs",
+        "µm",
+        "um",
+        "barn",
+        "mb",
+    ]
+)
 
 
 def strip(row: list[Box]) -> list[Box]:
@@ -151,11 +285,13 @@ def is_moving(box: Box) -> bool:
 
 
 def is_unit_like(text: str) -> bool:
-    return (
-        bool(re.fullmatch(r"[A-Za-zµ/^\d{}\s.·~-]{1,12}", text))
-        and not re.search(r"[A-Za-z]{3,} +[A-Za-z]{3,}| and ", text)
-        and text not in ("if", "for", "as", "or")
-    )
+    words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
+    return text in _UNITS or (bool(words) and all(word in _UNITS for word in words))
+
+
+def is_joining(text: str) -> bool:
+    """Whether words join statements: where, for, and."""
+    return text.split(" ")[0].strip(",.;:").lower() in _JOINING
 
 
 def ends_with_bracket(part: list[Box]) -> bool:

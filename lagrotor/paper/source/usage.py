@@ -12,12 +12,13 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes
-from lagrotor.paper.source.rows import without_thin
+from lagrotor.paper.source.rows import TENSOR, all_boxes, without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 # What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
 ACTED_ON = ("letter", "bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root")
-_KEYS = ("functions", "letters", "numbers", "decimal_comma")
+_KEYS = ("functions", "letters", "numbers", "usual", "decimal_comma")
+_TIMES = ("tau", "lambda", "s", "sigma", "T", "eta")
 
 
 @dataclass
@@ -26,7 +27,9 @@ class Notation:
 
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
-    the author says.
+    the author says, usual: kinds of guesses that she settles as custom has them. What of a letter is seen elsewhere: applied
+    before a bracket that may be its argument, among factors, apart from other letters, to a power that is a number, raised with
+    what is none, differentiated, as a matrix, with and without a prime in one list; seen: ket, bold, complex, modular, times.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -40,6 +43,20 @@ class Notation:
     decimal_comma: bool | None = None
     imaginary: bool = False
     exponential: bool = False
+    usual: frozenset[str] = frozenset()
+    applied: set[str] = field(default_factory=set)
+    factors: set[str] = field(default_factory=set)
+    apart: set[str] = field(default_factory=set)
+    powers: set[str] = field(default_factory=set)
+    raised: set[str] = field(default_factory=set)
+    differentiated: set[str] = field(default_factory=set)
+    matrices: set[str] = field(default_factory=set)
+    primed: set[str] = field(default_factory=set)
+    seen: set[str] = field(default_factory=set)
+
+    def is_function(self, box: Box) -> bool:
+        """Whether the paper has a letter before an argument, or differentiates it."""
+        return stem_of(box) in self.applied | self.differentiated or bool({box.name} & self.functions)
 
     @property
     def pi_is_letter(self) -> bool:
@@ -51,20 +68,55 @@ def declared_notation(given: Mapping[str, Any], where: str = "paper.toml") -> No
     """What the author says in [notation]. Raises InputError for a key that means nothing."""
     if unknown := sorted(given.keys() - set(_KEYS)):
         raise InputError(f"{where}: notation: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
-    functions, letters, numbers = (frozenset(str(given.get(key, "")).replace(",", " ").split()) for key in _KEYS[:3])
-    return Notation(functions=functions, letters=letters, numbers=numbers, decimal_comma=given.get("decimal_comma"))
+    functions, letters, numbers, usual = (
+        frozenset(str(given.get(key, "")).replace(",", " ").split()) for key in _KEYS[:4]
+    )
+    comma = given.get("decimal_comma")
+    return Notation(functions=functions, letters=letters, numbers=numbers, usual=usual, decimal_comma=comma)
 
 
 def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notation:
     """How the formulas of a paper use their letters."""
     found = said or Notation()
     for latex in formulas:
+        if "mod" in latex and any(name in latex for name in (r"\pmod", r"\bmod", r"\mod", "{mod")):
+            found.seen.add("modular")
         try:
             row = boxes(latex)
         except (FormulaError, RecursionError):
             continue
         _look(row, found)
+    if found.imaginary:
+        found.seen.add("complex")
+    if "dot" in found.seen and "other time" in found.seen:
+        found.seen.add("times")
     return found
+
+
+def stem_of(box: Box) -> str:
+    """A letter with its font and without its marks, indices and primes."""
+    return box.name + box.style
+
+
+def is_plain_letter(box: Box) -> bool:
+    """Whether a box is an italic letter without marks and scripts."""
+    plain = box.kind == "letter" and len(box.name) == 1 and not (box.style or box.upright or box.marks or box.primes)
+    return plain and box.sub is None and box.sup is None
+
+
+def power_in(box: Box) -> bool:
+    """Whether a superscript is read as a power, and not as part of a name."""
+    row = without_thin(box.sup or [])
+    if not row:
+        return False
+    if len(row) == 1:
+        only = row[0]
+        if only.kind in ("operator", "text") or only.name in ("dagger", "top", "intercal", "prime", "T"):
+            return False
+        return not (only.upright and len(only.name) > 1) and not (only.kind == "bracket" and len(only.parts[0]) == 1)
+    return not (
+        box.kind == "letter" and all(is_plain_letter(b) or (b.kind == "letter" and b.name in TENSOR) for b in row)
+    )
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
@@ -173,6 +225,7 @@ def simple_argument(row: list[Box]) -> bool:
 
 def _look(row: list[Box], found: Notation) -> None:
     inner = without_thin(row)
+    _look_about(inner, found)
     for place, box in enumerate(inner):
         following = inner[place + 1] if place + 1 < len(inner) else None
         if box.kind == "letter":
@@ -194,6 +247,88 @@ def _look(row: list[Box], found: Notation) -> None:
             _look(part, found)
 
 
+def _look_about(row: list[Box], found: Notation) -> None:
+    """What the neighbours of letters say of them."""
+    for place, box in enumerate(row):
+        before, after = (row[place - 1] if place else None), (row[place + 1] if place + 1 < len(row) else None)
+        held = {stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter"}
+        if box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"]):
+            found.matrices |= {stem_of(box)} if box.kind == "letter" else held
+        if box.kind == "function" and box.name in ("Re", "Im", "arg"):
+            found.seen.add("complex")
+        if box.kind == "function" and box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
+            found.matrices |= {stem_of(b) for b in all_boxes([after]) if b.kind == "letter"}
+        if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
+            found.differentiated.add(stem_of(after))
+        if box.kind == "bracket":
+            _look_at_bracket(box, before, held, found)
+        elif box.kind == "relation" and before is not None and after is not None:
+            _look_at_relation(box, before, after, found)
+        elif box.kind == "fraction":
+            _look_at_derivative(box, after, found)
+        elif box.kind == "letter":
+            _look_beside(box, before, after, found)
+
+
+def _look_at_relation(box: Box, before: Box, after: Box, found: Notation) -> None:
+    """A letter that is equal to a matrix, or one of R^(m x n)."""
+    inside = [after, *(each for part in after.parts for each in part)]
+    real = box.name == "in" and after.style == "bb" and any(b.name == "times" for b in after.sup or ())
+    if before.kind == "letter" and (real or any(b.kind == "matrix" for b in inside)):
+        found.matrices.add(stem_of(before))
+
+
+def _look_at_bracket(box: Box, before: Box | None, held: set[str], found: Notation) -> None:
+    content = box.parts[0]
+    if box.closing == r"\rangle" and (box.name == "|" or any(b.kind == "bar" for b in content)):
+        found.seen.add("ket")
+    if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and (before is None or before.kind != "letter"):
+        found.matrices |= held
+    letters = [b for b in content if b.kind == "letter"]
+    found.primed |= {stem_of(b) for b in letters if b.primes} & {stem_of(b) for b in letters if not b.primes}
+
+
+def _look_at_derivative(box: Box, after: Box | None, found: Notation) -> None:
+    over, under = (without_thin(part) for part in box.parts)
+    if not (over and len(under) > 1 and over[0].name == under[0].name and over[0].kind in ("partial", "letter")):
+        return
+    found.differentiated |= {stem_of(b) for b in over[1:] if b.kind == "letter"}
+    if len(over) == 1 and after is not None:
+        found.differentiated.add(stem_of(after))
+    if over[0].name == "d" and (under[1].name in _TIMES or (under[1].name == "t" and under[1].sub)):
+        found.seen.add("other time")
+
+
+def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notation) -> None:
+    stem, sup = stem_of(box), without_thin(box.sup or [])
+    if box.style == "bold" or "vec" in box.marks:
+        found.seen.add("bold")
+    if any(mark.endswith("dot") for mark in box.marks):
+        found.seen.add("dot")
+    if box.primes or any(mark.endswith("dot") for mark in box.marks):
+        found.differentiated.add(stem)
+    if len(sup) == 1 and sup[0].kind == "number" and sup[0].name not in ("0", "1"):
+        found.powers.add(stem)
+    elif sup and (sup[0].name in (*TENSOR, "0", "1") or (len(sup) > 1 and all(map(is_plain_letter, sup))) or (
+        box.sub and is_plain_letter(sup[0]) and len(sup) == 1 and is_plain_letter(box.sub[0]))):  # fmt: skip
+        found.raised.add(stem)
+    called = after is not None and after.kind == "bracket" and after.name in ("(", "[")
+    if called and after is not None:
+        content = after.parts[0]
+        if box.sup or box.primes or (simple_argument(content) and any(b.kind == "letter" for b in content)):
+            found.applied.add(stem)
+    touching = before is not None and is_plain_letter(before) and before.end == box.at
+    if not touching and not (
+        after is not None and is_plain_letter(box) and after.kind == "letter" and after.at == box.end
+    ):
+        found.apart.add(box.name)
+    beside = ("letter", "number", "fraction", "root")
+    if (before is not None and before.kind in beside and before.name not in ("d", "delta", "Delta")) or (
+        after is not None and after.kind in (*beside, "function") and box.name not in ("d", "delta", "Delta")
+    ):
+        found.factors.add(stem)
+
+
 def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: bool) -> None:
     name = box.name
     if name == "i" and following is not None and following.name == "hbar":
@@ -202,6 +337,8 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: boo
     if name == "e" and box.sup is not None and not box.upright:
         if any(b.kind == "letter" or b.parts for b in box.sup):
             found.exponential = True
+            if len(box.sup) > 1:
+                found.seen.add("exponent")
             if any(b.kind == "letter" and b.name in ("i", "j") for b in box.sup):
                 found.imaginary = True
         return

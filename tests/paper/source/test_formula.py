@@ -242,14 +242,14 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
 @pytest.mark.parametrize(
     ("latex", "guess"),
     [
-        (r"x = e^{-t}", "e is Euler's number"),
+        (r"x = e^t", "e is Euler's number"),
         (r"x = \cos\omega t", "the argument of cos is the product"),
         (r"x = \sin^{-1} y", "the inverse function"),
         (r"x = \log y", "the natural logarithm"),
-        (r"x = \Delta t", "one quantity, a difference"),
+        (r"x = \Delta y", "one quantity, a difference"),
         (r"c = \{a, b\}", "poisson brackets are meant, no set"),
         (r"c = [a, b]", "commutator brackets are meant, no interval"),
-        (r"y = V^\gamma", "gamma is a power, no upper index"),
+        (r"y = V^\gamma", "the superscript of V is a power"),
         (r"h = p/2\pi", "all that follows the slash divides"),
         (r"x = 1{,}000", "parts thousands"),
         (r"\frac{d}{dt} m v = F", "acts on the whole product"),
@@ -265,14 +265,15 @@ def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None
     [
         (r"l = 5\,\mathrm{m}", "l = 5*unit_m", "upright m behind a number is a unit"),
         (r"l = 5\,m", "l = 5*m", ""),
-        (r"y = e^2/r", "y = e**2/r", "e is a letter, not Euler's number"),
-        (r"x' = \gamma(x - vt)", "xprime = gamma*(x - v*t)", "gamma(…) is a product"),
+        (r"y = e^2/r", "y = e**2/r", "e is a letter, and not Euler's number"),
+        (r"x' = \gamma(x - vt)", "xprime = gamma*(x - v*t)", "gamma before ( is a factor"),
         (r"a = b \text{ or } c = d", "a = b; c = d", "what or joins are two statements, and both are meant"),
     ],
 )
 def test_units_products_and_alternatives_are_marked(latex: str, read: str, guess: str) -> None:
     assert said(latex) == read
-    assert ("".join(read_formula(latex, notation_of([latex])).guesses)) == guess
+    guesses = read_formula(latex, notation_of([latex])).guesses
+    assert guess in "".join(guesses) and bool(guess) == bool(guesses)
 
 
 def test_an_order_that_is_claimed_is_kept() -> None:

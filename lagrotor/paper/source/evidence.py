@@ -1,0 +1,451 @@
+r"""What a print says by custom only: each sign that has a rival meaning which nothing in the paper settles is a guess.
+
+A sign passes where the author declares its meaning, where the paper uses it in one meaning, or where custom has no rival for it;
+all else is marked, signs that are not named here as well. A marked reading is what custom takes, and no verdict rests on it.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
+from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.read_letter import is_called
+from lagrotor.paper.source.rows import all_boxes, derivative_mark, is_joining, is_unit_like, strip, without_thin
+from lagrotor.paper.source.usage import Notation, is_plain_letter, name_of, power_in, simple_argument, stem_of
+
+# Names that are mostly functions: before a bracket they are no factors.
+_FUNCTIONS = frozenset(
+    [
+        "f",
+        "g",
+        "h",
+        "F",
+        "G",
+        "H",
+        "P",
+        "Phi",
+        "Psi",
+        "phi",
+        "psi",
+        "varphi",
+        "delta",
+        "Delta",
+        "Gamma",
+        "Theta",
+        "theta",
+        "zeta",
+        "eta",
+    ]
+)
+_PLAIN = ("number", "root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit",
+          "binomial", "cases", "nabla", "partial")  # fmt: skip
+_ACTING = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial")
+_ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
+_STATED = {
+    "Rightarrow",
+    "implies",
+    "iff",
+    "Leftrightarrow",
+    "Longrightarrow",
+    "Longleftrightarrow",
+    "therefore",
+    "forall",
+}
+_INDICES = frozenset("abcdefghijklmnopqrsuvw") | {name[1:] for name in GREEK if name[1].islower()}
+_WORDS = ("det", "tr", "Tr", "diag", "rank", "dim", "arg", "Re", "Im", "max", "min", "sup", "inf", "ker", "deg", "gcd")
+Rivals = Iterator[tuple[str, str, str]]
+
+
+def mark_open_meanings(reader: FormulaReader, row: list[Box]) -> None:
+    """Add to the guesses of a reading what has a rival meaning."""
+    for key, what, settles in (*_row(reader, row), *_repeated(row)):
+        reader.guess(key, what, settles)
+
+
+def _row(reader: FormulaReader, row: list[Box]) -> Rivals:
+    inner = without_thin(row)
+    for place, box in enumerate(inner):
+        check = _CHECKS.get(box.kind)
+        if check is not None:
+            yield from check(reader, inner, place)
+        elif box.kind not in _PLAIN:
+            yield "sign", f"{reader.source[box.at : box.end]} has its usual meaning", ""
+        for part in box.parts:
+            yield from _row(reader, part)
+        if box.sup and power_in(box):
+            yield from _row(reader, box.sup)
+    yield from _words(reader, inner)
+    yield from _order(reader, inner)
+
+
+def _behind(row: list[Box], place: int) -> Box | None:
+    return row[place + 1] if place + 1 < len(row) else None
+
+
+def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, after, known = row[place], _behind(row, place), reader.notation
+    before = row[place - 1] if place else None
+    stem, acts = stem_of(box), after is not None and after.kind in _ACTING
+    bracketed = after is not None and after.kind == "bracket"
+    if after is not None and bracketed and after.name in ("(", "[", r"\{") and box.name not in "Oo":
+        yield from _before_bracket(reader, box, after)
+    held = {
+        "prime": (
+            box.primes and (stem not in known.primed or bracketed),
+            "with a prime is a name of its own, and no derivative",
+        ),
+        "bar": (
+            "bar" in box.marks and known.seen & {"complex", "ket"},
+            "with a bar is a name of its own, and no conjugate",
+        ),
+        "hat": (
+            "hat" in box.marks and acts and not is_bold(box),
+            "with a hat is a factor, and no operator or direction",
+        ),
+        "dot": ("times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
+        "script": (
+            box.style in ("cal", "scr", "frak") and acts and not box.sup,
+            "in script is a factor, and no operator",
+        ),
+        "set": (box.style == "bb", "with a double line is a letter, and no set or mean"),
+    }
+    for key, (open_, what) in held.items():
+        if open_:
+            yield key, f"{box.name} {what}", ""
+    if not (box.sub or box.marks or box.style) and box.name not in known.functions | known.letters | known.numbers:
+        yield from _number(reader, box)
+    operator = (
+        before is not None and before.kind == box.kind and before.name.isupper() and not (before.sub or before.sup)
+    )
+    if before is not None and operator and stem in known.applied and not (bracketed or box.sup or is_bold(box)):
+        settles = f'letters = "{before.name}"'
+        yield "operator", f"{before.name} is a factor of {box.name}, and no operator on it", settles
+    if box.sup:
+        yield from _raised(reader, box)
+
+
+def _number(reader: FormulaReader, box: Box) -> Rivals:
+    """Letters that may be numbers."""
+    settles = f'letters = "{box.name}" or numbers = "{box.name}"'
+    if box.name in ("j", "imath", "jmath") and "complex" in reader.notation.seen and box.name not in reader.lowered:
+        yield "j", f"{box.name} is a letter, and not the imaginary unit", settles
+    if box.name == "e" and not (box.sup or box.upright) and reader.notation.exponential:
+        yield "e", "e is a letter, and not Euler's number", settles
+
+
+def _raised(reader: FormulaReader, box: Box) -> Rivals:
+    """What a superscript of a letter may be besides a power."""
+    known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
+    if (box.name == "e" and "e" not in known.letters) or not row:
+        return
+    if not power_in(box):
+        first = row[0].name
+        if len(row) == 1 and (first in ("dagger", "top", "intercal") or (first == "T" and is_bold(box))):
+            return
+        if len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(first) > 1:
+            return
+        yield "mark", f"the superscript of {box.name} is part of the name", ""
+        return
+    number = row[-1].kind == "number" and len(row) == 1
+    inverse = [b.name for b in row] == ["-", "1"]
+    if stem in known.raised or box.style == "bb" or (number and row[0].name in ("0", "1")):
+        yield "power", f"the superscript of {box.name} is a power, and no index", f'letters = "{row[0].name}"'
+    elif inverse and (stem in known.matrices or box.name[0].isupper() or known.is_function(box)):
+        yield "inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix", ""
+    elif number or all(b.kind in ("number", "operator") or (b.kind == "fraction" and not _letters(b)) for b in row):
+        return
+    elif stem not in known.powers or not _letters(*row) <= known.apart - known.lowered:
+        yield "power", f"the superscript of {box.name} is a power, and no index or label", ""
+
+
+def _letters(*held: Box) -> set[str]:
+    return {b.name for b in all_boxes(list(held)) if b.kind == "letter"}
+
+
+def is_bold(box: Box) -> bool:
+    """Whether a letter is printed as a vector or a matrix."""
+    return box.style == "bold" or "vec" in box.marks
+
+
+def _before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> Rivals:
+    """A letter before a bracket: a function of it, or a factor."""
+    known, content = reader.notation, without_thin(bracket.parts[0])
+    settles = f'functions = "{box.name}" or letters = "{box.name}"'
+    key = name_of(replace(box, primes=0, sup=None))
+    if {box.name, key, stem_of(box)} & (known.functions | known.letters):
+        return
+    called = bracket.name == "(" and is_called(reader, box, bracket) is True
+    evident = None if box.sup or bracket.name != "(" else _evidence(known, box, content, bracket)
+    if box.sup and not called and bracket.name == "(" and stem_of(box) not in known.applied:
+        evident = _is_factor(known, box, content) or None
+    if bracket.name != "(" and not any(b.kind == "comma" for b in content):
+        evident = (_is_factor(known, box, content) and not called) or None
+        evident = False if evident else None
+    if evident is not called:
+        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
+        yield "bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles
+
+
+def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
+    """True for a function, False for a factor, None where the paper does not say."""
+    letters = any(b.kind == "letter" for b in content)
+    listed = any(b.kind == "comma" for b in content)
+    if simple_argument(content) and letters and not bracket.sup and (listed or len(content) == 1):
+        return True
+    if stem_of(box) in known.applied:
+        return None if stem_of(box) in known.factors or bracket.sup else True
+    return False if _is_factor(known, box, content) else None
+
+
+def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
+    """Whether the paper has a letter among factors, and never before an argument or as what is differentiated."""
+    stem = stem_of(box)
+    variable = {b.name for b in content if b.kind == "letter"} & {"t", "tau", *set().union(*known.called.values(), ())}
+    return (
+        stem in known.factors
+        and stem not in known.applied | known.differentiated
+        and not variable
+        and box.name not in _FUNCTIONS
+    )
+
+
+def _bracket(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, content = row[place], without_thin(row[place].parts[0])
+    before = row[place - 1] if place else None
+    if box.name in ("(", "[", r"\{", r"\lbrace"):
+        yield from _enclosed(reader, box, before, content)
+    if box.sub and box.name in ("(", "["):
+        yield "index", "the index of a bracket takes a component, or holds what is constant", ""
+    if box.sup and not power_in(box) and [b.name for b in box.sup] not in (["T"], ["top"]):
+        yield "mark", "the superscript of a bracket is a mark", ""
+    if r"\rangle" in (box.name, box.closing) or r"\langle" in (box.name, box.closing):
+        yield from _angles(reader, box, content)
+    elif box.closing in ("|", r"\vert", r"\rvert") and box.name != ".":
+        yield from _magnitude(content)
+
+
+def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list[Box]) -> Rivals:
+    """Round, square and curly brackets that are no argument."""
+    commas = sum(b.kind == "comma" for b in content)
+    adds = any(b.kind == "operator" and b.name in ("+", "-", "pm", "mp") for b in content[1:])
+    single = content[0] if len(content) == 1 and not box.sup else None
+    if before is not None and before.kind in ("letter", "function"):
+        if before.kind == "function" and box.name != "(" and not adds:
+            yield "set", f"{box.name} encloses an argument, and no set or class", ""
+    elif commas and (box.name == "(" or commas > 1 or not _letters(*content)):
+        yield "list", "the brackets hold components, and no pair, interval or product", ""
+    elif box.name != "(" and not commas and not (adds and any(b.kind == "bracket" for b in content)):
+        yield "set", f"{box.name} encloses a factor, and is no set, class or whole part", ""
+    elif single and single.kind == "fraction" and "modular" in reader.notation.seen:
+        yield "fraction", "the bracket holds a fraction, and no symbol of Legendre", ""
+    elif single and single.kind in ("letter", "number") and not single.sup:
+        yield "bracket", "the brackets enclose one sign as a factor, and no argument, class or ideal", ""
+
+
+def _magnitude(content: list[Box]) -> Rivals:
+    only = content[0] if len(content) == 1 and content[0].kind == "letter" else None
+    if any(b.kind == "comma" for b in content) or (
+        only and (only.name[0].isupper() or only.style) and not is_bold(only)
+    ):
+        yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
+
+
+def _bar(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    """A bar that is paired where it is read."""
+    closing = next((k for k in range(place + 1, len(row)) if row[k].kind == "bar"), place)
+    yield from _magnitude(row[place + 1 : closing])
+
+
+def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Rivals:
+    """Labels of kets that are no single sign, and means outside quantum mechanics."""
+    parts: list[list[Box]] = [[]]
+    for each in content:
+        if each.kind in ("bar", "comma"):
+            parts.append([])
+        else:
+            parts[-1].append(each)
+    if box.closing == r"\rangle" and box.name != "|" and len(parts) == 1 and "ket" not in reader.notation.seen:
+        yield "mean", "angle brackets are a mean, and nothing that is generated", ""
+    if len(parts) > 1 and not any(b.kind == "bar" for b in content) and box.name not in ("|",):
+        yield "inner", "angle brackets with a comma are an inner product", ""
+    for part in parts if len(parts) != 3 else (parts[0], parts[2]):
+        held = [b for b in part if b.kind not in ("operator", "thin")]
+        side = any(a.kind != "operator" and b.kind != "operator" for a, b in pairwise(part))
+        several = side or any(b.kind == "number" and len(b.name) > 1 for b in held)
+        if several and (box.name == "|" or box.closing == "|" or len(parts) > 1):
+            yield "label", "letters side by side in a ket are a product, and no list of labels", ""
+
+
+def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box = row[place]
+    mark = derivative_mark(box)
+    if mark in ("D", "delta"):
+        yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
+    if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
+        yield "dot", "the derivative by t is the rate that a dot has", ""
+
+
+def _operator(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, known = row[place], reader.notation
+    before, after = (row[place - 1] if place else None), _behind(row, place)
+    if box.name == "cdot":
+        beside = [b for b in (before, after) if b is not None]
+        number = any(
+            b.kind in ("number", "fraction", "root", "function", "big", "nabla") or not _letters(b) for b in beside
+        )
+        matrices = any(is_bold(b) and b.name[0].isupper() for b in beside)
+        if matrices or not (number or "bold" in known.seen):
+            yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
+    elif box.name in ("pm", "mp") and any(
+        b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]
+    ):
+        yield "unit", "the unit belongs to the uncertainty alone", ""
+    elif box.name not in ("+", "-", "pm", "mp", "/", "times", "!"):
+        yield "sign", f"{box.name} has its usual meaning", ""
+
+
+def _relation(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, known = row[place], reader.notation
+    printed = reader.source[box.at : box.end]
+    if box.name not in _ONE_MEANING and printed not in (r"\approx", "≈"):
+        yield "relation", f"{printed} is read as {box.name}", ""
+    elif box.marks:
+        yield "relation", f"what stands over {box.name} changes nothing", ""
+    elif box.name == ":=" and printed == r"\equiv" and "modular" in known.seen:
+        yield "relation", r"\equiv is a definition, and no congruence", ""
+    elif box.name in "<>" and {b.name for b in row if b.kind == "relation"} >= {"<", ">"}:
+        yield "relation", "< and > are relations, and no angle brackets", ""
+
+
+def _arrow(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    if row[place].name not in _STATED:
+        yield "relation", f"{row[place].name} joins two statements, and both are meant", ""
+
+
+def _text(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, after = row[place], _behind(row, place)
+    before = row[place - 1] if place else None
+    if before is not None and before.kind == "number" and is_unit_like(box.name):
+        return
+    apart = all(b is None or b.kind in ("wide", "comma", "relation", "arrow") for b in (before, after))
+    if "$" in box.name or not (apart or is_joining(box.name)):
+        yield "words", f"the words {box.name} join statements, and are no factor or function", ""
+
+
+def _function(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box, after, end = row[place], _behind(row, place), _behind(row, place + 1)
+    single = after is not None and after.kind in ("letter", "number")
+    ends = end is None or end.kind in ("relation", "operator", "comma", "wide")
+    bracketed = after is not None and after.kind == "bracket"
+    if (box.name in _WORDS or box.name not in FUNCTIONS) and not (bracketed or (single and ends)):
+        yield "words", f"{box.name} acts on all that follows it", ""
+
+
+def _accent(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    if row[place].name not in ("dot", "ddot"):
+        yield "bar", f"the {row[place].name} over several signs is no conjugate or segment", ""
+
+
+def _big(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    box = row[place]
+    if box.name in ("oint", "iint", "iiint", "oiint") or ("int" in box.name and box.sub and not box.sup):
+        yield "integral", f"\\{box.name} is an integral over what is written below it", ""
+    if "int" in box.name:
+        rest = strip(row[place + 1 :])
+        ends = [k for k, b in enumerate(rest) if b.kind == "letter" and b.name == "d" and k + 1 < len(rest)]
+        if (
+            ends
+            and ends[0] + 2 < len(rest)
+            and rest[ends[0] + 2].kind in ("letter", "bracket", "fraction", "function", "root")
+        ):
+            yield "integral", "what follows the differential is integrated, and no factor of the whole", ""
+
+
+def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    if row[place].name == "array":
+        yield "array", "the array is a matrix", ""
+
+
+_CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Rivals]] = {
+    "letter": _letter, "bracket": _bracket, "fraction": _fraction, "operator": _operator, "relation": _relation,
+    "arrow": _arrow, "text": _text, "function": _function, "accent": _accent, "big": _big, "matrix": _matrix,
+    "bar": _bar,
+}  # fmt: skip
+
+
+def _words(reader: FormulaReader, row: list[Box]) -> Rivals:
+    """Letters that touch each other: a name, where one of them stands nowhere by itself."""
+    run: list[Box] = []
+    for box in [*row, Box("thin", "", -2, -2)]:
+        if run and not (box.kind == "letter" and box.at == run[-1].end and is_plain_letter(run[-1]) and len(box.name) == 1
+                        and not box.marks and not box.style and not box.upright):  # fmt: skip
+            name = "".join(each.name for each in run)
+            known = (len(name) == 2 and name.islower()) or set(name) <= reader.notation.apart
+            if len(run) > 1 and name[0] != "d" and not known:
+                yield "name", f"{name} is a product, and no name", ""
+            run = []
+        if box.kind == "letter" and len(box.name) == 1 and not box.style and not box.upright:
+            run.append(box)
+        else:
+            run = []
+
+
+def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
+    """Products of what the paper uses as matrices or operators elsewhere."""
+    product: list[Box] = []
+    for box in [*row, Box("relation", "", 0, 0)]:
+        if box.kind in ("letter", "bracket", "fraction", "accent", "root", "group"):
+            product.append(box)
+            continue
+        if box.kind in ("operator", "relation", "comma", "wide", "text", "arrow") and box.name not in (
+            "cdot",
+            "times",
+            "!",
+        ):
+            held = [
+                b for b in product if b.kind == "letter" and not is_bold(b) and stem_of(b) in reader.notation.matrices
+            ]
+            others = [b for b in product if _letters(b)]
+            if held and len(others) > 1:
+                yield "matrix", f"{held[0].name} commutes with the factors beside it", ""
+            product = []
+
+
+def _repeated(row: list[Box]) -> Rivals:
+    """An index that a term has twice and another has not: a sum over it may be meant."""
+    terms: list[list[Box]] = [[]]
+
+    def look(part: list[Box]) -> None:
+        for box in part:
+            if box.kind in ("rows", "row"):
+                for cell in box.parts:
+                    look(cell)
+                terms.append([])
+            elif box.kind in ("relation", "wide", "comma", "text", "arrow") or box.name in ("+", "-", "pm", "mp"):
+                terms.append([])
+            else:
+                terms[-1].append(box)
+
+    look(row)
+    every = list(all_boxes(row))
+    bound = {each.name for box in every if box.kind == "big" for each in box.sub or ()}
+    counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
+    names = {name for count in counts for name, times in count.items() if times > 1} - bound
+    for name in sorted(names):
+        if not all(count[name] for count in counts):
+            yield "sum", f"the index {name} is not summed over", ""
+
+
+def _indices(term: list[Box]) -> Counter[str]:
+    found: Counter[str] = Counter()
+    for box in all_boxes(term):
+        if box.kind in ("letter", "partial", "nabla"):
+            for script in (box.sub, None if power_in(box) and box.sup and box.sup[0].kind != "letter" else box.sup):
+                if script and all(b.kind in ("letter", "comma", "thin") and len(b.name) < 9 for b in script):
+                    names = [b.name for b in script if b.kind == "letter" and not b.upright and b.name in _INDICES]
+                    found.update(names)
+                    if box.sup and power_in(box) and [b.name for b in box.sup] == ["2"]:
+                        found.update(names)
+    return found

@@ -1,0 +1,106 @@
+r"""A sign with a rival meaning is marked, and passes where the paper settles it: each pair has the paper's other formulas."""
+
+from pathlib import Path
+
+import pytest
+
+from lagrotor.paper.source.check import REFUTED, check_source
+from lagrotor.paper.source.formula import read_formula
+from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.usage import declared_notation, notation_of
+
+
+def guesses(latex: str, *paper: str, **said: str) -> tuple[str, ...]:
+    return read_formula(latex, notation_of([latex, *paper], declared_notation(said))).guesses
+
+
+# A formula that is marked by itself, other formulas of a paper that settle it, and the words of the mark.
+SETTLED = [
+    (r"a = \Phi(b + c)", [r"\Phi(b) = c"], "Phi before ( is a factor"),
+    (r"a = m(b + c)", ["m v = p"], "m before ( is a factor"),
+    (r"a = \Gamma^2(b)", [], "Gamma before ( is a"),
+    (r"a = c[n - 1]", [], "c before [ is a factor"),
+    (r"a = F\{b + (c - d)\}", [], "F before { is a factor"),
+    (r"a = X^{HF}", [], "the superscript of X is"),
+    (r"a = u^{n+1}", ["u^2 = n v"], "the superscript of u is a power"),
+    (r"a = u^n", ["u^2 = n v"], "the superscript of u is a power"),
+    (r"a = \Phi^{-1} b", [], "is one over Phi"),
+    (r"a = \mathbb{E} b", [], "no set or mean"),
+    (r"a = b^*", [], "the superscript of b is part of the name"),
+    (r"a = x'", ["K(x, x') = b"], "x with a prime"),
+    (r"a = \hat H\psi", [], "H with a hat is a factor"),
+    (r"a = \mathcal{L} y", [], "L in script is a factor"),
+    (r"a = \{b\}", [], "encloses a factor"),
+    (r"V = \{0\}", [], "encloses a factor"),
+    (r"a = (5)", [], "enclose one sign"),
+    (r"a = [1, 2]", [], "the brackets hold components"),
+    (r"a = |S|", [], "no determinant"),
+    (r"a = b\cdot c", [r"\vec r = \vec s"], "the dot multiplies"),
+    (r"a = b_i c_i", [], "the index i is not summed over"),
+    (r"a \sim b", [], r"\sim is read as ~"),
+    (r"a \to b", [], r"\to is read as ->"),
+    (r"a \overset{d}{=} b", [], "stands over ="),
+    (r"a = \text{MSD}(b)", [], "the words MSD"),
+    (r"a = \oint b\,dx", [], r"\oint is an integral"),
+    (r"a = \int dx\, b", [], "what follows the differential"),
+    (r"a = \Delta b", [], "Delta b is one quantity"),
+    (r"|01\rangle = a|0\rangle", [], "list of labels"),
+    (r"a = \frac{\delta S}{\delta q}", [], "the fraction with delta"),
+    (r"a = QED\, b", ["Q = E", "D = b"], "QED is a"),
+    (r"a = 1 \pm 2\,\mathrm{fm}", [], "the unit belongs"),
+]
+
+
+@pytest.mark.parametrize(("latex", "paper", "words"), SETTLED)
+def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper: list[str], words: str) -> None:
+    alone = read_formula(latex, notation_of([latex]))
+    assert alone.stop is not None or any(words in each for each in alone.guesses)
+    if paper:
+        assert not guesses(latex, *paper)
+
+
+@pytest.mark.parametrize(
+    ("latex", "paper", "words"),
+    [
+        ("a = B x", r"B^\top = C", "B commutes"),
+        (r"a = \bar z", r"b = e^{i c}", "no conjugate"),
+        (r"\dot x = a", r"\frac{dx}{d\tau} = b", "its rate in t"),
+        (r"a = \left(\frac{b}{p}\right)", r"b \equiv 1 \pmod{p}", "symbol of Legendre"),
+        ("a = k(x + b)", "V(x) = k c", "k before ( is a factor"),
+        ("a = x^2", r"x^\mu = b", "is a power, and no index"),
+    ],
+)
+def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str) -> None:
+    assert not guesses(latex) or "k(" in latex
+    assert any(words in each for each in guesses(latex, paper))
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"m\ddot x = -k x", r"T = \frac12 m v^2", r"x(t) = A\cos(\omega t + \phi)", r"\vec F = m\vec a",
+        r"\frac{d}{dt}\frac{\partial L}{\partial\dot q} = \frac{\partial L}{\partial q}", r"E = e^{-\beta a}",
+        r"\sum_{i=1}^n m_i v_i = p", r"\int_0^1 x^2\,dx = \frac13", r"\langle\phi|\psi\rangle = 0", r"|a - b| \le c",
+        r"R = \begin{pmatrix} \cos\theta & -\sin\theta\\ \sin\theta & \cos\theta\end{pmatrix}", r"a = 5\ \text{km}",
+        r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i",
+    ],
+)  # fmt: skip
+def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
+    assert not guesses(latex)
+
+
+def test_the_line_that_a_mark_names_settles_it() -> None:
+    latex = r"a = \Phi(b + c)"
+    (mark,) = guesses(latex)
+    assert mark.endswith('([notation] functions = "Phi" or letters = "Phi")')
+    assert not guesses(latex, letters="Phi") and not guesses(latex, functions="Phi")
+    assert guesses("a = x'")[0].endswith('([notation] usual = "prime")') and not guesses("a = x'", usual="prime")
+
+
+def test_no_verdict_rests_on_a_marked_reading(tmp_path: Path) -> None:
+    file = tmp_path / "paper.tex"
+    verdicts = []
+    for latex in (r"y = a(b + c) = ab - ac", r"y = (a)(b + c) = ab - ac"):
+        file.write_text(rf"\documentclass{{article}}\begin{{document}}\[ {latex} \]\[ a b = d \]\end{{document}}")
+        verdicts.append([each.verdict for each in check_source(read_source(file)) if each.step])
+    assert verdicts == [[REFUTED], ["undecided"]]
