@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes
-from lagrotor.paper.source.evidence import mark_open_meanings
+from lagrotor.paper.source.open_meanings import mark_open_meanings
 from lagrotor.paper.source.read_expression import Grammar
 from lagrotor.paper.source.read_statements import PrintedStatement, read_statements
 from lagrotor.paper.source.rows import all_boxes
@@ -48,7 +48,7 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
         row = boxes(source)
         reader.lowered = frozenset(_lowered(row))
         statements = tuple(read_statements(reader, row))
-        mark_open_meanings(reader, row)
+        mark_open_meanings(reader, row, statements)
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:

@@ -11,139 +11,18 @@ _NAMES = (
 )
 _WORDS = frozenset(_NAMES.split())
 TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
-_JOINING = frozenset(
-    [
-        "where",
-        "with",
-        "for",
-        "if",
-        "when",
-        "and",
-        "or",
-        "so",
-        "then",
-        "thus",
-        "hence",
-        "since",
-        "because",
-        "such",
-        "that",
-        "which",
-        "is",
-        "as",
-        "at",
-        "in",
-        "on",
-        "but",
-        "while",
-        "also",
-        "let",
-        "whenever",
-        "all",
-        "any",
-        "every",
-        "otherwise",
-        "provided",
-        "from",
-        "by",
-        "via",
-        "using",
-        "to",
-        "given",
-        "here",
-        "mit",
-        "wobei",
-        "und",
-        "oder",
-        "für",
-        "wenn",
-        "mod",
-        "sonst",
-        "pour",
-        "si",
-        "avec",
-        "où",
-        "et",
-        "ou",
-    ]
+_JOINING_WORDS = (
+    "where with for if when and or so then thus hence since because such that which is as at in on but while also let "
+    "whenever all any every otherwise provided from by via using to given here mit wobei und oder für wenn mod sonst "
+    "pour si avec où et ou"
 )
-_UNITS = frozenset(
-    [
-        "m",
-        "s",
-        "g",
-        "kg",
-        "K",
-        "N",
-        "J",
-        "W",
-        "V",
-        "A",
-        "C",
-        "F",
-        "H",
-        "T",
-        "Pa",
-        "Hz",
-        "rad",
-        "sr",
-        "mol",
-        "cd",
-        "eV",
-        "keV",
-        "MeV",
-        "GeV",
-        "cm",
-        "mm",
-        "nm",
-        "km",
-        "min",
-        "h",
-        "ms",
-        "ns",
-        "yr",
-        "pc",
-        "kHz",
-        "MHz",
-        "GHz",
-        "THz",
-        "kPa",
-        "MPa",
-        "GPa",
-        "kN",
-        "kJ",
-        "kW",
-        "MW",
-        "mV",
-        "kV",
-        "mA",
-        "nF",
-        "pF",
-        "mH",
-        "mT",
-        "l",
-        "L",
-        "deg",
-        "degrees",
-        "Ohm",
-        "ohm",
-        "m/s",
-        "m/s^2",
-        "km/h",
-        "kg/m^3",
-        "N/m",
-        "Nm",
-        "rad/s",
-        "fm",
-        "fs",
-        "ps",
-        "µs",
-        "µm",
-        "um",
-        "barn",
-        "mb",
-    ]
+_JOINING = frozenset(_JOINING_WORDS.split())
+_UNIT_NAMES = (
+    "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc kHz MHz GHz THz kPa "
+    "MPa GPa kN kJ kW MW mV kV mA nF pF mH mT l L deg degrees Ohm ohm m/s m/s^2 km/h kg/m^3 N/m Nm rad/s fm fs ps µs "
+    "µm um barn mb"
 )
+UNITS = frozenset(_UNIT_NAMES.split())
 
 
 def strip(row: list[Box]) -> list[Box]:
@@ -286,7 +165,7 @@ def is_moving(box: Box) -> bool:
 
 def is_unit_like(text: str) -> bool:
     words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
-    return text in _UNITS or (bool(words) and all(word in _UNITS for word in words))
+    return text in UNITS or (bool(words) and all(word in UNITS for word in words))
 
 
 def is_joining(text: str) -> bool:

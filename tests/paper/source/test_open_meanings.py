@@ -46,7 +46,17 @@ SETTLED = [
     (r"a = \Delta b", [], "Delta b is one quantity"),
     (r"|01\rangle = a|0\rangle", [], "list of labels"),
     (r"a = \frac{\delta S}{\delta q}", [], "the fraction with delta"),
-    (r"a = QED\, b", ["Q = E", "D = b"], "QED is a"),
+    (r"a = QED\, b", [], "QED is a"),
+    (r"\frac{dx}{dt} = \dot x", [], "are the same"),
+    (r"a = GM/r", [], "GM is a product"),
+    (r"a = cn(x, k)", [], "cn is a product"),
+    (r"a = 2e-3", [], "no power of ten"),
+    (r"a = \frac{D}{Dt}(b + c)", [], "no derivative"),
+    (r"a = \mathbf{n}^T s\mathbf{n}", [], "between two vectors"),
+    (r"\begin{pmatrix} a\ b\\ c\ d\end{pmatrix} = v", [], "what a space parts"),
+    (r"a = (A - b)^{-1}", [], "no inverse matrix"),
+    (r"G = O(3)", [], "no group"),
+    (r"a = \begin{pmatrix} a & b & c\\ d & f & g\end{pmatrix}", [], "no 3j symbol"),
     (r"a = 1 \pm 2\,\mathrm{fm}", [], "the unit belongs"),
 ]
 

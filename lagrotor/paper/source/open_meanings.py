@@ -5,61 +5,47 @@ all else is marked, signs that are not named here as well. A marked reading is w
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called
-from lagrotor.paper.source.rows import all_boxes, derivative_mark, is_joining, is_unit_like, strip, without_thin
+from lagrotor.paper.source.read_statements import PrintedStatement
+from lagrotor.paper.source.rows import (
+    TENSOR,
+    UNITS,
+    all_boxes,
+    derivative_mark,
+    is_joining,
+    is_unit_like,
+    strip,
+    without_thin,
+)
 from lagrotor.paper.source.usage import Notation, is_plain_letter, name_of, power_in, simple_argument, stem_of
 
 # Names that are mostly functions: before a bracket they are no factors.
-_FUNCTIONS = frozenset(
-    [
-        "f",
-        "g",
-        "h",
-        "F",
-        "G",
-        "H",
-        "P",
-        "Phi",
-        "Psi",
-        "phi",
-        "psi",
-        "varphi",
-        "delta",
-        "Delta",
-        "Gamma",
-        "Theta",
-        "theta",
-        "zeta",
-        "eta",
-    ]
-)
+_FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
+_FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
 _PLAIN = ("number", "root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit",
           "binomial", "cases", "nabla", "partial")  # fmt: skip
 _ACTING = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial")
 _ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
-_STATED = {
-    "Rightarrow",
-    "implies",
-    "iff",
-    "Leftrightarrow",
-    "Longrightarrow",
-    "Longleftrightarrow",
-    "therefore",
-    "forall",
-}
+_STATED_SIGNS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore forall"
+_STATED = frozenset(_STATED_SIGNS.split())
 _INDICES = frozenset("abcdefghijklmnopqrsuvw") | {name[1:] for name in GREEK if name[1].islower()}
+# Numbers without dimension and functions whose names have two letters.
+_NUMBER_NAMES = "Re Ra Pr Nu Ma We Fr Bo Ca Pe St Sc Sh Gr Kn Ro Ek Bi Da De Le Mo Oh Ri Wi Im Tr Ad Id Ei Si Ci Li Ai"
+_NUMBERS = frozenset(_NUMBER_NAMES.split())
 _WORDS = ("det", "tr", "Tr", "diag", "rank", "dim", "arg", "Re", "Im", "max", "min", "sup", "inf", "ker", "deg", "gcd")
 Rivals = Iterator[tuple[str, str, str]]
 
 
-def mark_open_meanings(reader: FormulaReader, row: list[Box]) -> None:
+def mark_open_meanings(reader: FormulaReader, row: list[Box], statements: Iterable[PrintedStatement]) -> None:
     """Add to the guesses of a reading what has a rival meaning."""
+    if any(a.node == b.node for each in statements for a, b in pairwise(each.sides)):
+        reader.guess("same", "two signs that differ in print are the same, as a dot and a rate")
     for key, what, settles in (*_row(reader, row), *_repeated(row)):
         reader.guess(key, what, settles)
 
@@ -76,6 +62,7 @@ def _row(reader: FormulaReader, row: list[Box]) -> Rivals:
             yield from _row(reader, part)
         if box.sup and power_in(box):
             yield from _row(reader, box.sup)
+    yield from _apart(reader, row)
     yield from _words(reader, inner)
     yield from _order(reader, inner)
 
@@ -89,8 +76,11 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     before = row[place - 1] if place else None
     stem, acts = stem_of(box), after is not None and after.kind in _ACTING
     bracketed = after is not None and after.kind == "bracket"
-    if after is not None and bracketed and after.name in ("(", "[", r"\{") and box.name not in "Oo":
-        yield from _before_bracket(reader, box, after)
+    if after is not None and bracketed and after.name in ("(", "[", r"\{"):
+        if box.name not in "Oo":
+            yield from _before_bracket(reader, box, after)
+        elif before is None or before.kind != "operator" or not _letters(*after.parts[0]):
+            yield "order", f"{box.name}(…) is an order of magnitude, and no group or function", ""
     held = {
         "prime": (
             box.primes and (stem not in known.primed or bracketed),
@@ -116,9 +106,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             yield key, f"{box.name} {what}", ""
     if not (box.sub or box.marks or box.style) and box.name not in known.functions | known.letters | known.numbers:
         yield from _number(reader, box)
-    operator = (
-        before is not None and before.kind == box.kind and before.name.isupper() and not (before.sub or before.sup)
-    )
+    operator = before is not None and before.kind == box.kind and before.name.isupper() and not before.sup
     if before is not None and operator and stem in known.applied and not (bracketed or box.sup or is_bold(box)):
         settles = f'letters = "{before.name}"'
         yield "operator", f"{before.name} is a factor of {box.name}, and no operator on it", settles
@@ -216,6 +204,9 @@ def _bracket(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     before = row[place - 1] if place else None
     if box.name in ("(", "[", r"\{", r"\lbrace"):
         yield from _enclosed(reader, box, before, content)
+    inverse = [b.name for b in box.sup or ()] == ["-", "1"]
+    if inverse and any(name.isupper() or name in reader.notation.matrices for name in _letters(*content)):
+        yield "inverse", "the bracket with -1 is turned over, and no inverse matrix or function", ""
     if box.sub and box.name in ("(", "["):
         yield "index", "the index of a bracket takes a component, or holds what is constant", ""
     if box.sup and not power_in(box) and [b.name for b in box.sup] not in (["T"], ["top"]):
@@ -281,6 +272,14 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Rivals:
 def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     box = row[place]
     mark = derivative_mark(box)
+    over, under = (without_thin(part) for part in box.parts)
+    if (
+        not mark
+        and over
+        and len(under) > 1
+        and (over[0].kind, over[0].name) == (under[0].kind, under[0].name) == ("letter", "D")
+    ):
+        yield "derivative", "the fraction with D is a quotient, and no derivative", ""
     if mark in ("D", "delta"):
         yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
     if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
@@ -364,8 +363,11 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
 
 
 def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
-    if row[place].name == "array":
-        yield "array", "the array is a matrix", ""
+    box = row[place]
+    if box.name in ("array", "Bmatrix"):
+        yield "array", f"the {box.name} is a matrix, and no table or symbol", ""
+    if box.name == "pmatrix" and [len(line.parts) for line in box.parts[0]] == [3, 3]:
+        yield "array", "the brackets hold a matrix, and no 3j symbol", ""
 
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Rivals]] = {
@@ -375,21 +377,44 @@ _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Rivals]] = {
 }  # fmt: skip
 
 
+def _apart(reader: FormulaReader, row: list[Box]) -> Rivals:
+    """Factors that are set apart by a space, and units in italics."""
+    for place, box in enumerate(row[1:-1], 1):
+        sides = row[place - 1].kind, row[place + 1].kind
+        wide = box.kind == "thin" and reader.source[box.at : box.end] in ("\\ ", r"\;", "~", r"\enspace")
+        if wide and all(kind in ("letter", "number", "thin", "fraction", "root") for kind in sides):
+            yield "spaces", "what a space parts are factors, and no list", ""
+    side: list[Box] = []
+    for box in [*without_thin(row), Box("relation", "", 0, 0)]:
+        if box.kind in ("relation", "comma", "wide", "text", "arrow"):
+            letters = [b for b in side if b.kind == "letter"]
+            plain = all(b.kind in ("number", "letter") or b.name == "/" for b in side) and not any(
+                b.sub for b in letters
+            )
+            if letters and plain and side[0].kind == "number" and all(b.name in UNITS for b in letters):
+                yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
+            side = []
+        else:
+            side.append(box)
+
+
 def _words(reader: FormulaReader, row: list[Box]) -> Rivals:
-    """Letters that touch each other: a name, where one of them stands nowhere by itself."""
+    """Letters that touch each other may be a name: capitals, more than two, and what is before an argument."""
     run: list[Box] = []
-    for box in [*row, Box("thin", "", -2, -2)]:
-        if run and not (box.kind == "letter" and box.at == run[-1].end and is_plain_letter(run[-1]) and len(box.name) == 1
-                        and not box.marks and not box.style and not box.upright):  # fmt: skip
+    for place, box in enumerate([*row, Box("thin", "", -2, -2)]):
+        letter = box.kind == "letter" and len(box.name) == 1 and not (box.style or box.upright or box.marks)
+        if run and not (letter and box.at == run[-1].end and is_plain_letter(run[-1])):
             name = "".join(each.name for each in run)
-            known = (len(name) == 2 and name.islower()) or set(name) <= reader.notation.apart
-            if len(run) > 1 and name[0] != "d" and not known:
+            called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
+            known = (len(name) == 2 and name.islower()) or (set(name) <= reader.notation.apart and name not in _NUMBERS)
+            if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not known):
                 yield "name", f"{name} is a product, and no name", ""
             run = []
-        if box.kind == "letter" and len(box.name) == 1 and not box.style and not box.upright:
+        if letter:
             run.append(box)
-        else:
-            run = []
+        before = row[place - 1] if place else None
+        if before is not None and box.name in ("e", "E") and before.kind == "number" and before.end == box.at:
+            yield "e", f"{box.name} behind a number is a letter, and no power of ten", ""
 
 
 def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
@@ -408,6 +433,10 @@ def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
                 b for b in product if b.kind == "letter" and not is_bold(b) and stem_of(b) in reader.notation.matrices
             ]
             others = [b for b in product if _letters(b)]
+            vectors = [k for k, b in enumerate(product) if b.kind == "letter" and is_bold(b)]
+            inner = product[vectors[0] : vectors[-1]] if vectors else []
+            if any(b.kind == "letter" and not is_bold(b) for b in inner):
+                yield "matrix", "the letter between two vectors is a number, and no matrix", ""
             if held and len(others) > 1:
                 yield "matrix", f"{held[0].name} commutes with the factors beside it", ""
             product = []
@@ -432,7 +461,7 @@ def _repeated(row: list[Box]) -> Rivals:
     every = list(all_boxes(row))
     bound = {each.name for box in every if box.kind == "big" for each in box.sub or ()}
     counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
-    names = {name for count in counts for name, times in count.items() if times > 1} - bound
+    names = {name for count in counts for name, times in count.items() if times > 1} - bound - set(TENSOR)
     for name in sorted(names):
         if not all(count[name] for count in counts):
             yield "sum", f"the index {name} is not summed over", ""
