@@ -79,14 +79,14 @@ def figure() -> Figure:
         )  # fmt: skip
     for i in (0, 1):
         first = i == 0
-        top.plot(*d["ansatz"][i, :, :2].T, color=PAPER_COLOUR, label="ansatz" if first else None)
+        top.plot(*d["ansatz"][i, :, :2].T, color=PAPER_COLOUR, ls="-.", label="ansatz (5.19)" if first else None)
         top.plot(*d["exact"][i, :, :2].T, color=EXACT_COLOUR, ls="--", label="exact orbit" if first else None)
         j, k = (33, 40)
         arrow = {"arrowstyle": "-|>", "color": PAPER_COLOUR, "lw": 1.6, "mutation_scale": 20}
         top.annotate("", xy=d["ansatz"][i, k, :2], xytext=d["ansatz"][i, j, :2], arrowprops=arrow)
     orbits_from_above(top, 0.85, 0.27)
 
-    length.plot(d["phase"], d["ansatz_length"], color=PAPER_COLOUR)
+    length.plot(d["phase"], d["ansatz_length"], color=PAPER_COLOUR, ls="-.")
     length.plot(d["phase"], d["exact_length"], color=EXACT_COLOUR, ls="--")
     length.set(ylabel="length of the bar [m]", title="Length of the bar", ylim=(0.99, 1.09))
     distance.plot(d["phase"], d["distance"][0], color=PAPER_COLOUR, label="distance of tip 1")

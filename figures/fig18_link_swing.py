@@ -77,11 +77,11 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 5.6))
     main, residual = with_residual(picture)
     curves = (
-        ("constant", PAPER_COLOUR, "-", "constant inclination (5.19)"),
-        ("paper", PAPER_COLOUR, "--", "paper's correction (5.20)"),
-        ("order_2", CORRECTION_COLOUR, "--", "corrected series, order 2"),
+        ("constant", PAPER_COLOUR, "-.", "constant inclination (5.19)"),
+        ("paper", PAPER_COLOUR, "-", "paper's correction (5.20)"),
+        ("order_2", CORRECTION_COLOUR, ":", "corrected series, order 2"),
         ("order_3", CORRECTION_COLOUR, "-", "corrected series, order 3"),
-        ("exact", EXACT_COLOUR, ":", "exact orbit"),
+        ("exact", EXACT_COLOUR, "--", "exact orbit"),
     )
     for name, colour, line, label in curves:
         main.plot(d["phi"], d[name], color=colour, ls=line, label=label)

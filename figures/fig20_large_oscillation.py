@@ -11,7 +11,7 @@ import sympy as sp
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.pair.notation import Phi, r0
 from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes
@@ -77,8 +77,8 @@ def figure() -> Figure:
     top, residual = picture.subplots(2, 1, height_ratios=(2, 1))
     curves = (
         ("paper", PAPER_COLOUR, "-", 1.6, "paper's correction (5.20)"),
-        ("order_3", CORRECTION_COLOUR, ":", 1.6, "corrected series, order 3"),
-        ("order_9", CORRECTION_COLOUR, "-", 3, "corrected series, order 9"),
+        ("order_3", CORRECTION_COLOUR, "-", 1.6, "corrected series, order 3"),
+        ("order_9", HIGH_ORDER_COLOUR, "-", 3.5, "corrected series, order 9"),
         ("exact", EXACT_COLOUR, "--", 1.2, "exact orbit"),
     )
     for name, colour, line, width, label in curves:

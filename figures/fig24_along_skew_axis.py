@@ -134,9 +134,9 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.0, 6.8))
     right, left, residual = picture.subplots(3, 1, sharex=True, height_ratios=(2, 2, 1.4))
     for panel, i in ((right, 1), (left, 0)):
-        panel.plot(d["t"], d["simulated"][i], color=EXACT_COLOUR, label="simulated, exact model")
-        panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, ls="--", label="paper (5.22)")
-        panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, ls="--", label="corrected series, order 3")
+        panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, label="paper (5.22)")
+        panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, label="corrected series, order 3")
+        panel.plot(d["t"], d["simulated"][i], color=EXACT_COLOUR, ls="--", lw=1.2, label="simulated, exact model")
     right.set(ylabel="along the axis [m]", title="Right tip", ylim=(0.2, 0.8))
     left.set(ylabel="along the axis [m]", title="Left tip", ylim=(-0.8, -0.2))
     for name, colour in (("paper", PAPER_COLOUR), ("corrected", CORRECTION_COLOUR)):

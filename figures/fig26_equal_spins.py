@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
 from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
 
@@ -66,7 +66,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.0, 6.4))
     force, x, residual = picture.subplots(3, 1, sharex=True, height_ratios=(1, 2, 1))
-    force.plot(d["t"], d["force"], color=EXACT_COLOUR)
+    force.plot(d["t"], d["force"], color=FORCE_COLOUR)
     x.plot(d["t"], d["exact"], color=EXACT_COLOUR, label="exact model")
     x.plot(d["t"], d["springs"], color=MODEL_COLOUR, ls="--", lw=1.2, label="paper's method, stiff springs")
     residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL_COLOUR)

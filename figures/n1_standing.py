@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
 from lagrotor.structures import measured_growth
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.small_motion import small_motion
@@ -18,10 +18,10 @@ from lagrotor.structures.small_motion import small_motion
 WEIGHT = {"gravity": 9.81, "load": 2.0}
 SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "bars": [(0, 1), (1, 2), (2, 3), (3, 0)]}
 SHOWN = {
-    "a rotor alone": ({"joints": [(0, 0)]}, [1], MODEL_COLOUR),
-    "loaded pair, any spins": ({"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}, [1, -1], PAPER_COLOUR),
-    "corner of three": ({"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}, [1, 0, 1], CORRECTION_COLOUR),
-    "square, one spin opposite": (SQUARE, [-1, 1, 1, 1], OKABE_ITO["orange"]),
+    "a rotor alone": ({"joints": [(0, 0)]}, [1], CASE_COLOURS[0]),
+    "loaded pair, any spins": ({"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}, [1, -1], CASE_COLOURS[2]),
+    "corner of three": ({"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}, [1, 0, 1], CASE_COLOURS[1]),
+    "square, one spin opposite": (SQUARE, [-1, 1, 1, 1], CASE_COLOURS[3]),
 }
 TRIED = (0.5, 1.2, 1.8, 2.5)  # spins of the exact runs, in sqrt(a κ)/I3
 
@@ -97,10 +97,8 @@ def figure() -> Figure:
         growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Largest growth rate")
-    for values, name, ink in zip(
-        d["tilt"], ("3 % under", "3 % over"), (OKABE_ITO["reddish purple"], EXACT_COLOUR), strict=True
-    ):
-        tilt.semilogy(d["t"], values + 1e-6, color=ink, lw=1.2, label=f"corner, {name} its threshold")
+    for values, name, line in zip(d["tilt"], ("3 % under", "3 % over"), (":", "-"), strict=True):
+        tilt.semilogy(d["t"], values + 1e-6, line, color=EXACT_COLOUR, lw=1.2, label=f"corner, {name} its threshold")
     tilt.set(xlabel="time in √(a/κ) [1]", ylabel="|x| of the first axis [1]", title="The corner after a push")
     picture.legend(loc="outside lower center", ncols=3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Pattern, Rotor
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
 from lagrotor.structures import honeycomb, polygon_ring, zigzag
 
 SPIN, HINGE, ROTORS = 10.0, 50.0, 16
@@ -121,7 +121,7 @@ def figure() -> Figure:
     picture = Figure(figsize=(8.6, 7.0))
     panels = picture.subplots(2, 2)
     (turning, even), (staircase, net) = panels
-    inks = (MODEL_COLOUR, CORRECTION_COLOUR, OKABE_ITO["orange"])
+    inks = CASE_COLOURS[:3]
     for n, ink, one, both, modes in zip(RINGS, inks, d["alternating"], d["equal"], d["open_modes"], strict=True):
         turning.plot(d["q"], one, color=ink, label=f"bars turned by {360 / n:.0f}°")
         even.plot(d["q"][d["q"] < pi / 2], both[d["q"] < pi / 2], color=ink)
@@ -130,12 +130,12 @@ def figure() -> Figure:
         d["ring_q"], d["ring_modes"], "o", color=EXACT_COLOUR, mfc="none", ms=4, label="modes of finite structures"
     )
     for name, ink, label in (
-        ("hinged", OKABE_ITO["reddish purple"], "on hinges"),
-        ("loaded", PAPER_COLOUR, "under weight"),
+        ("hinged", "#777777", "on hinges"),
+        ("loaded", CASE_COLOURS[3], "under weight"),
     ):
         staircase.plot(d["q"], d[name], color=ink, lw=1.2, label=[label, None])
-    staircase.plot(d["q"], d["growth"], "--", color=PAPER_COLOUR, label="growth under weight [1/s]")
-    net.plot(d["share"], d["honeycomb"], color=OKABE_ITO["sky blue"], label="honeycomb, opposite spins")
+    staircase.plot(d["q"], d["growth"], "--", color=CASE_COLOURS[3], label="growth under weight [1/s]")
+    net.plot(d["share"], d["honeycomb"], color=CORRECTION_COLOUR, label="honeycomb, opposite spins")
     for panel, title in zip(
         panels.flat, ("Alternating spins, and rings", "Equal spins", "Staircase, alternating", "Honeycomb"), strict=True
     ):

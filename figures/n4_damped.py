@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Structure, paired_scene
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
 
 SPIN, TILT = 10.0, 0.1
 FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
@@ -91,9 +91,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(8.6, 4.6))
     angle, tilt = picture.subplots(1, 2)
-    for t, values, c, ink in zip(
-        d["times"], d["angles"], FRICTIONS, (MODEL_COLOUR, PAPER_COLOUR, OKABE_ITO["orange"]), strict=True
-    ):
+    for t, values, c, ink in zip(d["times"], d["angles"], FRICTIONS, CASE_COLOURS[:3], strict=True):
         angle.plot(t, values, color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
         law = SPIN * TILT**2 / (2 * c)
         angle.plot(t[[0, -1]], [law, law], "--", color=ink, lw=1.0)
@@ -101,7 +99,7 @@ def figure() -> Figure:
         xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest rotated"
     )
     for x, ink, name in zip(
-        d["tilts"], (EXACT_COLOUR, OKABE_ITO["sky blue"]), ("friction on the spins too", "spins kept up"), strict=True
+        d["tilts"], (EXACT_COLOUR, CASE_COLOURS[3]), ("friction on the spins too", "spins kept up"), strict=True
     ):
         tilt.plot(d["t"], x, color=ink, lw=0.8, label=f"exact, {name}")
     for rate, line in ((WEAR * 0.2, "-"), (-WEAR * 0.8, "-")):

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import MODEL_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS
 from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
 
 WIDTH, POINTS, NEAR = 10, 91, 0.2  # cells; wave numbers; share of the strip that counts as a border
@@ -90,8 +90,8 @@ def figure() -> Figure:
         shown = (rates > low - reach) & (rates < high + reach)
         for kept, ink, label in (
             (~first & ~last, "#999999", "bulk"),
-            (first, PAPER_COLOUR, "first border"),
-            (last, MODEL_COLOUR, "last border"),
+            (first, CASE_COLOURS[1], "first border"),
+            (last, CASE_COLOURS[0], "last border"),
         ):
             seen = kept & shown
             panel.plot(at[seen], rates[seen], ".", ms=3.5, color=ink, label=label, rasterized=label == "bulk")

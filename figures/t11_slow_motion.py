@@ -12,13 +12,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion
 
 LIGHT, HEAVY = Link(1, 0.01, 0.1), Link(1, 12.0, 0.0)
 FORCE, LASTS, SHARE = 30.0, 15.0, 36
 R0, PUSHES = 0.06, np.array([-0.9, -0.4, 0.3, 0.8, 1.1])
 UNIT = (10 / (2 * 1.25)) ** 2 * R0**6  # g² s⁶ of the massless bar
+
+OTHERS = "#999999"  # colour of motions from other starts
 
 TITLE = "The slow motion of opposite spins"
 ALT = (
@@ -98,7 +100,7 @@ def portrait(panel: Axes, motion: SlowMotion, name: str) -> None:
     W = ((half**2 + 0.5) ** 2 - 3 / 8) / c - motion.weight * half**2
     start = motion.invariant / s2**2
     levels = np.unique([*(start + np.array([-2.0, -1.2, -0.6, -0.2, 0.4, 1.2, 3, 8, 20]))])
-    panel.contour(np.degrees(lean), half, W, levels, colors=[MODEL_COLOUR], linewidths=0.8, linestyles="-")
+    panel.contour(np.degrees(lean), half, W, levels, colors=[OTHERS], linewidths=0.8, linestyles="-")
     panel.contour(np.degrees(lean), half, W, [start], colors=[CORRECTION_COLOUR], linewidths=1.8, linestyles="-")
     panel.set(xlabel="lean β [deg]", title=name, ylim=(-2.2, 2.2))
 
@@ -117,7 +119,7 @@ def figure() -> Figure:
         lw=1.2,
         label="exact run",
     )
-    left.plot([], [], color=MODEL_COLOUR, lw=0.8, label="closed form")
+    left.plot([], [], color=OTHERS, lw=0.8, label="closed form, other starts")
     left.plot([], [], color=CORRECTION_COLOUR, lw=1.8, label="closed form, after the shock")
     left.set_ylabel("half-angle η/s [1]")
     fine = np.linspace(-1.1, 1.3, 121)

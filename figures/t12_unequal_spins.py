@@ -11,13 +11,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.drawing import EXACT_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
 from lagrotor.models import upright_orbit
 from lagrotor.theory import azimuth_drift, frequency_shift
 
 BARS = {
-    "K = 0.1 kg m², 0.01 kg": (Link(1, 0.01, 0.1), OKABE_ITO["blue"]),
-    "1 kg, K = 0": (Link(1, 1.0), OKABE_ITO["orange"]),
+    "b < 0: m = 0.01 kg, K = 0.1 kg m²": (Link(1, 0.01, 0.1), CASE_COLOURS[0]),
+    "b > 0: m = 1 kg, K = 0": (Link(1, 1.0), CASE_COLOURS[1]),
 }
 R0, TRIED, FINE = 0.06, np.array([-0.7, -0.3, 0.1, 0.5]), np.linspace(-0.999, 1, 121)
 
@@ -90,5 +90,5 @@ def figure() -> Figure:
     right.set_title("Drift of the azimuth")
     handles, labels = left.get_legend_handles_labels()
     one = dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=2)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.numerics import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
@@ -82,7 +82,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 4.6))
     panels = dict(zip(("inertia", "mass"), picture.subplots(1, 2, sharey=True), strict=True))
-    colours = {"equal": CORRECTION_COLOUR, "opposite": OKABE_ITO["reddish purple"]}
+    colours = {"equal": CORRECTION_COLOUR, "opposite": CASE_COLOURS[2]}
     for by, panel in panels.items():
         for name, colour in colours.items():
             panel.plot(d[by], d[f"{name}_by_{by}"], color=colour, label=f"closed form, {name} spins")

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
 from lagrotor.numerics import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11
@@ -79,9 +79,7 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 6.2))
     axes = picture.subplot_mosaic([["motion", "motion"], ["difference", "order"]], height_ratios=(1.4, 1))
     motion, difference, order = axes["motion"], axes["difference"], axes["order"]
-    colours = dict(
-        zip(("x", "y, tip 1", "y, tip 2"), (CORRECTION_COLOUR, MODEL_COLOUR, OKABE_ITO["orange"]), strict=True)
-    )
+    colours = dict(zip(("x of both tips", "y, tip 1", "y, tip 2"), (CORRECTION_COLOUR, *ROTORS), strict=True))
     for i, (name, colour) in enumerate(colours.items()):
         motion.plot(d["t"], d["closed"][:, i], color=colour, label=f"closed form, {name}")
         motion.plot(

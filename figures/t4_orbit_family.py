@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
 from lagrotor.theory import paired_series
 from lagrotor.theory.paired_precession.series import shape_of
 
@@ -82,10 +82,10 @@ def figure() -> Figure:
     for i, (name, panel) in enumerate(zip(BARS, picture.subplots(1, 3), strict=True)):
         exact = d[f"exact, {i}"]
         panel.plot(d["r0"], d["paper"], color=PAPER_COLOUR, label="paper" if i == 0 else None)
+        panel.plot(d["r0"], d[f"order 3, {i}"], color=CORRECTION_COLOUR, label="series, order 3" if i == 0 else None)
         panel.plot(
-            d["r0"], d[f"order 3, {i}"], color=CORRECTION_COLOUR, ls="--", label="series, order 3" if i == 0 else None
+            d["r0"], d[f"order 9, {i}"], color=HIGH_ORDER_COLOUR, lw=3.5, label="series, order 9" if i == 0 else None
         )
-        panel.plot(d["r0"], d[f"order 9, {i}"], color=MODEL_COLOUR, label="series, order 9" if i == 0 else None)
         panel.plot(
             d["exact_at"],
             exact,

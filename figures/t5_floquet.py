@@ -11,14 +11,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, OKABE_ITO
 from lagrotor.numerics import measured_order
 from lagrotor.theory import elliptic_edge, growth_squared
 
 BARS = {
-    "b = 0: massless": (Link(1, 0, 0), OKABE_ITO["reddish purple"], "o"),
-    "b < 0: m = 0.01 kg, K = 0.1 kg m²": (Link(1, 0.01, 0.1), MODEL_COLOUR, "s"),
-    "b > 0: m = 1 kg, K = 0.05 kg m²": (Link(1, 1, 0.05), CORRECTION_COLOUR, "^"),
+    "b = 0: massless": (Link(1, 0, 0), CASE_COLOURS[2], "o"),
+    "b < 0: m = 0.01 kg, K = 0.1 kg m²": (Link(1, 0.01, 0.1), CASE_COLOURS[0], "s"),
+    "b > 0: m = 1 kg, K = 0.05 kg m²": (Link(1, 1, 0.05), CASE_COLOURS[1], "^"),
 }
 AMPLITUDES = np.array([0.08, 0.14, 0.24])
 # Masses (kg) of a bar of small b > 0, and amplitudes on both sides of the edge.
@@ -27,8 +27,8 @@ LAST = 1.22  # of sigma
 
 TITLE = "Stability of the paired precession"
 ALT = (
-    "Left, in logarithms: growth a turn against the amplitude for two hyperbolic bars, filled marks on lines of slope four "
-    "and three, and the angle a turn of one elliptic bar, open marks on a line of slope three. Right: plane of amplitude "
+    "Left, in logarithms: growth per turn against the amplitude for two hyperbolic bars, filled marks on lines of slope four "
+    "and three, and the angle per turn of one elliptic bar, open marks on a line of slope three. Right: plane of amplitude "
     "and sigma; the orbit is hyperbolic below sigma = 1 and to the right of a curve that rises from there, elliptic above "
     "it; tried points fall on their sides. A grey band about the curve is its error."
 )
@@ -47,14 +47,14 @@ def strength(link: Link, r0: float) -> float:
 
 
 def law(link: Link, r0: np.ndarray) -> np.ndarray:
-    """Growth or angle a turn (rad) by the leading term."""
+    """Growth or angle per turn (rad) by the leading term."""
     sigma = scene(link).sigma
     return 2 * np.pi * np.sqrt(np.abs(growth_squared(*((8, True) if sigma == 1 else ()))(r0, sigma, 1.0)))
 
 
 @cache
 def data() -> dict[str, np.ndarray]:
-    """Amplitudes (n,), growth or less the angle a turn (3, n), the law (3, 41); tried sigma, r_0, signs; edge and error."""
+    """Amplitudes (n,), growth or less the angle per turn (3, n), the law (3, 41); tried sigma, r_0, signs; edge and error."""
     fine = np.geomspace(0.06, 0.3, 41)
     tried = [(scene(Link(1, mass)).sigma, r0, strength(Link(1, mass), r0)) for mass, r0 in TRIED]
     edge = 1 + np.linspace(0.01, np.sqrt(LAST - 1), 13) ** 2
@@ -84,8 +84,8 @@ def measure() -> dict[str, float]:
 
 _none, _less, _more, _error = measure().values()
 CAPTION = (
-    "Exact Floquet multipliers mu, 1/mu of the orbit, spins ±10 rad/s, ell = R. Filled: log|mu| a turn (hyperbolic); open: "
-    f"angle of mu a turn (elliptic). Lines: leading terms. Powers between the two smallest amplitudes: {_none:.2f} for "
+    "Exact Floquet multipliers mu, 1/mu of the orbit, spins ±10 rad/s, ell = R. Filled: log|mu| per turn (hyperbolic); open: "
+    f"angle of mu per turn (elliptic). Lines: leading terms. Powers between the two smallest amplitudes: {_none:.2f} for "
     f"b = 0, {_less:.2f} for b < 0, {_more:.2f} for b > 0. Right: sigma = (a + b)/(a − b), K = 0; the line is the derived "
     "edge, right to first order in sigma − 1 (r_0² → (2/3) (sigma − 1) for small ones), the grey band its error, "
     f"{100 * _error:.0f} % of r_0 at sigma = {LAST:g}."
@@ -105,13 +105,17 @@ def figure() -> Figure:
     growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle per turn [rad]", title="Growth per turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
-    plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0, color=CORRECTION_COLOUR, alpha=0.18, lw=0, label="elliptic")
-    plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0.4, color=OKABE_ITO["orange"], alpha=0.22, lw=0)
-    plane.axhspan(0.96, 1, color=OKABE_ITO["orange"], alpha=0.22, lw=0, label="hyperbolic")
+    plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0.4, color=OKABE_ITO["yellow"], alpha=0.3, lw=0)
+    plane.axhspan(0.96, 1, color=OKABE_ITO["yellow"], alpha=0.3, lw=0)
+    plane.text(0.06, 1.13, "elliptic")
+    plane.text(0.25, 1.05, "hyperbolic")
     low, high = d["edge_r0"] - d["edge_error"], d["edge_r0"] + d["edge_error"]
     plane.fill_betweenx(d["edge_sigma"], low, high, color="#777777", alpha=0.5, lw=0, label="error of the edge")
     plane.plot(d["edge_r0"], d["edge_sigma"], color=EXACT_COLOUR, lw=1.2, label="edge, derived")
-    for growing, fill, says in ((True, EXACT_COLOUR, "found hyperbolic"), (False, "white", "found elliptic")):
+    for growing, fill, says in (
+        (True, EXACT_COLOUR, "exact orbit, hyperbolic"),
+        (False, "white", "exact orbit, elliptic"),
+    ):
         sigma, r0, _ = d["tried"][(d["tried"][:, 2] > 0) == growing].T
         plane.plot(r0, sigma, "D", color=EXACT_COLOUR, mfc=fill, ms=5, label=says)
     plane.set(

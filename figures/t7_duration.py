@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate, toppling_after_shock
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
 from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.numerics import measured_order
 from lagrotor.theory import wander_after_shock
@@ -90,7 +90,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 5.0))
     times, run = picture.subplots(1, 2)
-    purple = OKABE_ITO["reddish purple"]
+    purple = CASE_COLOURS[2]
     times.loglog(FORCES, d["lean_law"], color=purple, label="closed form: leaning, square of the force")
     times.loglog(FORCES, d["leave_law"], color=CORRECTION_COLOUR, label="closed form: x, cube of the force")
     for name in ("lean", "leave"):
@@ -101,11 +101,11 @@ def figure() -> Figure:
     times.set(xlabel="force along x [N]", ylabel="time [s]", title="Time to reach the bound", xlim=(1.9, 21))
     times.set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
     times.set_xticks([], minor=True)
-    run.plot(d["t"], d["x"], color=MODEL_COLOUR, lw=1.1, label="mean x of both axes, exact [1]")
-    run.plot(d["t"], d["alpha"], color=OKABE_ITO["orange"], lw=1.1, label="mean turning angle, exact [rad]")
+    run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes [1]")
+    run.plot(d["t"], d["alpha"], color=EXACT_COLOUR, ls=":", label="exact run: mean turning angle [rad]")
     after = d["t"] > AT
-    run.plot(d["t"][after], wander_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=CORRECTION_COLOUR, ls="--")
-    run.plot(d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple, ls="--")
+    run.plot(d["t"][after], wander_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=CORRECTION_COLOUR)
+    run.plot(d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple)
     run.set(xlabel="time [s]", ylabel="mean x and turning angle [1]", title=f"One run, {SHOWN:g} N")
     one = {}
     for panel in (times, run):

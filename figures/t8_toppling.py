@@ -11,14 +11,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
 from lagrotor.theory import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0
 BARS = {
-    "b = 0: massless": (Link(1, 0, 0), CORRECTION_COLOUR),
-    "b < 0: m = K = 1": (Link(1, 1, 1), MODEL_COLOUR),
-    "b > 0: m = 1 kg, K = 0": (Link(1, 1, 0), OKABE_ITO["orange"]),
+    "b = 0: massless": (Link(1, 0, 0), CASE_COLOURS[2]),
+    "b < 0: m = K = 1": (Link(1, 1, 1), CASE_COLOURS[0]),
+    "b > 0: m = 1 kg, K = 0": (Link(1, 1, 0), CASE_COLOURS[1]),
 }
 TRIED = ((0, 2.0), (0, 6.0), (1, 8.0), (1, -16.0), (2, 20.0))
 
@@ -106,8 +106,10 @@ def figure() -> Figure:
         title="Growth of a small tilt",
         ylim=(-0.3, 14),
     )
-    for force, x, line in zip((FORCE, -FORCE), d["x"], (EXACT_COLOUR, OKABE_ITO["reddish purple"]), strict=True):
-        shocks.plot(d["t"], x, color=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−"))
+    for force, x, line in zip((FORCE, -FORCE), d["x"], ("-", "--"), strict=True):
+        shocks.plot(
+            d["t"], x, color=EXACT_COLOUR, ls=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−")
+        )
     shocks.set(xlabel="time [s]", ylabel="mean x of both axes [1]", title="After the paper's shocks along y")
     picture.legend(loc="outside lower center", ncols=3)
     return picture

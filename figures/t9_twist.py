@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.theory import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
@@ -83,7 +83,7 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 4.8))
     growth, residual = picture.subplots(1, 2, width_ratios=(1.5, 1))
-    for i, (angle, colour) in enumerate(zip(ANGLES, (MODEL_COLOUR, OKABE_ITO["reddish purple"]), strict=True)):
+    for i, (angle, colour) in enumerate(zip(ANGLES, (CASE_COLOURS[0], CASE_COLOURS[2]), strict=True)):
         growth.plot(
             d["inertia"], d["closed"][i], color=CORRECTION_COLOUR, ls="--", label="closed form" if i == 0 else None
         )

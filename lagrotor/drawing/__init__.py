@@ -5,8 +5,11 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
+    from lagrotor.drawing.style import CASE_COLOURS as CASE_COLOURS
     from lagrotor.drawing.style import CORRECTION_COLOUR as CORRECTION_COLOUR
     from lagrotor.drawing.style import EXACT_COLOUR as EXACT_COLOUR
+    from lagrotor.drawing.style import FORCE_COLOUR as FORCE_COLOUR
+    from lagrotor.drawing.style import HIGH_ORDER_COLOUR as HIGH_ORDER_COLOUR
     from lagrotor.drawing.style import MODEL_COLOUR as MODEL_COLOUR
     from lagrotor.drawing.style import OKABE_ITO as OKABE_ITO
     from lagrotor.drawing.style import PAPER_COLOUR as PAPER_COLOUR

@@ -25,8 +25,12 @@ OKABE_ITO = {
 # What a curve means: the paper's own formula, its correction, the exact limit it is held to, a simulated model.
 PAPER_COLOUR = OKABE_ITO["vermillion"]
 CORRECTION_COLOUR = OKABE_ITO["bluish green"]
+HIGH_ORDER_COLOUR = "#7FD3B8"  # of the correction through a high order, drawn wide under it
 EXACT_COLOUR = OKABE_ITO["black"]
 MODEL_COLOUR = OKABE_ITO["blue"]
+# Curves that differ by a case alone, such as a bar or a spin: no colour of these means anything by itself.
+CASE_COLOURS = OKABE_ITO["sky blue"], OKABE_ITO["orange"], OKABE_ITO["reddish purple"], "#7A5C1E"
+FORCE_COLOUR = "#777777"
 
 HALO = [withStroke(linewidth=3, foreground="white")]  # round a label that lies on a line
 

@@ -4,11 +4,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from lagrotor.drawing.style import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR
+from lagrotor.drawing.style import CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, PAPER_COLOUR
 from lagrotor.numerics.rotations import Array
 from lagrotor.paper.rotor_pair.shocked_runs import SPECTRUM_FROM
-
-COMPONENTS = {"x": OKABE_ITO["blue"], "y": OKABE_ITO["vermillion"], "z": OKABE_ITO["orange"]}
 
 
 def shock_figure(data: dict[str, Array], letter: str) -> Figure:
@@ -23,19 +21,16 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT_COLOUR, linestyle="--", linewidth=1.2)
     upper.set(ylabel="energy [J]", title="Energy")
     upper.margins(y=0.12)
-    middle.plot(data["t"], data["force"], color=OKABE_ITO["reddish purple"])
+    middle.plot(data["t"], data["force"], color=FORCE_COLOUR)
     middle.set(ylabel=f"force in {letter} [N]", title="Force on the tip of rotor 1", ylim=(-3, 55))
-    for j, (name, colour) in enumerate(COMPONENTS.items()):
-        lower.plot(data["t"], data["centre"][:, j], color=colour, linewidth=3, label=f"{name}, paper's method")
-        exact = "exact model" if j == 2 else None
+    for name, centre, exact in zip("xyz", data["centre"].T, data["exact_centre"].T, strict=True):
+        first = name == "x"
+        lower.plot(data["t"], centre, color=MODEL_COLOUR, linewidth=3, label="paper's method" if first else None)
         lower.plot(
-            data.get("exact_t", data["t"]),
-            data["exact_centre"][:, j],
-            color=EXACT_COLOUR,
-            linestyle="--",
-            linewidth=1.0,
-            label=exact,
-        )
+            data.get("exact_t", data["t"]), exact, color=EXACT_COLOUR, linestyle="--", linewidth=1.2,
+            label="exact model" if first else None,
+        )  # fmt: skip
+        lower.annotate(f"${name}$", (0.2, centre[0]), (0, 5), textcoords="offset points")
     if "exact_t" in data:
         end = data["exact_t"][-1]
         for panel in (upper, lower):
@@ -43,7 +38,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
         lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
     lower.set(ylabel="centre of rotor 1 [m]", xlabel="time [s]", title="Centre of mass of rotor 1")
     lower.margins(y=0.06)
-    figure.legend(loc="outside lower center", ncols=4)
+    figure.legend(loc="outside lower center", ncols=2)
     return figure
 
 
@@ -64,7 +59,7 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
         height_ratios=(0.7, 1.7, 1.2, 1.4),
     )
     force, residual, heights = (panels[name] for name in ("force", "residual", "heights"))
-    force.plot(data["t"], data["force"], color=EXACT_COLOUR)
+    force.plot(data["t"], data["force"], color=FORCE_COLOUR)
     force.set(ylabel="force [N]", title="Force on tip 1 along x", xlabel="time [s]", xlim=(1.5, 10))
     for x, span, says in ((panels["first"], _FIRST, "The first swings"), (panels["last"], _LAST, "The last swings")):
         x.plot(data["t"], data["exact"], color=EXACT_COLOUR, lw=2.4, label="exact model")

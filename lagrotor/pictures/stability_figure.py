@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
-from lagrotor.drawing.style import OKABE_ITO, paper_style
+from lagrotor.drawing.style import EXACT_COLOUR, paper_style
 from lagrotor.files import write_beside
 
 STEM = "stability"
@@ -26,17 +26,15 @@ def stability_figure(useful: Usefulness) -> Figure:
             useful.departures,
             np.log10(errors / useful.amplitudes / USEFUL),
             [0.0],
-            colors=OKABE_ITO["vermillion"],
+            colors=EXACT_COLOUR,
             linewidths=2,
         )
         panel.set(xscale="log", yscale="log", title=f"order {order}", xlabel="amplitude $r_0$")
         panel.grid(False)
     panels[0].set_ylabel(r"departure from opposite spins, $1 + \omega_2/\omega_1$")
     bar = figure.colorbar(filled, ax=list(panels))
-    bar.set_label(r"largest error over a turn, $\log_{10}$ of R")
-    line = Line2D(
-        [], [], color=OKABE_ITO["vermillion"], linewidth=2, label=f"error {USEFUL:g} $r_0$: useful left of and below it"
-    )
+    bar.set_label(r"largest error over one turn, $\log_{10}$ of R")
+    line = Line2D([], [], color=EXACT_COLOUR, linewidth=2, label=f"error {USEFUL:g} $r_0$: useful left of and below it")
     figure.legend(handles=[line], loc="outside lower center")
     return figure
 

@@ -1,5 +1,8 @@
 """Panels that several figures share: their frames, and what is drawn in which."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -37,3 +40,11 @@ def test_residuals_are_against_the_exact_model():
     assert [line.get_ydata()[-1] for line in residual.lines] == [2, 1, 0]  # printed, springs, corrected
     assert [line.get_xdata()[0] for line in heights.lines[2:]] == [11.4, 11.5]
     assert heights.get_xlim() == pytest.approx((6.4, 16.4))
+
+
+def test_figures_name_a_colour_by_its_meaning():
+    """Vermillion is the paper's formula and so on: who draws cases takes colours that mean nothing. Charts of tools are not asked."""
+    scripts = [path for path in Path("figures").glob("*.py") if not path.name.startswith("b")]
+    assert len(scripts) > 40
+    named = re.compile(r'OKABE_ITO\["(?:vermillion|blue|bluish green|black)"\]')
+    assert [path.name for path in scripts if named.search(path.read_text(encoding="utf-8"))] == []
