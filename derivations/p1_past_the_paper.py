@@ -9,8 +9,8 @@
 # %%
 import sympy as sp
 
-from lagrotor.pair.notation import G, Omega, P, att, nu, p_y, r0
-from lagrotor.paper import FigureLink, Table
+from lagrotor.pair.notation import P_X, G, Omega, P, a, att, b, k, nu, p_y, r0, sigma
+from lagrotor.paper import FigureLink, Table, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.theory import cancelling_impulse, growth_squared, toppling_threshold
 from lagrotor.theory.natural_frequency import natural_frequency
@@ -47,7 +47,15 @@ gained = equal(energy, t2["equal_x"] * att**2)
 series = equal(Omega / Omega_0, t3["frequency"])
 momentum = equal(P / G, t3["second"] * r0**2)
 stability = equal(power**2, growth_squared().expressions[0])
-cancelling = equal(p_y, cancelling_impulse().expressions[0])
+root = sp.sqrt(1 - sigma * att**2 * (att**2 + 2) * P_X**2 / (4 * G**2 * k**2))
+impulse = -(att**2 + 2) * P_X**2 / (2 * G * k * (1 + root))
+prove(
+    cancelling_impulse().expressions[0],
+    impulse.subs(sigma, (a + b) / (a - b)),
+    "the impulse that cancels the drift",
+    names="p_y",
+)
+cancelling = equal(p_y, impulse)
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])
 twist = equal(growth, t9["unstable"])

@@ -285,10 +285,10 @@ prove(bracket, (y_0 - high) * (y_0 - low), "the bracket in its factors", names="
 # %%
 edge = sp.solve(bracket - weight * s2 * (y_0 - high), weight, simplify=False)[0]
 att = sp.Symbol("A_w", positive=True)
-threshold = sp.expand(sp.cancel(2 * edge.subs(s2, att**2 * y_0)))
+threshold = 1 + 2 / att**2 + sp.sqrt(sp.Rational(3, 2))
 prove(
+    2 * edge.subs(s2, att**2 * y_0),
     threshold,
-    1 + 2 / att**2 + sp.sqrt(sp.Rational(3, 2)),
     "the threshold of (σ − 1) k², beyond which x turns back",
     names=r"(\sigma-1)k^2",
 )

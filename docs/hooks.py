@@ -78,7 +78,7 @@ def cards_of(cards: Iterable[str]) -> str:
 
 def card(picture: str, title: str, text: str, address: str) -> str:
     """A picture over its title, both a link."""
-    image = f'<img src="{picture}" alt="{escape(text or title)}" loading="lazy">' if picture else ""
+    image = f'<img src="{picture}" alt="{escape(text)}" loading="lazy">' if picture else ""
     return f'<a class="card" href="{address}">{image}<span>{escape(title)}</span></a>'
 
 
@@ -136,6 +136,11 @@ def on_page_content(html: str, page: Any, config: Any, files: "Files") -> str:
     return "".join(parts)
 
 
+def on_post_template(output: str, template_name: str, config: Any) -> str:
+    """The page of what is not found, as any other."""
+    return on_post_page(output, None, config) if template_name.endswith(".html") else output
+
+
 def on_post_page(output: str, page: Any, config: Any) -> str:
     """What the theme leaves out for a keyboard and for a screen reader."""
     output = output.replace(
@@ -147,6 +152,7 @@ def on_post_page(output: str, page: Any, config: Any) -> str:
 def on_post_build(config: Any) -> None:
     """The report beside the documentation, without what it keeps for its next run; the reader's edition where it is made."""
     if REPORT.is_dir():
-        shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=shutil.ignore_patterns("products", "*.json"))
+        kept = shutil.ignore_patterns("products", "made.json", "times.json")
+        shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=kept)
     if (ROOT / "reader").is_dir():
         shutil.copytree(ROOT / "reader", Path(config.site_dir) / "reader")

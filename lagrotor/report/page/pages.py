@@ -175,7 +175,6 @@ def _document(
     style: str,
     script: str,
     name: str = "",
-    up: str = "",
 ) -> str:
     """A whole HTML document; under a name it is one of several, and its title leads to the front page."""
     listed = "".join(
@@ -190,6 +189,7 @@ def _document(
             '<html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             '<meta name="color-scheme" content="light dark">',
+            '<link rel="icon" href="data:,">',
             f"<title>{escape(readable(name) + ': ' + report.title if name else report.title)}</title>",
             f"{style}</head>",
             '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
