@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
+from lagrotor.numerics.any_run import optional_package
 
 if TYPE_CHECKING:
     from lagrotor.drawing.film import FilmedMotion
@@ -24,11 +25,48 @@ _LARGEST = 32_000  # what a coordinate is written up to, as a 16-bit number
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class View:
-    """A motion as a page of its own: shown by a notebook, or written by `save`."""
+    """A motion as a page of its own, shown by a notebook or written by `save`, and as a widget of a running one."""
 
-    html: str
+    motion: dict[str, Any]
+    title: str
+
+    @property
+    def html(self) -> str:
+        """The page, which needs no network."""
+        parts = {
+            "/* style */": _text("view.css"),
+            "/* script */": canvas_script() + _text("view.js"),
+            "/* data */": json.dumps(self.motion),
+            "<!-- motion -->": self._parts(),
+        }
+        page = _text("view.html")
+        for place, content in parts.items():
+            page = page.replace(place, content)
+        return page
+
+    def widget(self) -> Any:
+        """The motion as an anywidget: its `time` (s) and `playing` may be set, observed and linked with another's.
+
+        Raises InputError where anywidget is not installed.
+        """
+        anywidget = optional_package("anywidget")
+        import traitlets
+
+        begin, end = self.motion["t"][0], self.motion["t"][-1]
+        members = {
+            "_esm": canvas_script() + _text("view.js") + _text("view_widget.js"),
+            "_css": _text("view.css"),
+            "motion": traitlets.Dict(self.motion).tag(sync=True),
+            "parts": traitlets.Unicode(self._parts()).tag(sync=True),
+            "time": traitlets.Float(begin, min=begin, max=end).tag(sync=True),
+            "playing": traitlets.Bool(False).tag(sync=True),
+        }
+        return type("MotionWidget", (anywidget.AnyWidget,), members)()
+
+    def _parts(self) -> str:
+        return _text("view_parts.html").replace("<!-- title -->", escape(self.title))
 
     def save(self, path: str | Path) -> Path:
         """Write the page, `.html`; it needs no network. Raises InputError for another ending."""
@@ -91,11 +129,7 @@ def view_lines(
         "middle": middle.tolist(),
         "lines": [written(*each) for each in enumerate(held)],
     }
-    parts = {"/* canvas */": canvas_script(), "/* view */": _text("view.js"), "/* motion */": json.dumps(motion)}
-    page = _text("view.html").replace("<!-- title -->", escape(title))
-    for place, content in parts.items():
-        page = page.replace(place, content)
-    return View(page)
+    return View(motion, title)
 
 
 def view_rotors(moving: "FilmedMotion", title: str = "") -> View:

@@ -143,7 +143,7 @@ class Run(Shown):
 
         Raises InputError where pandas is not installed.
         """
-        pandas = _installed("pandas")
+        pandas = optional_package("pandas")
         return pandas.DataFrame(
             {name: values for name, values, _ in self.columns()}, index=pandas.Index(self.t, name="t")
         )
@@ -153,7 +153,7 @@ class Run(Shown):
 
         Raises InputError where xarray is not installed.
         """
-        xarray, held = _installed("xarray"), self.quantities()
+        xarray, held = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
         for quantity in held.values():
             sizes = zip(quantity.axes, quantity.values.shape, strict=True)
@@ -227,7 +227,7 @@ def _labels(axis: str, size: int) -> list[Any]:
     return list("xyz"[:size]) if axis == "component" else list(range(1, size + 1))
 
 
-def _installed(name: str) -> Any:
+def optional_package(name: str) -> Any:
     """An optional package; raises InputError with the way to it."""
     try:
         return import_module(name)

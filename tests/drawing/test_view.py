@@ -3,12 +3,15 @@
 import base64
 import json
 import re
+import shutil
+import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from lagrotor import Scene, paired_scene, simulate
+from lagrotor import Scene, Structure, paired_scene, simulate
 from lagrotor.drawing import view_lines, view_times
 from lagrotor.errors import InputError
 
@@ -55,3 +58,80 @@ def test_what_does_not_move_is_refused() -> None:
         view_lines(view_times(0, 1), [], ["#000000"])
     with pytest.raises(InputError, match="not finite"):
         view_lines(view_times(0, 1), [np.full((31, 2, 3), np.nan)], ["#000000"])
+
+
+def test_a_structure_turns_and_plays() -> None:
+    """Its bars keep their lengths; two rotors and a bar, the paths of the two rotors' tips, colours by sense."""
+    run = Structure([(0, 0), (1, 0)], [(0, 1)], [10, -10]).simulate(
+        np.linspace(0, 2, 41), rates=[(0.5, 0), (0.5, 0)], tol=1e-6
+    )
+    held = motion_of(run.view().html)
+    assert [line["traced"] for line in held["lines"]] == [False, True, True]
+    assert len({line["ink"] for line in held["lines"]}) == 3
+    bar, first, _ = (points_of(held, row) for row in range(3))
+    assert np.allclose(np.linalg.norm(bar[:, 1] - bar[:, 0], axis=1), 1, atol=1e-3)
+    assert np.allclose(first[:, 1], bar[:, 0], atol=1e-3) and np.ptp(first[:, 1, 1]) > 0.05
+
+
+def widget_of_a_line() -> Any:
+    """A line that turns for two seconds."""
+    pytest.importorskip("anywidget", reason="anywidget is not installed")
+    t = view_times(0, 2)
+    turning = np.stack([np.zeros((len(t), 3)), np.stack([np.cos(t), np.sin(t), 0 * t], -1)], 1)
+    return view_lines(t, [turning], ["#123456"], "a line").widget()
+
+
+def test_the_time_of_two_widgets_is_one() -> None:
+    one, other = widget_of_a_line(), widget_of_a_line()
+    traitlets = pytest.importorskip("traitlets")
+    traitlets.link((one, "time"), (other, "time"))
+    one.time = 1.5
+    assert (other.time, other.playing) == (1.5, False)
+    with pytest.raises(traitlets.TraitError):
+        one.time = 3.0
+
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+# A model as a notebook has it, and what a reader does: Python sets the time, a hand moves the slider, Python lets it play.
+PAGE = """<!doctype html><body><div id="cell"></div><script type="module">
+const members = MEMBERS, heard = {}, cell = document.getElementById("cell");
+const model = {
+  get: (name) => members[name],
+  set(name, value) { if (members[name] !== value) { members[name] = value; heard["change:" + name]?.(); } },
+  save_changes() {},
+  on: (name, call) => { heard[name] = call; },
+  off: (name) => { delete heard[name]; },
+};
+const widget = await import(URL.createObjectURL(new Blob([ESM], { type: "text/javascript" })));
+const close = widget.default.render({ model, el: cell }), said = {};
+said.opened = cell.querySelector("output").textContent;
+model.set("time", 1.25);
+said.moved = cell.querySelector("output").textContent;
+cell.querySelector("input").value = 0.5;
+cell.querySelector("input").oninput();
+said.slid = members.time;
+cell.querySelector("button").onclick();
+said.playing = members.playing;
+model.set("playing", false);
+said.button = cell.querySelector("button").textContent;
+close();
+said.left = Object.keys(heard).length;
+document.body.innerHTML = "<pre>" + JSON.stringify(said) + "</pre>";
+</script></body>"""
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+def test_the_widget_shares_its_time_with_python(tmp_path: Path) -> None:
+    widget = widget_of_a_line()
+    members = {name: getattr(widget, name) for name in ("motion", "parts", "time", "playing")}
+    page = PAGE.replace("MEMBERS", json.dumps(members)).replace("ESM", json.dumps(str(widget._esm)))
+    file = tmp_path / "cell.html"
+    file.write_text(page, encoding="utf-8")
+    assert BROWSER is not None
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=4000", "--dump-dom"]
+    shown = subprocess.run([*command, file.as_uri()], capture_output=True, text=True, timeout=120, check=True).stdout
+    found = re.search(r"<pre>(.*)</pre>", shown)
+    assert found, shown[-500:]
+    assert json.loads(found[1]) == {
+        "opened": "t = 0.00 s", "moved": "t = 1.25 s", "slid": 0.5, "playing": True, "button": "Play", "left": 0,
+    }  # fmt: skip

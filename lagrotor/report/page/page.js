@@ -122,7 +122,7 @@ function fitFormulas() {
   }
   for (const formula of document.querySelectorAll("math:not([display=block])")) {
     const line = formula.closest("p, li, td, dd, figcaption, h3");
-    if (!line?.clientWidth || formula.getBoundingClientRect().width <= line.clientWidth || formula.closest(".wide")) continue;
+    if (!line?.clientWidth || formula.getBoundingClientRect().width <= line.clientWidth || formula.closest("span.wide, div.wide:not(:has(table))")) continue;
     const box = document.createElement("span");
     box.className = "wide";
     formula.replaceWith(box);

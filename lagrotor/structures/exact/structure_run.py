@@ -26,6 +26,8 @@ from lagrotor.structures.exact.written_out import right_hand_side
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from lagrotor.drawing.view import View
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StructureRun(Run):
@@ -126,11 +128,26 @@ class StructureRun(Run):
         """
         from lagrotor.drawing.film import check_film, frame_times
         from lagrotor.drawing.skeleton import animate_lines
-        from lagrotor.drawing.wheel import BAR, MARK, ROTORS
-        from lagrotor.numerics.rotations import between_samples
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         times = frame_times(float(self.t[0]), float(self.t[-1]), fps)
+        lines, inks = self._lines(times)
+        return animate_lines(path, times, lines, fps, inks)
+
+    def view(self) -> "View":
+        """The motion as a page that a notebook shows, turned by hand and played, without a network; colours as of `animate`."""
+        from lagrotor.drawing.view import view_lines, view_times
+
+        times = view_times(float(self.t[0]), float(self.t[-1]))
+        lines, inks = self._lines(times)
+        rotors = range(len(lines) - len(self.structure.joints), len(lines))
+        return view_lines(times, lines, inks, f"{len(rotors)} rotors, {len(self.structure.bars)} bars", rotors)
+
+    def _lines(self, times: Array) -> tuple[list[Array], list[str]]:
+        """Bars, braces, rotors at the times, each (m, 2, 3) in m, and their colours."""
+        from lagrotor.drawing.wheel import BAR, MARK, ROTORS
+        from lagrotor.numerics.rotations import between_samples
+
         axes, _ = between_samples(self.t, self.axes, self.rates, times)
         c = coefficients(self.structure)
         feet = np.broadcast_to(c.feet[:, None], axes.shape)
@@ -139,7 +156,7 @@ class StructureRun(Run):
         far = np.where(c.brace_to[:, None, None] >= 0, tips[c.brace_to], c.brace_point[:, None])
         lines = [*bars, *np.stack([far, tips[c.brace_tip]], 2), *np.stack([feet, tips], 2)]
         rotors = [BAR if spin == 0 else ROTORS[spin < 0] for spin in self.structure.spins]
-        return animate_lines(path, times, lines, fps, [*[BAR] * len(bars), *[MARK] * len(far), *rotors])
+        return lines, [*[BAR] * len(bars), *[MARK] * len(far), *rotors]
 
 
 _PATIENCE = Patience(50_000, 2_000 * 2 * pi)

@@ -206,6 +206,7 @@ def scattered(files: dict[str, str]) -> list[str]:
             target, _, place = link.partition("#")
             file = posixpath.normpath(posixpath.join(posixpath.dirname(name), target)) if target else name
             there = place in readers[file].ids if place and file in readers else file in files or file in CONTENTS
+            there |= link == "data:,"  # of no icon
             result += [f"{name}: leads nowhere: {link}"] * (not there)
         for image in reader.all("img", "src"):
             up = "../" * name.count("/")
