@@ -367,8 +367,8 @@ Remark(
 # %%
 kappa_over_a = (coefficients(with_friction).gravity * coefficients(with_friction).S / coefficients(with_friction).A)[0]
 Remark(
-    "Friction undoes it slowly",
-    "A corner that spins of 40 rad/s hold upright falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
+    "With friction it falls slowly",
+    "A corner that stands with spins of 40 rad/s falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
     f"{1 / falling.growth:.2f} s, "
     f"measured on the exact motion every {1 / measured_growth(with_friction, folds=0.2):.2f} s; without spin every "
     f"{kappa_over_a**-0.5:.2f} s.",

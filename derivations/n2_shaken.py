@@ -291,10 +291,10 @@ assert all(abs(one / spins_worst_case(ratio).value - 1) < 2e-5 for ratio, (one, 
 even = float(spins_win_worst_case(1 / 50))
 turning = pair(even, spins_worst_case(even)).spins[0]
 Remark(
-    "Who wins",
+    "Spins against a tuned mass",
     f"A tuned mass of the discs' mass (μ = 1/50) brings the peak to {float(mass_worst_case(1 / 50).value):.2f}; "
-    "the discs spinning do as "
-    f"well from γ = {even:.4f} on, {turning:.0f} rad/s against a sway of {2 * np.pi:.2f} rad/s; under white noise from "
+    "spinning discs do as well from "
+    f"γ = {even:.4f} on, a spin of {turning:.0f} rad/s for a sway of {2 * np.pi:.2f} rad/s; under white noise from "
     f"γ = {float(spins_win_white_noise(1 / 50)):.4f}. Peaks of the structure against the least peak: "
     + ", ".join(
         f"γ = {ratio}: {one:.4f} against {float(spins_worst_case(ratio).value):.4f}"
@@ -327,8 +327,7 @@ Remark(
 deaf = pair(0.4, spins_white_noise(0.4)).response(2 * np.pi, ground=(0, 1))[0]
 assert np.abs(deaf[:, 0]).max() < 1e-12 * np.abs(deaf).max()
 Remark(
-    "What opposite spins leave alone",
-    "A ground that shakes across the bar moves both tips across it as if nothing spun: opposite spins act on "
-    "sway along the "
-    "bar and on yaw, not on sway across; equal spins act on both sways and leave yaw alone.",
+    "On which motions the spins act",
+    "A ground that shakes across the bar moves both tips across it as it does without spins: opposite spins act on sway along "
+    "the bar and on yaw, not on sway across; equal spins act on both sways, not on yaw.",
 )

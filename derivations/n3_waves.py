@@ -254,7 +254,8 @@ for angle in (pi / 6, 0.9, pi / 2):
 assert worst < 1e-12
 Remark(
     "Open zigzags",
-    "Of 16, 32 and 64 rotors at 30°, 51.6° and 90°, equal spins and in turn, every rate is the closed form's within "
+    "Of 16, 32 and 64 rotors at 30°, 51.6° and 90°, with equal and with alternating spins, every rate is the closed form's "
+    "within "
     f"{worst:.0e}.",
 )
 
@@ -383,8 +384,9 @@ counted = {
 lines = dispersion(square(spins=10.0), [[0.0, 1.0], [1.0, 0.0], [0.0, 0.0]]).dof
 assert [v.zero_bands for v in counted.values()] == [1, 0, 1, 0, 0] and lines.tolist() == [1, 1, 2]
 Remark(
-    "Freedoms a cell, and how many of them nothing acts on",
-    "; ".join(f"{name}: {v.dof.min()}, {v.zero_bands}" for name, v in counted.items())
+    "Degrees of freedom per cell, and bands at rate zero",
+    "In this order, "
+    + "; ".join(f"{name}: {v.dof.min()}, {v.zero_bands}" for name, v in counted.items())
     + f". The square net has {lines[0]} on the lines q_x = 0 and q_y = 0 and {lines[2]} at q = 0.",
 )
 
@@ -486,9 +488,10 @@ for N in (5, 9, 17, 33):
 two = zigzag(pi / 2, spins=(12.0, -7.0)).dispersion(np.linspace(0, 2 * pi, 61))
 assert np.allclose(two.gaps, [(0, 5 / 2 / Rotor().J)], rtol=1e-9)
 Remark(
-    "A gap that makes long rows stand",
-    "Least spin in √(a|κ|)/I3 of staircases under load, all spinning alike against every second at rest: "
-    + "; ".join(f"N = {N}: {all_:.2f} against {half:.2f}" for N, (all_, half) in least_spins.items())
+    "Long rows stand with every second rotor at rest",
+    "Least spin, in √(a|κ|)/I_3, at which a staircase of N rotors stands under load, with all spins equal and with every second "
+    "rotor at rest: "
+    + "; ".join(f"N = {N}: {all_:.2f} and {half:.2f}" for N, (all_, half) in least_spins.items())
     + ".",
 )
 

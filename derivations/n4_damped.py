@@ -83,7 +83,7 @@ decays = {link.inertia: decayed(link, 0.4) for link in bars}
 assert all(abs(found / closed - 1) < 1e-4 for closed, found in decays.values())
 Remark(
     "The decay on the exact motion",
-    "ac/(a² − b²) against exact runs of amplitude 0.01, c = 0.4 N m s/rad, 1/s: "
+    "Rate of decay in 1/s by the law ac/(a² − b²), and of exact runs of amplitude 0.01 with c = 0.4 N m s/rad: "
     + "; ".join(f"bar of 1 kg and {K:g} kg m²: {closed:.6f}, {found:.6f}" for K, (closed, found) in decays.items())
     + ".",
 )
@@ -183,7 +183,8 @@ assert all(
 )
 Remark(
     "Friction topples the paired precession",
-    "Exact runs from amplitude 0.1 and 10 rad/s until nothing moves; angle about the joint line, ΔP/2c, closed form: "
+    "Angle in rad about the joint line at which exact runs from amplitude 0.1 with spins of ±10 rad/s come to rest, the same by "
+    "ΔP/2c, and by the closed form: "
     + "; ".join(
         f"bar of {mass:g} kg, c = {friction:g}: {found:.4f}, {whole:.4f}, {closed:.4f}"
         for (mass, friction), (found, whole, closed) in toppled.items()
@@ -276,8 +277,8 @@ halved = {(link.mass, narrow): slowed(link, narrow) for link in (Link(), Link(1,
 assert all(abs(found / closed - 1) < 0.02 and change < 1e-7 for found, closed, change in halved.values())
 Remark(
     "Spin-down topples too",
-    "Exact runs until the spins of ±40 rad/s have halved in 3.5 s, c = 0; minus the mean angle of a turn then about the "
-    "joint line, closed form, rad: "
+    "The mean angle in rad about the joint line, with its sign changed, over the turn in which spins of ±40 rad/s have halved "
+    "(after 3.5 s, c = 0), on exact runs and by the closed form: "
     + "; ".join(
         f"bar of {mass:g} kg, amplitude {narrow:g}: {-found:.4f}, {-closed:.4f}"
         for (mass, narrow), (found, closed, _) in halved.items()

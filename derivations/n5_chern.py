@@ -140,7 +140,7 @@ def packet(spins: float) -> tuple[tuple[int, ...], float, float]:
 (clockwise, gone, off), (against, back, _) = packet(20.0), packet(-20.0)
 assert clockwise[0] == -1 and against[0] == 1 and gone < -np.pi < np.pi < back
 Remark(
-    "Where the packet goes",
+    "A wave packet on the border",
     f"32 rotors, springs of 100 N/m, hinges of 100 N m/rad. With spins of 20 rad/s, Chern numbers "
     f"{', '.join(map(str, clockwise))}, the packet has come round by {gone:.2f} rad after 5 s; with reversed spins by "
     f"+{back:.2f} rad. The error of the run is {off:.0e}.",

@@ -148,10 +148,11 @@ seen = [measured_fall(at_third, push * rate * direction, 2 / (push * rate))[0] *
 slope = float(np.polyfit(np.log(pushes), np.log(seen), 1)[0])
 assert abs(slope + 1) < 0.1 and all(abs(x - y) < 5 for x, y in zip(said, seen, strict=True))
 Remark(
-    "It falls from any push",
-    f"At {third / critical:.4f} times its critical spins the corner's slow precessions have {-resonance.rates[0] / rate:.4f}, "
+    "At the resonance any push makes it fall",
+    f"At {third / critical:.4f} times its critical spins the corner's slow precessions have the rate "
+    f"{-resonance.rates[0] / rate:.4f}, "
     f"the fast ones {resonance.rates[-1] / rate:.4f} √(κ/a); c = {resonance.growth / rate:.4f}. No push of "
-    f"{pushes[-1]} √(κ/a) falls "
+    f"{pushes[-1]} √(κ/a) makes it fall "
     f"before {standing.fall_time(pushes[-1] * rate) * rate:.1f}; pushed by {', '.join(map(str, pushes))} in one direction it "
     f"falls after {', '.join(f'{x:.1f}' for x in seen)} on exact runs, {', '.join(f'{x:.1f}' for x in said)} by the normal form "
     f"of fourth order, in √(a/κ): slope −{-slope:.3f} against −1.",
@@ -160,8 +161,9 @@ Remark(
 # %%
 low, high = resonance.window(0.01 * rate)
 Remark(
-    "How wide it is",
-    f"A push of 0.01 √(κ/a) may fall between {low / critical:.4f} and {high / critical:.4f} times the critical spins, a window "
+    "The width of the resonance",
+    f"A push of 0.01 √(κ/a) may make it fall between {low / critical:.4f} and {high / critical:.4f} times the critical spins, a "
+    "window "
     "that grows with the push. "
     f"At {fourth / critical:.4f}, where three slow rates are a fast one, the terms of fourth order do the same more "
     f"slowly, as one over the square of the push: not before {slower.least_time(0.06 * rate) * rate:.0f} for 0.06.",
@@ -172,7 +174,7 @@ equal = replace(corner, spins=1)
 holding = replace(equal, spins=1.0607 * equal.critical_spin()).stands()
 assert holding.kind == "holds"
 Remark(
-    "Equal spins hold",
+    "Equal spins do not fall by it",
     "On the same corner with three equal spins the rates add up at the same factor, but the coefficient vanishes: at 1.0607 "
-    f"times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) falls by it.",
+    f"times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) makes it fall.",
 )

@@ -92,8 +92,8 @@ rows = (
         "an ansatz of first order, with the bar at the wrong length",
         ("a periodic orbit as a series of any order, for any bar:", series, momentum),
         f"slopes of the error: frequency {t3['slopes']['frequency']:.3f} for 4, momentum {t3['slopes']['momentum']:.3f} for 6; "
-        f"at r_0 = {t3['amplitudes'][-1]} the frequency is off by {t3['off']['frequency'][-1]:.1e}, at most "
-        f"{t3['bounds']['frequency'][-1]:.1e} given",
+        f"at r_0 = {t3['amplitudes'][-1]} the frequency is off by {t3['off']['frequency'][-1]:.1e}, bound "
+        f"{t3['bounds']['frequency'][-1]:.1e}",
         FigureLink("t3"),
     ),
     (
@@ -107,7 +107,7 @@ rows = (
         "its stability",
         "none",
         (
-            "elliptic for b > 0, hyperbolic for b ≤ 0 at small amplitude; growth by lambda a radian, leading term:",
+            "elliptic for b > 0, hyperbolic for b ≤ 0 at small amplitude; growth lambda per radian, leading term:",
             stability,
         ),
         f"{powers}; edge between the two at sigma = 1.2, k = 1: r_0 = {said:.3f} ± {given:.3f}, exact {seen:.3f}",
@@ -116,7 +116,10 @@ rows = (
     (
         "drift after a shock",
         "a force of −11 N along y, without a reason",
-        ("a twist costs momentum about the joint line, and the pair turns; second order. What cancels it:", cancelling),
+        (
+            "a twist takes momentum about the joint line, so that the pair turns; second order. The impulse that cancels it:",
+            cancelling,
+        ),
         f"{t6['tried'][1]:.2f} N to second order; on exact runs {cancelled}",
         FigureLink("t6"),
     ),
@@ -147,7 +150,7 @@ rows = (
         "conserved quantities",
         "A and B",
         ("E, G_1, G_2 and P, and along the paired precession no other; B holds, A does not",),
-        f"drift over 3 s at most {max(t10['drift'].values()):.1e}; A swings as r_0 to the {t10['order']:.2f}",
+        f"drift over 3 s at most {max(t10['drift'].values()):.1e}; the swing of A goes as r_0 to the power {t10['order']:.2f}",
         FigureLink("t10"),
     ),
     (
@@ -170,7 +173,7 @@ rows = (
         "none",
         (
             "the rate shifts by c r_0² of itself, one formula from equal (ζ = 0) to opposite spins (ζ = 1); a twist grows by "
-            "lambda a radian, leading term:",
+            "lambda per radian, leading term:",
             t12["law"],
             equal(power**2, t12["growth"]),
         ),
@@ -188,7 +191,8 @@ rows = (
             "that stays, c the coefficient of third order:",
             equal(reached, n6["edge"]),
         ),
-        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: times as the push to the "
+        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: the time goes as the push to the "
+        "power "
         f"−{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
         FigureLink("n6"),
     ),

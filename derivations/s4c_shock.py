@@ -43,5 +43,5 @@ prove(impulse**2, plane, "the square of the impulse", names=r"\left(\int F\,dt\r
 Remark(
     "The impulse of the shock",
     f"The impulse is {impulse.subs(own)} = {float(impulse.subs(own)):.4g} N s over all time. The run begins "
-    f"{own[t_0] / own[w]} widths before the peak and misses none of it that a double could hold.",
+    f"{own[t_0] / own[w]} widths before the peak; what it leaves out is below the rounding of a double.",
 )

@@ -177,15 +177,16 @@ paper_mean, paper_linear
 
 # %%
 Remark(
-    "Across the joint line it topples as if nothing were spinning",
-    "S = y₁ + y₂ feels no spin: the gyroscopic forces of the common motion along the bar are equal and opposite, and the bar "
-    "carries them. A steady force across gives S the acceleration RF/(a + b), with spins and without.",
+    "Across the joint line it topples as without spins",
+    "The spins drop out of the equation of S = y₁ + y₂: the gyroscopic forces of the common motion along the bar are equal and "
+    "opposite, and the bar carries them. A steady force across gives S the acceleration RF/(a + b), with spins and without.",
 )
 
 # %%
 Remark(
     "Along the joint line it is held, while the twist is small",
-    "A steady force F along x moves X by RF/((a + b)Ω²) at most; the twist gives way, at RF/G. A force across on one tip alone "
+    "A steady force F along x moves X by RF/((a + b)Ω²) at most; the twist grows at the rate RF/G. A force across on one tip "
+    "alone "
     "is not held: X drifts at −RF/(2G).",
 )
 
@@ -203,7 +204,8 @@ Remark(
 # %%
 Remark(
     "An impulse along x parts the two centres in y",
-    "D swings about RP/G: the centres of precession lie apart across the joint line. The shock of 5.2.1 leaves y₁ − y₂ = "
+    "D = y₁ − y₂ swings about RP/G: the centres of precession lie apart across the joint line. The shock of 5.2.1 leaves y₁ − "
+    "y₂ = "
     f"{skew_twist:.4f} and X = {skew_x:.4f} on average, a skewness such as figure 23 shows.",
 )
 

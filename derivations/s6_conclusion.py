@@ -145,8 +145,8 @@ prove(
 # %%
 Remark(
     "Where the third degree of freedom is",
-    "The precession centre, a displacement in x and one in y₁ − y₂, rests where a shock leaves it: two constants of the "
-    "linear pair, and with the two of toppling the four zero roots.",
+    "The precession centre, displaced in x and in y₁ − y₂, stays where a shock leaves it. These are two constants of the linear "
+    "pair; with the two of toppling they are the four zero roots.",
 )
 
 # %% [markdown]

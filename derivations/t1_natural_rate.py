@@ -235,5 +235,5 @@ Remark(
         f"{100 * off:.2g} % at r = {r} (bound {100 * bound:.2g} %)"
         for r, off, bound in zip(amplitudes, shifts, bounds, strict=True)
     )
-    + f"; measured power {slope:.2f}. Refused beyond r = 0.4, and where the shift may pass 0.12.",
+    + f"; measured power {slope:.2f}. Amplitudes beyond r = 0.4 are refused, and those whose shift may pass 0.12.",
 )

@@ -164,7 +164,7 @@ Formula(equal_x * att**2, "E")
 
 # %%
 Remark(
-    "100 to 100.45",
+    "The energy of the shock, 100 to 100.45 J",
     "A shock along x gives equal spins p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) J: in the paper's scene "
     f"100 + {answer.energy:.5f} J, exactly {exact:.5f} J. Without the factor of the width 100 + {answer.impulse_energy:.5f} J.",
 )

@@ -351,8 +351,10 @@ assert all(one < most for name in off for one, most in zip(off[name], bounds[nam
 Remark(
     "Frequency and momentum of the paired precession",
     f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]}: the frequency through r_0³ is off by "
-    f"{off['frequency'][-1]:.1e}, at most {bounds['frequency'][-1]:.1e} given; P/G through r_0⁴ by {off['momentum'][-1]:.1e}, "
-    f"at most {bounds['momentum'][-1]:.1e} given. Slopes of the errors: {slopes['frequency']:.2f} and {slopes['momentum']:.2f}. "
+    f"{off['frequency'][-1]:.1e}, with an error bound of {bounds['frequency'][-1]:.1e}; P/G through r_0⁴ by "
+    f"{off['momentum'][-1]:.1e}, "
+    f"with a bound of {bounds['momentum'][-1]:.1e}. Slopes of the errors: {slopes['frequency']:.2f} and "
+    f"{slopes['momentum']:.2f}. "
     "A pair at rest has P = 0: a shock along x alone cannot put it on this orbit.",
 )
 
@@ -367,8 +369,8 @@ reach = {
 third_order = np.array(corrected_trajectories(3)(0.2, phases, *bar_of)).reshape(2, 3, -1).transpose(0, 2, 1)
 assert all(one < most for one, most in reach.values())
 Remark(
-    "The axes",
-    "Largest distance of an axis from the exact orbit over a turn at r_0 = 0.2, and the error given: "
+    "Error of the axes",
+    "Largest distance of an axis from the exact orbit over one turn at r_0 = 0.2, and its error bound: "
     + "; ".join(f"order {order}: {one:.1e}, {most:.1e}" for order, (one, most) in reach.items())
     + f". Through r_0³ it is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
 )

@@ -41,7 +41,7 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The gallery of `lagrotor structure`, from above; 2 kg on each tip but for the pair, which has no weight and drifts "
+    "The gallery of lagrotor structure, from above; 2 kg on each tip but for the pair, which has no weight and drifts "
     f"after a push. {int(data()['stands'].sum())} of {len(GALLERY)} stand; under weight without a brace none with an odd "
     "number of bars does. Least factors on the spins shown: "
     + ", ".join(f"{name.removeprefix('least factor, ')} {factor:.3f}" for name, factor in measure().items())

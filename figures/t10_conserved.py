@@ -60,7 +60,7 @@ ALT = (
 CAPTION = (
     f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², one turn of the exact orbit, tolerance 1e-12; what is "
     f"smaller than {FLOOR:g} is drawn there: the axial momenta are parameters of the reduced models. E, G_1, P and B = G_1 − "
-    f"G_2 swing by {_largest:.1e} at most; the paper's A by {_swing:.3f} kg m²/s at r_0 = 0.2, as the amplitude to the "
+    f"G_2 swing by {_largest:.1e} at most; the paper's A by {_swing:.3f} kg m²/s at r_0 = 0.2, as the amplitude to the power "
     f"{_power:.2f}."
 )
 

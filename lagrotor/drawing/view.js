@@ -1,5 +1,5 @@
-// Turns and plays the lines of a motion in the elements of `root`; `told` hears the time and whether it plays, as they change.
-function showMotion(root, motion, told = () => {}) {
+// Turns and plays the lines of a motion in the elements of `root`; `changed` is called with the time and whether it plays, as they change.
+function showMotion(root, motion, changed = () => {}) {
   const [canvas, slider, clock, button, speed] = ["canvas", "input", "output", "button", "select"].map((name) => root.querySelector(name));
   const { t, unit, middle } = motion, eye = { azimuth: -1.25, elevation: 0.3 };
   const begin = t[0], end = t[t.length - 1];
@@ -52,7 +52,7 @@ function showMotion(root, motion, told = () => {}) {
     }
     slider.value = now;
     clock.textContent = `t = ${fixed(now, 2)} s`;
-    told({ time: now, playing });
+    changed({ time: now, playing });
   }
 
   function tick(time) {

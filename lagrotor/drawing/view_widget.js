@@ -4,20 +4,20 @@ const EVERY = 100; // ms
 
 export default {
   render({ model, el }) {
-    let sent = 0, told = model.get("time");
+    let sent = 0, shared = model.get("time");
     el.classList.add("motion");
     el.innerHTML = model.get("parts");
     const shown = showMotion(el, model.get("motion"), ({ time, playing }) => {
       if (playing && playing === model.get("playing") && performance.now() - sent < EVERY) return;
       sent = performance.now();
-      told = time;
+      shared = time;
       model.set("time", time);
       model.set("playing", playing);
       model.save_changes();
     });
-    const seek = () => model.get("time") !== told && shown.seek(model.get("time"));
+    const seek = () => model.get("time") !== shared && shown.seek(model.get("time"));
     const play = () => shown.play(model.get("playing"));
-    shown.seek(told);
+    shown.seek(shared);
     play();
     model.on("change:time", seek);
     model.on("change:playing", play);

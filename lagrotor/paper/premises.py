@@ -44,7 +44,7 @@ class Premise:
 
     @property
     def _breach(self) -> str:
-        return f" (broken by the paper's own scene: {self.broken})" if self.broken else ""
+        return f" (not met by the paper's own scene: {self.broken})" if self.broken else ""
 
     @property
     def equations(self) -> tuple[tuple[sp.Basic, Any], ...]:

@@ -92,8 +92,8 @@ def note(verdict: Verdict) -> str:
     """What a table says beside the verdict's word: why it is refuted, or the order and the condition in short."""
     if verdict.verdict == "refuted":
         return verdict.statement.wrong
-    parts = [premise.says for premise in verdict.premises]
+    parts = list(dict.fromkeys(premise.says for premise in verdict.premises))
     if verdict.order is not None and verdict.small is not None:
         parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(parts) + (". The paper's own scene breaks this." if broken else "")
+    return "; ".join(parts) + (". The paper's own scene does not meet this." if broken else "")

@@ -95,7 +95,7 @@ def test_a_number_read_off_is_held_to_a_rate_with_roots_and_to_its_sign() -> Non
 
 def test_a_premise_that_the_paper_breaks_says_by_how_much() -> None:
     equal = about_parameters("J = I₃", {J: I3})
-    assert equal.sentence == "J = I₃ (broken by the paper's own scene: J = 1.25, I₃ = 1)"
+    assert equal.sentence == "J = I₃ (not met by the paper's own scene: J = 1.25, I₃ = 1)"
     kept = about_parameters("I₁ = I₃", {I1: I3})
     assert kept.sentence == "I₁ = I₃"
 

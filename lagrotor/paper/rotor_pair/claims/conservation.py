@@ -97,7 +97,8 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
             Part(TO_100_45, all(after)),
             Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < LAST_DIGIT, drained),
         ),
-        f"From {m['before_J']:.2f} to {m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, "
+        f"The energy rises from {m['before_J']:.2f} to {m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J "
+        "exactly, "
         f"{m['after_closed_form_J']:.4f} J by P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to "
         f"{scientific(m['swing_in_8_s_exact_J'])} J; the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 "
         f"s. S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} "
@@ -167,12 +168,13 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
             Part(ANGULAR, min(about_ground, about_middle, about_line) > CONSERVED, needs),
             Part(BY_GROUNDS, caused),
         ),
-        f"After the shock, over its impulse, the momentum swings by {m['momentum_swing']:.2f}, the angular momentum by "
+        f"After the shock, per unit of its impulse, the momentum swings by {m['momentum_swing']:.2f}, and the angular momentum "
+        "by "
         f"{about_ground:.2f} m about ground 1, by {scientific(about_middle)} m about the middle between the grounds, by "
         f"{scientific(about_line)} m about the line through them, about which the grounds have no moment. The same bodies "
         f"without grounds keep both, to {scientific(m['momentum_swing_without_grounds'])} and "
         f"{scientific(m['angular_momentum_swing_without_grounds'])} m. The paper's own run, with parallel axes, thus has a "
-        "conserved angular momentum, about the middle, that could have served as a check.",
+        "conserved angular momentum, about the middle, which could have served as a check.",
     )
 
 

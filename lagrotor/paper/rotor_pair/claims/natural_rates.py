@@ -171,13 +171,14 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
     bar = "the bar m = K = 1" if first else "the bar m = 0.01 kg, K = 0.1 kg m²" if second else ""
     return Finding(
         (Part(FOLLOWS, all(follows), bar),),
-        f"Rates after a small shock {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
+        f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
         f"0.1; after 40 N {large[0]:.3f} ({m['rate_springs_m_1_K_1']:.3f} with springs), {large[1]:.3f}, {large[2]:.3f}. "
-        f"A wave of {OPPOSITE_RATE:.1f} rad/s keeps within a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, "
-        f"{cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, {more[1]:.1f}, {more[2]:.1f}), where the first few are "
-        f"{FEW} at least; the third bar, with the mass of the first and the inertia of the second, is in no listing. With m "
-        f"= 1 kg it would take K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; "
-        f"equal spins 10 have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"A sine of {OPPOSITE_RATE:.1f} rad/s keeps within a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, "
+        f"{cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, {more[1]:.1f}, {more[2]:.1f}), while the first few would be "
+        f"{FEW} at least. The third bar, with the mass of the first and the inertia of the second, is in no listing. With m "
+        f"= 1 kg the constant would need K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not "
+        "list; "
+        f"equal spins of 10 rad/s have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 

@@ -129,7 +129,7 @@ def decide_c04(m: Mapping[str, float]) -> Finding:
             Part(NO_INVERSION, m["inversions_in_200_steps"] == 0),
             Part(SOLVED, m["off_the_solved_omega_relative"] < _ROUNDING),
         ),
-        f"{m['inversions_in_200_steps']:.0f} inversions in 200 steps, while the inertia changed by "
+        f"In 200 steps {m['inversions_in_200_steps']:.0f} matrices are inverted, while the inertia changes by "
         f"{m['inertia_changed_by_kg_m2']:.2f} kg m²; Ω agrees with the solved one to "
         f"{scientific(m['off_the_solved_omega_relative'])}. The transform must be R I₀⁻¹ Rᵀ: the printed Rᵀ I₀⁻¹ R gives a "
         f"body of unequal inertia an Ω off by {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",

@@ -210,7 +210,7 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
     how = (
         f"In the 8 s of the paper's runs |x| stays below {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along "
         f"+x, −x, +y, −y, while the pair turns about the joint line by {turned[0]:.2f}, {turned[1]:.2f}, {turned[2]:.2f}, "
-        f"{turned[3]:.2f} rad, by {min(per_turn):.2f} to {max(per_turn):.2f} rad in one turn of the natural rate."
+        f"{turned[3]:.2f} rad, by {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
     )
     if "power_of_shock_in_time_x" not in m:
         return Finding(parts, f"{how} x passes {FALLEN} {_when(m, '+x')} (+x) and {_when(m, '-y')} (−y).")

@@ -75,7 +75,7 @@ def decide_c12(m: Mapping[str, float]) -> Finding:
         f"{m['largest_angle_of_axes_rad_own']:.2f} rad ({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s), and x reaches "
         f"{x:.2f} of what it would without spins, which is what (7) gives; with K = {bars[0]:g}, {bars[1]:g}, "
         f"{bars[2]:g} kg m² against the twist it is {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of it, and the angle "
-        f"goes down to {m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad. With ℓ = R the angle between the axes is the one by "
+        f"falls to {m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad. With ℓ = R the angle between the axes is the one by "
         "which the bar has turned out of the line of the grounds.",
     )
 

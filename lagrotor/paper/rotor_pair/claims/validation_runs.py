@@ -78,11 +78,11 @@ def decide_c06(m: Mapping[str, float]) -> Finding:
                 abs(m["placed_right_J"] - PRINTED_ENERGY) < _HALF_UNIT and m["placed_right_swing_J"] < _HALF_UNIT,
             ),
         ),
-        f"Placed half a metre too high the energy rises from {m['start_J']:.0f} to {m['peak_J']:.1f} J at "
+        f"With the bar half a metre too high the energy rises from {m['start_J']:.0f} to {m['peak_J']:.1f} J at "
         f"{1e3 * m['peak_at_s']:.0f} ms, is within a tenth of that rise from "
         f"{1e3 * m['below_a_tenth_of_the_peak_from_s']:.0f} ms on, within a thousandth from "
         f"{1e3 * m['below_a_thousandth_of_the_peak_from_s']:.0f} ms on, and ends at {m['after_0.6_s_J']:.2f} J; "
-        f"placed right it is {m['placed_right_J']:.2f} J with a swing of {scientific(m['placed_right_swing_J'])} J.",
+        f"with the bar in its place it is {m['placed_right_J']:.2f} J with a swing of {scientific(m['placed_right_swing_J'])} J.",
     )
 
 
