@@ -193,6 +193,11 @@ class Equations:
         """The velocities of a state (q, u): those of one's own, or v."""
         return tuple(u for u, _ in self.velocities) or self.c.v
 
+    @property
+    def rates(self) -> tuple[sp.Symbol, ...]:
+        """Their derivatives: the names of u with _dot, or a."""
+        return tuple(sp.Symbol(f"{u}_dot", real=True) for u, _ in self.velocities) or self.c.a
+
     @cached_property
     def kinematics(self) -> Kinematics | None:
         """How v follows from velocities of one's own, where there are any."""
@@ -273,10 +278,9 @@ class Equations:
             raise InputError(f"hamel: the system {lack}")
         put = dict(zip(self.c.v, given.velocity, strict=True))
         M, h = boltzmann_hamel(self.L, self.c, given, self.speeds)
-        rates = sp.Matrix([sp.Symbol(f"{u}_dot", real=True) for u in self.speeds])
         lam = sp.Matrix(len(given.left), 1, [self.multipliers[i] for i in given.left])
-        rows = self.rows.extract(list(given.left), list(range(len(self.c.q))))
-        return M * rates + h - given.B.T * (self.push + rows.T * lam).xreplace(put)
+        reactions = rows_left(self)[0].T * lam
+        return M * sp.Matrix(self.rates) + h - (given.B.T * self.push + reactions).xreplace(put)
 
     @property
     def energy(self) -> sp.Expr:
@@ -290,6 +294,16 @@ class Equations:
         work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
         by_time = derivative(self.L, t)
         return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+
+
+def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
+    """The rows and γ of the constraints that multipliers keep, for u'."""
+    given = system.kinematics
+    if given is None:
+        return system.rows, system.gamma
+    every = list(range(len(system.c.q)))
+    G, gamma = system.rows.extract(list(given.left), every), system.gamma.extract(list(given.left), [0])
+    return G * given.B, G * given.alpha + gamma
 
 
 def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:

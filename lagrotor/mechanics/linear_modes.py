@@ -4,7 +4,7 @@ Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 6; Merkin, Introduct
 Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel forms).
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,12 +95,28 @@ class LinearSystem:
         Factors that are positive by the symbols' assumptions are divided out. Zero roots, of cyclic coordinates, are left
         aside.
         """
-        polynomial = sp.Poly(self.characteristic(_S), _S)
-        coefficients = [_reduce(c) for c in polynomial.all_coeffs()]
-        while coefficients and _is_zero(coefficients[-1]):
-            coefficients.pop()
-        even = all(_is_zero(c) for c in coefficients[1::2])
-        return _conjunction(_all_negative(coefficients[::2]) if even else _hurwitz(coefficients))
+        return stability_condition(sp.Poly(self.characteristic(_S), _S))
+
+
+def stability_condition(polynomial: sp.Poly) -> sp.Basic:
+    """When the roots of a characteristic polynomial are as `LinearSystem.stable_if` says."""
+    coefficients = [_reduce(c) for c in polynomial.all_coeffs()]
+    while coefficients and _is_zero(coefficients[-1]):
+        coefficients.pop()
+    even = all(_is_zero(c) for c in coefficients[1::2])
+    return _conjunction(_all_negative(coefficients[::2]) if even else _hurwitz(coefficients))
+
+
+def point_of(where: str, system: Equations, at: Mapping[Any, Any], letters: Iterable[sp.Symbol]) -> dict[Any, Any]:
+    """The point by symbol. Raises InputError for a name that is neither a coordinate, a velocity nor one of the letters."""
+    known = {*letters} - {*system.c.v} | {*system.speeds}
+    point = by_symbol(at, known)
+    if strangers := [str(s) for s in point if s not in known]:
+        raise InputError(
+            f"{where}: {', '.join(strangers)} in the point: it gives coordinates, velocities "
+            f"({', '.join(map(str, system.speeds))}) and letters of the system"
+        )
+    return point
 
 
 def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> LinearSystem:
@@ -114,7 +130,9 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     dependent there; InputError when something depends on time.
     """
     c = system.c
-    point = by_symbol(at.at if isinstance(at, Equilibrium) else at, {*c.q, *c.v} | system.L.free_symbols)
+    letters = {*c.q, *system.speeds} | system.L.free_symbols | system.motion.free_symbols | system.residual.free_symbols
+    place = point_of("linearise", system, at.at if isinstance(at, Equilibrium) else at, letters)
+    point = {s: x for s, x in place.items() if s in c.v or s not in system.speeds}  # those of one's own are zero
     used = system.motion.free_symbols | system.residual.free_symbols
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")

@@ -4,7 +4,8 @@ With M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v and o
 
     M δa − Gᵀ δλ = −(∂F/∂q δq + ∂F/∂v δv + ∂F/∂u δu),        G δa = −(∂γ/∂q δq + ∂γ/∂v δv),
 
-F the left side at a = 0. On the constraints Φ = (g, G v + b) = 0 some of (q, v) are given by the others, the states x.
+F the left side at a = 0. On the constraints Φ = (g, G v + b) = 0 some of (q, v) are given by the others, the states x. For
+velocities of one's own, Boltzmann's and Hamel's equations stand in the place of F, and ball joints turn as in `small_turns`.
 
 Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 """
@@ -20,14 +21,17 @@ from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 from lagrotor.algebra import along, decide_zero
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol, expression, put_in, shortest
+from lagrotor.mechanics.equations import Equations, rows_left
+from lagrotor.mechanics.expressions import expression, put_in, shortest
 from lagrotor.mechanics.lagrangian import jacobian, t
+from lagrotor.mechanics.linear_modes import point_of, stability_condition
+from lagrotor.mechanics.small_turns import small_states, small_turns
 
 
 @dataclass(frozen=True, eq=False)
 class StateEquations:
-    """x' = A x + B u, y = C x + D u in symbols, for small x: changes of `states`, coordinates and velocities."""
+    """x' = A x + B u, y = C x + D u in symbols, for small x: changes of `states`, coordinates and velocities; turn_p is the small
+    turn of a ball joint about the axis of p, in its turned axes."""
 
     states: tuple[sp.Symbol, ...]
     A: sp.Matrix
@@ -39,6 +43,12 @@ class StateEquations:
         """det(s − A), factored."""
         return sp.factor(self.A.charpoly(s).as_expr())
 
+    @property
+    def stable_if(self) -> sp.Basic:
+        """When every motion but a drift stays bounded or decays: see `LinearSystem.stable_if`."""
+        s = sp.Symbol("s")
+        return stability_condition(sp.Poly(self.characteristic(s), s))
+
 
 def state_equations(
     system: Equations, at: Mapping[Any, Any], inputs: Sequence[sp.Symbol] = (), outputs: Sequence[sp.Expr] = ()
@@ -49,71 +59,89 @@ def state_equations(
     Raises SingularError where accelerations are left or the point is singular, InputError for a coordinate without a value, for
     coefficients that change with time, or a point that is off the constraints.
     """
-    c, n = system.c, len(system.c.q)
-    wanted = tuple(expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs))
-    letters = {*c.q, *c.v} | system.L.free_symbols | system.push.free_symbols | system.residual.free_symbols
-    if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, t)]:
+    c, speeds = system.c, system.speeds
+    m = len(speeds)
+    V, F = (sp.Matrix(c.v), system.motion) if system.kinematics is None else (system.kinematics.velocity, system.hamel)
+    put = dict(zip(c.v, V, strict=True))
+    wanted = [_in_speeds(system, expression(f"linearise: outputs[{i}]", e), put) for i, e in enumerate(outputs)]
+    G, gamma = (e.xreplace(put) for e in rows_left(system))
+    units = [joint.unit_length for joint in system.ball_joints]
+    held = [g for g in system.constraints if g not in units]
+    residual = [system.residual[i].xreplace(put) for i in system.left]
+    used = F.free_symbols | V.free_symbols | system.residual.free_symbols
+    letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
+    if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(
             f"linearise: inputs {', '.join(strangers)} are no letters of the system's forces or constraints"
         )
-    point = by_symbol(at, letters)
-    used = system.motion.free_symbols | system.residual.free_symbols
+    point = point_of("linearise", system, at, letters)
     if t in used:
         raise InputError("linearise: the motion depends on time explicitly: there is no steady motion; simulate it")
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
-    here = dict.fromkeys((*c.v, *c.a, *inputs), sp.S.Zero) | {s: sp.sympify(x) for s, x in point.items()}
+    here = dict.fromkeys((*c.q, *speeds, *system.rates, *inputs), sp.S.Zero)
+    here |= {s: sp.sympify(x) for s, x in point.items()}
 
     def there(matrix: sp.Matrix) -> sp.Matrix:
-        found = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
-        if found.has(sp.nan, sp.zoo, sp.oo):
+        values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
+        if values.has(sp.nan, sp.zoo, sp.oo):
             raise SingularError(
                 f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
             )
-        return found
+        return values
 
-    off = there(sp.Matrix([*system.constraints, *system.residual]))
+    off = there(sp.Matrix([*system.constraints, *residual]))
     if wrong := [e for e in off if decide_zero(e).answer == "nonzero"]:
         raise InputError(
             f"linearise: the point is off the constraints: {wrong[0]} is left of one: give coordinates and velocities on them"
         )
-    lam = system.multipliers
-    M, G = there(system.mass), there(system.rows)
+    lam = [system.multipliers[i] for i in system.left]
     k = len(lam)
-    saddle = M.row_join(-G.T).col_join(G.row_join(sp.zeros(k, k)))
-    still = dict.fromkeys(c.a, sp.S.Zero)
-    free = sp.Matrix([put_in(e, still) for e in system.motion.subs(dict.fromkeys(lam, 0))])
-    held = _solved(saddle, -there(free).col_join(there(system.gamma)), at)
-    if left := [f"{a} = {e}" for a, e in zip(c.a, held[:n], strict=True) if decide_zero(e).answer != "zero"]:
+    saddle = jacobian(list(F), system.rates).row_join(-G.T).col_join(G.row_join(sp.zeros(k, k)))
+    still = dict.fromkeys((*system.rates, *lam), sp.S.Zero)
+    free = sp.Matrix([put_in(e, still) for e in F]).col_join(gamma)
+    rest = _solved(there(saddle), -there(free), at)
+    if left := [f"{a} = {e}" for a, e in zip(system.rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"]:
         raise SingularError(
             f"linearise: {dict(at)} is no steady motion: {', '.join(left)} is left over; start from one"
         )
-    here |= dict(zip(lam, held[n:], strict=True))
-    state = (*c.q, *c.v)
-    whole = sp.Matrix([put_in(e, still) for e in system.motion]).col_join(system.gamma)
-    slope = jacobian(list(whole), (*state, *inputs))
-    moving = {q: here[v] for q, v in zip(c.q, c.v, strict=True) if here[v] != 0 and q in slope.free_symbols}
-    drift = slope.applyfunc(lambda e: along(e, moving, moving.values()))
-    if moving and any(decide_zero(e).answer != "zero" for e in there(drift)):
+    here |= dict(zip(lam, rest[m:], strict=True))
+    state = (*c.q, *speeds)
+    P, back = map(sp.Matrix, small_turns(system, state))
+    whole = sp.Matrix([put_in(e, dict.fromkeys(system.rates, sp.S.Zero)) for e in F]).col_join(gamma)
+    slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
+    flow = there(V)
+    moving = {q: v for q, v in zip(c.q, flow, strict=True) if v != 0 and q in slope.free_symbols | saddle.free_symbols}
+    drift = [along(e, moving, moving.values()) for e in (*slope, *saddle)]
+    if moving and any(decide_zero(e).answer != "zero" for e in there(sp.Matrix(drift))):
         raise InputError(
             "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"
         )
-    moved = _solved(saddle, -there(slope), at)
-    both = sp.zeros(n, n).row_join(sp.eye(n)).row_join(sp.zeros(n, len(inputs))).col_join(moved[:n, :])
-    places, T = _tangent(
-        there(jacobian([*system.constraints, *system.residual], state)), 2 * n, len(system.constraints), n
-    )
-    own = [i for i in range(2 * n) if i not in places]
-    shown = jacobian(list(wanted), (*state, *inputs)) if wanted else sp.zeros(0, 2 * n + len(inputs))
-    by_rest = there(jacobian(list(wanted), (*c.a, *lam))) if wanted else sp.zeros(0, n + k)
-    y = there(shown) + by_rest * moved if wanted else shown
-    A, B = both[own, : 2 * n] * T, both[own, 2 * n :]
+    moved, size, n = _solved(there(saddle), -there(slope), at), P.cols, len(c.q)
+    turning = P[:n, :].applyfunc(lambda e: along(e, c.q, V))
+    carried = there(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
+    both = there(back) * carried.col_join(moved[:m, :])
+    places, T = _tangent(there(jacobian([*held, *residual], state) * P), size, len(held), size - m)
+    own = [i for i in range(size) if i not in places]
+    shown = (jacobian(wanted, state) * P).row_join(jacobian(wanted, inputs))
+    y = there(shown) + there(jacobian(wanted, (*system.rates, *lam))) * moved
+    names = small_states(system)
+    A, B = both[own, :size] * T, both[own, size:]
     return StateEquations(
-        tuple(state[i] for i in own), *(m.applyfunc(sp.factor) for m in (A, B, y[:, : 2 * n] * T, y[:, 2 * n :]))
+        tuple(names[i] for i in own), *(e.applyfunc(sp.factor) for e in (A, B, y[:, :size] * T, y[:, size:]))
     )
 
 
+def _in_speeds(system: Equations, e: sp.Expr, put: Mapping[Any, Any]) -> sp.Expr:
+    """An output in q, u, u' and the multipliers that are left."""
+    given = system.kinematics
+    if given is None:
+        return e
+    if e.free_symbols & {system.multipliers[i] for i in given.used}:
+        raise InputError(f"linearise: output {e} has the reaction of a constraint that the velocities use up: leave these out")
+    accelerations = given.B * sp.Matrix(system.rates) + given.alpha
+    return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(put))
 def _solved(matrix: sp.Matrix, right: sp.Matrix, at: Any) -> sp.Matrix:
     """matrix⁻¹ right, in the field of its letters."""
     if not right.cols:

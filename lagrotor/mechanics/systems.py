@@ -110,8 +110,9 @@ class System(Equations):
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")
         if values is None:
-            moves = any(str(s) in map(str, self.c.v) and x != 0 for s, x in dict(point).items())
-            if inputs or outputs or (self.rolling and moves):
+            moves = any(str(s) in map(str, self.speeds) and x != 0 for s, x in dict(point).items())
+            carried = self.kinematics and any(self.kinematics.velocity.xreplace(dict.fromkeys(self.speeds, sp.S.Zero)))
+            if inputs or outputs or carried or (moves and (self.rolling or self.kinematics)):
                 return steady_motions.state_equations(self, point, inputs, outputs)
             return linear_modes.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.linalg import expm
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Frame, Plane, System, coordinates, t
@@ -59,6 +60,56 @@ def test_a_steady_precession_is_that_of_numbers() -> None:
     assert [str(s) for s in linear.states] == [str(s) for s in theirs.states]
     assert np.array(at_g.tolist(), float) == pytest.approx(theirs.A, abs=1e-9)
     assert np.array(linear.B.subs(numbers).tolist(), float) == pytest.approx(theirs.B, abs=1e-9)
+
+
+def sleeping() -> System:
+    """A top on a ball joint, which has no pole where it stands upright."""
+    frame = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r")
+    body = frame.body(m, (I1, I1, I3), (0, 0, l))
+    return System(frame.c, body.kinetic - body.potential((0, 0, -g)))
+
+
+UPRIGHT = {"q0": 1, "q1": 0, "q2": 0, "q3": 0}
+
+
+def test_a_sleeping_top_stands_from_its_least_spin_on() -> None:
+    """(I3 w)² = 4 (I1 + m l²) m g l (Routh; Goldstein §5.7), in symbols, in numbers, and about its orbit."""
+    numbers = {I1: 0.5, I3: 0.2, m: 1.0, g: 9.81, l: 1.0}
+    linear = sleeping().linearise(UPRIGHT | {"r": w})
+    threshold = I3**2 * w**2 - 4 * (I1 + m * l**2) * m * g * l
+    conditions = [e.lhs for e in linear.stable_if.args]
+    assert any(sp.expand(e - threshold) == 0 for e in conditions)
+    least = float(sp.sqrt(4 * (I1 + m * l**2) * m * g * l).subs(numbers)) / 0.2
+    for spin in (0.99 * least, 1.01 * least):
+        own = sleeping().linearise(UPRIGHT | {"r": spin}, numbers)
+        assert own.states == linear.states and [str(s) for s in own.states[:3]] == ["turn_p", "turn_q", "turn_r"]
+        assert np.array(linear.A.subs({**numbers, w: spin}).tolist(), float) == pytest.approx(own.A, abs=1e-12)
+        assert (own.rates.real.max() > 1e-2) == (spin < least) == (not linear.stable_if.subs({**numbers, w: spin}))
+    (boundary,) = sleeping().root_locus(UPRIGHT | {"r": w}, numbers, w, np.linspace(30, 45, 3)).boundaries
+    assert boundary == pytest.approx(least, rel=1e-8)
+    orbit = sleeping().floquet(UPRIGHT | {"r": spin}, numbers, 2 * np.pi / spin)  # after which q is −q
+    assert orbit.matrix == pytest.approx(expm(own.A * 2 * np.pi / spin), abs=1e-9) and orbit.states == own.states
+
+
+def test_a_body_on_a_ball_joint_that_is_not_symmetric_turns_steadily_about_its_axes_alone() -> None:
+    """Free: about the middle axis it grows at w √((I2 − I1)(I3 − I2)/(I1 I3)) (Landau & Lifshitz, Mechanics, §37)."""
+    frame = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r")
+    free = frame.body(m, (2, 3, 4))
+    rates = System(frame.c, free.kinetic).linearise(UPRIGHT | {"q": 1}, {}).rates
+    assert rates.real.max() == pytest.approx(np.sqrt(1 / 8)) and len(rates) == 6
+    heavy = frame.body(m, (2, 3, 4), (0, 0, l))
+    hung = System(frame.c, heavy.kinetic - heavy.potential((0, 0, -g)))
+    for values in ((), ({m: 1, l: 1, g: 9.81},)):  # upright, it may spin about any axis of its own: gravity turns with it
+        assert hung.linearise(UPRIGHT | {"r": 1}, *values).states
+        with pytest.raises((SingularError, InputError), match="left over|change with time"):
+            hung.linearise(UPRIGHT | {"p": 1}, *values)
+
+
+def test_what_is_in_a_point_is_a_letter_of_the_system() -> None:
+    for strange in ("phi_dot", "q0_dot", "W"):
+        for values in ((), ({I1: 0.5, I3: 0.2, m: 1, g: 9.81, l: 1},)):
+            with pytest.raises(InputError, match=f"{strange} in the point"):
+                sleeping().linearise(UPRIGHT | {strange: 1}, *values)
 
 
 def test_what_is_no_steady_motion_says_why() -> None:

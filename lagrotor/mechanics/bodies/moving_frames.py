@@ -107,9 +107,9 @@ class MovingFrame:
         """ω of a ball joint by its names: 2 E(q) q'."""
         if not self.omega:
             return {}
-        (a, b, c, d), rates = self.quaternion, [self.c.v[self.c.q.index(q)] for q in self.quaternion]
-        rows = ((-b, a, d, -c), (-c, -d, a, b), (-d, c, -b, a))
-        return {w: 2 * sp.Add(*map(sp.Mul, row, rates)) for w, row in zip(self.omega, rows, strict=True)}
+        rates = [self.c.v[self.c.q.index(q)] for q in self.quaternion]
+        rows = zip(self.omega, quaternion_rows(*self.quaternion), strict=True)
+        return {w: 2 * sp.Add(*map(sp.Mul, row, rates)) for w, row in rows}
 
     @property
     def unit_length(self) -> sp.Expr:
@@ -167,6 +167,11 @@ class MovingFrame:
             R = R * step.rotation
             spin += R * step.own_rate
         return spin, origin, drift
+
+
+def quaternion_rows(a: Any, b: Any, c: Any, d: Any) -> tuple[tuple[Any, ...], ...]:
+    """E (3, 4) of a unit quaternion, with ω = 2 E q' and q' = ½ Eᵀ ω."""
+    return (-b, a, d, -c), (-c, -d, a, b), (-d, c, -b, a)
 
 
 def turn_matrix(axis: int, angle: sp.Expr) -> sp.Matrix:

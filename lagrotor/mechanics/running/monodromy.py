@@ -19,7 +19,8 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.admission import check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import motion_program
-from lagrotor.mechanics.running.state_space import motion_slope, point_state, tangent_space
+from lagrotor.mechanics.running.state_space import local_slope, motion_slope, point_state, tangent_space
+from lagrotor.mechanics.small_turns import small_states
 from lagrotor.numerics.integrate import Problem, integrate
 
 _LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
@@ -64,24 +65,31 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
     slope, width = motion_slope("floquet", given, values), T.shape[1]
+    first, P, _ = local_slope(system, state, *_at(slope(start), size))
 
     def rate(_: float, y: Array) -> list[float]:
         f, J, _inputs = slope(y[:d])
         spread = J[:size, :size] @ y[d:].reshape(size, width)
         return [*f.tolist(), *spread.ravel().tolist()]
 
-    whole = Problem(rate, np.concatenate([start, T.ravel()]), _MOST)
+    whole = Problem(rate, np.concatenate([start, (P @ T).ravel()]), _MOST)
     coarse, fine = (integrate(whole, np.array([duration]), local).states[-1] for local in _LOCAL)
-    end, J = fine[:d], slope(start)[1][:, :size]
+    end = fine[:d]
+    last, _, back = local_slope(system, end[:size], *_at(slope(end), size))
     largest = max(1.0, float(np.abs(start).max()))
     opened = np.abs(end - start)[n:size].max() / largest
-    other = np.abs(slope(end)[1][:, :size] - J).max() / max(1.0, float(np.abs(J).max()))
+    other = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
     if not max(opened, other) < _CLOSED:
         raise InputError(
             f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
             f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
         )
-    one, two = (y[d:].reshape(size, width)[free] for y in (coarse, fine))
+    one, two = ((back @ y[d:].reshape(size, width))[free] for y in (coarse, fine))
     error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
-    states = tuple(s for s, own in zip((*system.c.q, *system.speeds), free, strict=True) if own)
+    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
     return MonodromyMatrix(states, two, error)
+
+
+def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
+    """The rate of (q, u), and its derivatives by them."""
+    return slope[0][:size], slope[1][:size, :size]

@@ -23,7 +23,7 @@ from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, rows_left
 from lagrotor.mechanics.expressions import with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
@@ -181,16 +181,6 @@ def start_program(system: Equations) -> Generated:
     h, M = len(system.constraints), system.mass if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
-
-
-def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
-    """The rows and γ of the constraints that multipliers keep, for u'."""
-    given = system.kinematics
-    if given is None:
-        return system.rows, system.gamma
-    every = list(range(len(system.c.q)))
-    G, gamma = system.rows.extract(list(given.left), every), system.gamma.extract(list(given.left), [0])
-    return G * given.B, G * given.alpha + gamma
 
 
 @lru_cache(maxsize=256)

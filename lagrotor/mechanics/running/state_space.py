@@ -29,6 +29,7 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
 )
 from lagrotor.mechanics.running.starts import consistent
+from lagrotor.mechanics.small_turns import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
 _STEADY, _SAME, _OFF = 1e-8, 1e-7, 1e-7  # relative: accelerations left, a matrix that stays, a point on the constraints
@@ -39,7 +40,8 @@ _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.flo
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """x' = A x + B u, y = C x + D u for small x: displacements of `states`, symbols of coordinates and velocities.
+    """x' = A x + B u, y = C x + D u for small x: displacements of `states`, symbols of coordinates and velocities; turn_p is
+    the small turn of a ball joint about the axis of p, in its turned axes.
 
     rates: the eigenvalues of A, 1/s, sorted by their real parts, the greatest first; those of coordinates on which nothing
     depends are zero.
@@ -90,16 +92,28 @@ def state_space(
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
         left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
         raise SingularError(f"linearise: {dict(at)} is no steady motion: {left} is left over; start from one")
+    A, P, back = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
-    if np.abs(motion(later)[1] - J).max() > _SAME * max(1.0, float(np.abs(J).max())):
+    for joint in system.ball_joints:  # a turn about a fixed axis
+        places = [system.c.q.index(q) for q in joint.quaternion]
+        later[places] /= np.linalg.norm(later[places])
+    other = local_slope(system, later, *motion(later)[:2])[0]
+    if np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
             "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"
         )
     free, T = tangent_space("linearise", system, known, start)
     _, C, D = motion_slope("linearise", function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
-    states = tuple(s for s, own in zip((*system.c.q, *system.speeds), free, strict=True) if own)
-    return StateSpace(states, J[free] @ T, B[free], C[:, :d] @ T, D)
+    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
+    return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
+
+
+def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
+    """P⁻ (J P − P'), P and P⁻ of `small_turns`, of a state (q, u) of a motion, its rate (q', u') and J = ∂f/∂(q, u)."""
+    P, back = (np.array(e, float) for e in small_turns(system, state))
+    moved = np.array(small_turns(system, rate)[0], float) - np.array(small_turns(system, 0 * rate)[0], float)
+    return back @ (J @ P - moved), P, back
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
@@ -176,15 +190,19 @@ def motion_slope(
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Which of the states are independent, and T (N + m, free) that gives all of them."""
-    d, n = len(state), len(system.c.q)
-    if not system.multipliers:
+    """Which of the states y of `small_turns` are independent, and T that gives all of them."""
+    P = np.array(small_turns(system, state)[0], float)
+    d = P.shape[1]
+    n = d - len(system.speeds)
+    units = [joint.unit_length for joint in system.ball_joints]
+    held_by = [g for g in system.constraints if g not in units]
+    if not held_by and not system.left:
         return np.ones(d, bool), np.eye(d)
     from scipy.linalg import qr
 
-    h = len(system.constraints)
-    bound = function_program(system, *system.constraints, *(system.residual[i] for i in system.left))
-    slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, :d]
+    h = len(held_by)
+    bound = function_program(system, *held_by, *(system.residual[i] for i in system.left))
+    slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, : len(state)] @ P
     held = np.zeros(0, int)
     for rows, first in (
         (slope[:h, :n], 0),
