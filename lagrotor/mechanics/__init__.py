@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.constraints import solve_constrained as solve_constrained
     from lagrotor.mechanics.equations import constrained_accelerations as constrained_accelerations
     from lagrotor.mechanics.equations import degrees_of_freedom as degrees_of_freedom
+    from lagrotor.mechanics.equations import reaction as reaction
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
     from lagrotor.mechanics.exponents import characteristic_exponents as characteristic_exponents
     from lagrotor.mechanics.fourier import FourierSeries as FourierSeries

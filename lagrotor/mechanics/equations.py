@@ -11,7 +11,7 @@ Nonholonomic Systems, ch. III.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -86,6 +86,7 @@ class Equations:
         no_coordinate("System: a force or a constraint", acting, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters)
         self._check_symbols()
+        self._check_reactions(acting)
         if not self.bodies:
             _ = self.L  # checked now; an energy of bodies is written out when it is needed
         _ = self.kinematics
@@ -164,6 +165,24 @@ class Equations:
                 "force −∂D/∂v, k v**2/2 for linear friction"
             )
         check_friction("System", self.dissipation, self.c)
+
+    def _check_reactions(self, acting: Sequence[sp.Expr]) -> None:
+        """Raise InputError for a reaction of no constraint, or one that stands elsewhere than in forces and dissipation."""
+        names = self.multiplier_names
+        places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
+        elsewhere = set().union(getattr(self.lagrangian, "free_symbols", ()), *(e.free_symbols for e in places))
+        for s in sorted(set().union(elsewhere, *(e.free_symbols for e in acting)), key=str):
+            name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
+            if name is not None and (s in elsewhere or name not in names):
+                what = "stands in forces and dissipation alone" if name in names else "is of none of the constraints"
+                raise InputError(
+                    f"System: {s} {what}: theirs are {', '.join(names) or 'none'}, as {{name: expression}} has them"
+                )
+
+    @property
+    def multiplier_names(self) -> tuple[str, ...]:
+        """The names of constraints and, after them, of rolling; their numbers, where they have none."""
+        return self.names or tuple(str(i + 1) for i in range(len(self.constraints) + len(self.rolling)))
 
     @property
     def _letters(self) -> tuple[Any, ...]:
@@ -251,13 +270,19 @@ class Equations:
 
     @cached_property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
-        """λ_1 … λ_k, or λ with the names of the constraints, or Λ where the system has such letters: the multipliers in `motion`
-        and `power`."""
-        names = [name.replace(" ", "_") for name in self.names or map(str, range(1, len(self.residual) + 1))]
+        """λ_1 … λ_k, or λ with the names of the constraints, or Λ where the system has such letters, or `reaction(name)` where
+        forces have that: the multipliers in `motion` and `power`."""
+        names = [name.replace(" ", "_") for name in self.multiplier_names]
         acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
         letters = set(self.c.q).union(getattr(self.lagrangian, "free_symbols", ()), *(e.free_symbols for e in acting))
         stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
-        return tuple(sp.Symbol(f"{stem}_{name}", real=True) for name in names)
+        plain = (sp.Symbol(f"{stem}_{name}", real=True) for name in names)
+        return tuple(own if own in letters else s for own, s in zip(self.reactions, plain, strict=True))
+
+    @property
+    def reactions(self) -> tuple[sp.Symbol, ...]:
+        """What `reaction` gives for each constraint."""
+        return tuple(map(reaction, self.multiplier_names))
 
     @cached_property
     def motion(self) -> sp.Matrix:
@@ -296,6 +321,31 @@ class Equations:
         return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 
+def reaction(name: str | int) -> sp.Symbol:
+    """The multiplier λ of a constraint by its name, or its number from 1, for forces and dissipation: of a gap in m, the force in N
+    that presses, of which Coulomb's friction is the part μ: dissipation = μ reaction("floor") |v|, or |reaction("wire")| where a
+    guide holds on both sides."""
+    return sp.Symbol(f"reaction({name})", real=True)
+
+
+def push_left(system: Equations, push: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix]:
+    """What of given forces is there without reactions, and ∂Q/∂λ, a column for each constraint that multipliers keep.
+
+    Raises InputError where Q is not affine in λ, or has that of a constraint that velocities of one's own use up.
+    """
+    lam = [system.multipliers[i] for i in system.left]
+    own = jacobian(list(push), lam) if lam else sp.zeros(push.rows, 0)
+    rest = push.xreplace(dict.fromkeys(lam, sp.S.Zero))
+    if wrong := (own.free_symbols | rest.free_symbols) & {*system.multipliers}:
+        way = (
+            "leave out velocities that use its constraint up"
+            if min(wrong, key=str) not in lam
+            else ("it must enter linearly, or by its size |λ| in a run")
+        )
+        raise InputError(f"System: {min(wrong, key=str)} in forces: {way}")
+    return rest, own
+
+
 def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     """The rows and γ of the constraints that multipliers keep, for u'."""
     given = system.kinematics
@@ -315,8 +365,9 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     vanishes identically.
     """
     M, G = system.mass, system.rows
+    push, by_reaction = push_left(replace(system, velocities=()), system.push)
     # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
-    right = (system.push - system.bias).row_join(G.T)
+    right = (push - system.bias).row_join(G.T + by_reaction)
     solved = linear_solve(M, right, singular_mass("accelerations", M, system.c))
     unbound, W = solved[:, :1], solved[:, 1:]
     lam = -linear_solve(G * W, G * unbound + system.gamma, dependent_rows("accelerations", "det S = 0"))

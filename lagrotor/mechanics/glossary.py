@@ -60,6 +60,8 @@ def light(source: str) -> str:
 @cache
 def letter_latex(symbol: sp.Symbol) -> str:
     r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1."""
+    if name := re.fullmatch(r"reaction\((.+)\)", symbol.name):
+        return rf"\lambda_{{\mathrm{{{name[1]}}}}}"
     dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", symbol.name)
     stem = sp.latex(sp.Symbol(dotted[1]) if dotted else symbol)
     index = f"_{{{dotted[2]}}}" if dotted and dotted[2] else ""

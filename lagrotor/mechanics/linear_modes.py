@@ -137,6 +137,10 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
     still = dict.fromkeys((*c.v, *c.a), 0) | point
+    if system.push.free_symbols & {*system.multipliers}:
+        raise InputError(
+            "linearise: a force has the reaction of a constraint: give outputs or a velocity, for A, B, C, D"
+        )
     motion = euler_lagrange(system.L, c) - system.push
     if moving := [str(q) for q, v in zip(c.q, c.v, strict=True) if q in used and still[v] != 0]:
         raise InputError(f"linearise: {', '.join(moving)} moves there and enters the equations: give it no velocity")

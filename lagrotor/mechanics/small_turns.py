@@ -19,7 +19,9 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     first = {joint.quaternion[0]: joint.omega for joint in system.ball_joints}
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
     names = [
-        [sp.Symbol(f"turn_{w}", real=True) for w in first[q]] if q in first else [q] for q in system.c.q if q not in gone
+        [sp.Symbol(f"turn_{w}", real=True) for w in first[q]] if q in first else [q]
+        for q in system.c.q
+        if q not in gone
     ]
     return (*(s for part in names for s in part), *system.speeds)
 

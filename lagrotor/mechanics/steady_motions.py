@@ -18,7 +18,7 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
-from lagrotor.algebra import along, decide_zero
+from lagrotor.algebra import along, decide_zero, derivative
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.equations import Equations, rows_left
@@ -97,7 +97,7 @@ def state_equations(
         )
     lam = [system.multipliers[i] for i in system.left]
     k = len(lam)
-    saddle = jacobian(list(F), system.rates).row_join(-G.T).col_join(G.row_join(sp.zeros(k, k)))
+    saddle = jacobian(list(F), system.rates).row_join(jacobian(list(F), lam)).col_join(G.row_join(sp.zeros(k, k)))
     still = dict.fromkeys((*system.rates, *lam), sp.S.Zero)
     free = sp.Matrix([put_in(e, still) for e in F]).col_join(gamma)
     rest = _solved(there(saddle), -there(free), at)
@@ -110,14 +110,14 @@ def state_equations(
     P, back = map(sp.Matrix, small_turns(system, state))
     whole = sp.Matrix([put_in(e, dict.fromkeys(system.rates, sp.S.Zero)) for e in F]).col_join(gamma)
     slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
-    flow = there(V)
-    moving = {q: v for q, v in zip(c.q, flow, strict=True) if v != 0 and q in slope.free_symbols | saddle.free_symbols}
-    drift = [along(e, moving, moving.values()) for e in (*slope, *saddle)]
-    if moving and any(decide_zero(e).answer != "zero" for e in there(sp.Matrix(drift))):
-        raise InputError(
-            "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
-            "turn along with the motion"
-        )
+    later, clock = _course(system, here, there(V))
+    for parts, name in ((whole, "forces"), ((*slope, *saddle), "coefficients")):
+        entries = [put_in(e, later) for e in parts if e.free_symbols & later.keys()]
+        if any(decide_zero(derivative(put_in(e, here), clock)).answer != "zero" for e in entries):
+            raise InputError(
+                f"linearise: what moves there enters the equations, whose {name} change with time: use coordinates that "
+                "turn along with the motion"
+            )
     moved, size, n = _solved(there(saddle), -there(slope), at), P.cols, len(c.q)
     turning = P[:n, :].applyfunc(lambda e: along(e, c.q, V))
     carried = there(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
@@ -133,15 +133,35 @@ def state_equations(
     )
 
 
+def _course(
+    system: Equations, here: Mapping[Any, sp.Expr], flow: Sequence[sp.Expr]
+) -> tuple[dict[sp.Symbol, sp.Expr], sp.Symbol]:
+    """Where what moves is at another time, and the letter of that time; a ball joint turns about an axis that stays."""
+    time = sp.Dummy("tau", real=True)
+    rates = dict(zip(system.c.q, flow, strict=True))
+    course = {q: here[q] + v * time for q, v in rates.items() if v != 0}
+    for joint in system.ball_joints:
+        if rate := shortest(sp.sqrt(sp.Add(*(rates[q] ** 2 for q in joint.quaternion)))):
+            turned = {
+                q: here[q] * sp.cos(rate * time) + rates[q] / rate * sp.sin(rate * time) for q in joint.quaternion
+            }
+            course |= turned
+    return course, time
+
+
 def _in_speeds(system: Equations, e: sp.Expr, put: Mapping[Any, Any]) -> sp.Expr:
     """An output in q, u, u' and the multipliers that are left."""
     given = system.kinematics
     if given is None:
         return e
     if e.free_symbols & {system.multipliers[i] for i in given.used}:
-        raise InputError(f"linearise: output {e} has the reaction of a constraint that the velocities use up: leave these out")
+        raise InputError(
+            f"linearise: output {e} has the reaction of a constraint that the velocities use up: leave these out"
+        )
     accelerations = given.B * sp.Matrix(system.rates) + given.alpha
     return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(put))
+
+
 def _solved(matrix: sp.Matrix, right: sp.Matrix, at: Any) -> sp.Matrix:
     """matrix⁻¹ right, in the field of its letters."""
     if not right.cols:

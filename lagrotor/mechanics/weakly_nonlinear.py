@@ -108,6 +108,10 @@ def oscillation(
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
     A = amplitude or sp.Symbol("A", positive=True)
     equation = _with_values(system, system.motion[0], values)
+    taken = {str(s) for s in (*equation.free_symbols, small)} if small in system.motion.free_symbols else set()
+    if small in system.motion.free_symbols - equation.free_symbols or str(A) in taken:
+        wrong = f"amplitude = {A} is a letter of the system" if str(A) in taken else f"small = {small} has a value"
+        raise InputError(f"lindstedt_poincare: {wrong}: both stay letters, each its own")
     if t in equation.free_symbols:
         raise InputError("lindstedt_poincare: the system depends on time: use averaged")
     inside = small in equation.free_symbols

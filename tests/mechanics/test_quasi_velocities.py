@@ -119,6 +119,7 @@ def test_a_run_in_velocities_of_ones_own_is_that_of_the_coordinates() -> None:
     np.testing.assert_allclose(turned.t, plain.crossings(phi - sp.Rational(1, 2), 1).t, atol=1e-8)
     np.testing.assert_allclose(run.crossings(system.c.v[0]).t, plain.crossings(system.c.v[0]).t, atol=1e-8)
     assert x in system.c.q and {"u", "x_dot"} <= run.quantities().keys()
+    assert run.plot("u").axes[0].lines[0].get_ydata() == pytest.approx(run.u[:, 0])
 
 
 def test_a_run_is_read_back(tmp_path: object) -> None:

@@ -16,6 +16,9 @@ POLE = System(
     M * v**2 / 2 + m * (v**2 + 2 * l * v * om * sp.cos(theta) + l**2 * om**2) / 2 - m * g * l * sp.cos(theta),
     forces=(F, 0),
 )
+SPRING, QUARTIC = (
+    System(CART, v**2 / 2 + om**2 / 2 - x**n / n) for n in (2, 4)
+)  # whose slopes stay, at first or for good
 C = coordinates("x y z phi theta psi")
 GROUND = Frame(C)
 WHEEL = GROUND.moved(*C.q[:3]).turned("zxy", C.q[3:]).body(m, (m * r**2 / 4, m * r**2 / 2, m * r**2 / 4))
@@ -99,7 +102,10 @@ def test_a_body_on_a_ball_joint_that_is_not_symmetric_turns_steadily_about_its_a
     assert rates.real.max() == pytest.approx(np.sqrt(1 / 8)) and len(rates) == 6
     heavy = frame.body(m, (2, 3, 4), (0, 0, l))
     hung = System(frame.c, heavy.kinetic - heavy.potential((0, 0, -g)))
-    for values in ((), ({m: 1, l: 1, g: 9.81},)):  # upright, it may spin about any axis of its own: gravity turns with it
+    for values in (
+        (),
+        ({m: 1, l: 1, g: 9.81},),
+    ):  # upright, it may spin about any axis of its own: gravity turns with it
         assert hung.linearise(UPRIGHT | {"r": 1}, *values).states
         with pytest.raises((SingularError, InputError), match="left over|change with time"):
             hung.linearise(UPRIGHT | {"p": 1}, *values)
@@ -119,6 +125,10 @@ def test_what_is_no_steady_motion_says_why() -> None:
         (lambda: POLE.linearise({x: 0}, inputs=(F,)), InputError, "theta without a value"),
         (lambda: POLE.linearise({theta: 0}, inputs=(sp.Symbol("u"),)), InputError, "inputs u"),
         (lambda: POLE.linearise({theta: 0, om: 1}, inputs=(F,)), InputError, "change with time"),
+        (lambda: QUARTIC.linearise({x: 0, v: 1}, outputs=(x,)), InputError, "change with time"),
+        (lambda: QUARTIC.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),
+        (lambda: SPRING.linearise({x: 0, v: 1}, outputs=(x,)), InputError, "forces change with time"),
+        (lambda: SPRING.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),
         (lambda: POLE.linearise({theta: 0}, inputs=(F,), outputs=("x",)), InputError, "no expression"),
         (lambda: DISC.linearise(rolled | {C.v[5]: w}), InputError, "off the constraints"),
         (

@@ -79,8 +79,8 @@ class SampledMotion(Run):
     def reactions(self) -> dict[str, Array]:
         """The multipliers along the run, (n,) each, by the names of their constraints, or 1, 2, …: those of a gap in m, or of a
         slip in m/s, are forces in N."""
-        names = self.system.names or tuple(str(i + 1) for i in range(len(self.system.multipliers)))
-        return {name: self.evaluate(lam) for name, lam in zip(names, self.system.multipliers, strict=True)}
+        both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
+        return {name: self.evaluate(lam) for name, lam in both}
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ

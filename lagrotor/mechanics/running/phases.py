@@ -181,6 +181,8 @@ class Switched:
         base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
         held = [self.surfaces[i].argument.xreplace(still) for i in sticking]
         gaps = [i for i, each in enumerate(closed) if each]
+        own, kept = base.multiplier_names, len(base.constraints)
+        names = (*own[:kept], *(f"gap {i + 1}" for i in gaps), *own[kept:], *(f"held {i + 1}" for i in sticking))
         lagrangian = base.lagrangian.xreplace(still) if isinstance(base.lagrangian, sp.Expr) else base.lagrangian
         system = Equations(
             base.c,
@@ -189,13 +191,18 @@ class Switched:
             (*base.rolling, *held),
             base.dissipation.xreplace(still),
             tuple(e.xreplace(still) for e in base.forces),
+            names,
             velocities=base.velocities,
         )
         lam, first = system.multipliers, len(base.constraints)
         conditions: list[tuple[str, int, sp.Expr]] = []
+        pressing = {*base.multipliers}
+        sizes = {s.sign for s in self.surfaces if s.argument.free_symbols & pressing}  # of reactions, by |λ|
         for i, s in enumerate(self.surfaces):
             if i not in sticking:
                 conditions.append(("surface", i, s.sign * s.argument))
+                if s.bound is not None and s.bound.free_symbols & pressing and not s.bound.free_symbols & sizes:
+                    conditions.append(("pull", i, s.bound))
             else:
                 reaction = lam[len(lam) - len(sticking) + sticking.index(i)]
                 bound = s.bound.xreplace(still) if s.bound is not None else sp.oo
@@ -423,8 +430,16 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
-    if kind == "surface":
+    if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
+        mode = mode.with_sign(i, -mode.signs[i])  # a reaction is reversed
+    elif kind == "surface":
         mode = mode.with_sign(i, _sign_beyond(h, at, i))
+    elif kind == "pull":
+        raise StopError(
+            at.t,
+            f"{h.surfaces[i].bound} becomes negative: what rubs would pull, and is let go or held on its other side; a guide "
+            "that holds on both sides rubs by |reaction(…)|",
+        )
     elif kind in ("above", "below"):
         mode = mode.with_sign(i, -1 if kind == "above" else 1)
     elif kind == "reaction":

@@ -23,7 +23,7 @@ from lagrotor.mechanics.bodies.articulated import tree_accelerations
 from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
-from lagrotor.mechanics.equations import Equations, rows_left
+from lagrotor.mechanics.equations import Equations, push_left, rows_left
 from lagrotor.mechanics.expressions import with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
@@ -187,6 +187,8 @@ def start_program(system: Equations) -> Generated:
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     """(q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.speeds, t)
+    named = dict(zip(system.reactions, system.multipliers, strict=True))
+    expressions = tuple(e.xreplace(named) for e in expressions) if named else expressions
     symbols = set().union(*(e.free_symbols for e in expressions))
     if not symbols & {*system.c.a, *system.multipliers}:
         return _program(states, velocity_stages(system), expressions)
@@ -245,7 +247,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
     multipliers = dict(zip(given.left, lam, strict=True))
     if given.used and every:
         held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
-        missing = given.inverse.T * (system.mass * a + system.bias - system.push - held)
+        push = system.push.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
+        missing = given.inverse.T * (system.mass * a + system.bias - push - held)
         multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
     return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
@@ -254,8 +257,9 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     """Stages, and u' and the multipliers that are left made of them: of a tree of bodies by its recursion, else from the mass
     matrix."""
     G, gamma = rows_left(system)
+    friction = bool(system.push.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
-        return under_constraints(*by_tree, G, gamma)
+        return under_constraints(*by_tree, G, gamma, friction)
     if (base := _joint_speeds(system)) is not None and sp.count_ops(system.L) > _REDUCED:
         stages, a, held = constrained_motion(base, every=False)
         lam = dict(zip(base.left, held, strict=True))
@@ -263,8 +267,9 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
         rates = own.applyfunc(lambda e: total_derivative(e, system.c)).xreplace(dict(zip(system.c.a, a, strict=True)))
         return [*_base_stages(system, base), *stages], list(rates), [lam[i] for i in system.left]
     (_, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
-    stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T), "_m")
-    return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma)
+    push, by_reaction = push_left(system, push)
+    stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T + by_reaction), "_m")
+    return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma, friction)
 
 
 @lru_cache(maxsize=64)
@@ -298,7 +303,12 @@ def equations_of_speeds(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
     put = dict(zip(system.c.v, given.velocity, strict=True))
     reduced = M, given.B.T * system.push.xreplace(put) - h
-    return min(projected, reduced, key=lambda form: operations(function_program(system, *form[0], *form[1]).program))
+    free = dict.fromkeys(system.multipliers, sp.S.Zero)
+
+    def size(form: tuple[sp.Matrix, sp.Matrix]) -> int:
+        return operations(function_program(system, *form[0], *form[1].xreplace(free)).program)
+
+    return min(projected, reduced, key=size)
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -309,8 +319,8 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
         return None
     keep, (G, _), given = Stages(), rows_left(system), system.kinematics
     push = system.push + rest_forces(tree, system.c)
-    push = push if given is None else given.B.T * push
-    columns = [list(push), *(list(G[i, :]) for i in range(G.rows))]
+    push, by_reaction = push_left(system, push if given is None else given.B.T * push)
+    columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:
         solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.speeds, columns, keep)).T
         return [*velocity_stages(system), *keep.made], solved
@@ -369,13 +379,17 @@ def _regular(system: Equations, matrix: sp.Matrix) -> bool:
 
 
 def under_constraints(
-    stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix
+    stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ Gᵀ to the accelerations under the constraints, and the multipliers."""
+    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ (Gᵀ + ∂Q/∂λ) to the accelerations under the constraints, and the
+    multipliers."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
-    right, lam = constraint_solve(G * W, -(G * free + gamma), "_s")
+    S, off = G * W, -(G * free + gamma)
+    if friction and G.rows > 1:  # S is not symmetric
+        S, off = S.T * S, S.T * off
+    right, lam = constraint_solve(S, off, "_s")
     return [*stages, *right], list(free + W * lam), list(lam)
 
 

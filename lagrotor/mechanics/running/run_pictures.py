@@ -26,7 +26,7 @@ _NOTHING = (
 
 
 def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | None = None) -> "RunFigure":
-    """A figure of what is named, over time: coordinates and velocities, "E" the energy, reactions by the names of their
+    """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the names of their
     constraints, or expressions as `evaluate` takes them. Without any of the coordinates, the change of the energy and, under
     constraints, their violation.
 
@@ -45,9 +45,10 @@ def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | Non
 def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str, Array]:
     """The label and the values of a curve."""
     c, name = run.system.c, str(what)
-    moving = dict(zip(map(str, (*c.q, *c.v)), (*run.q.T, *run.v.T), strict=True))
+    letters = (*c.q, *c.v, *run.system.speeds)
+    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
     if name in moving:
-        letter = next(s for s in (*c.q, *c.v) if str(s) == name)
+        letter = next(s for s in letters if str(s) == name)
         return f"${letter_latex(letter)}${units.get(name, '')}", moving[name]
     if name in ("E", "energy"):
         return "$E$ [J]", run.energy

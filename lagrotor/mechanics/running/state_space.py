@@ -97,8 +97,9 @@ def state_space(
     for joint in system.ball_joints:  # a turn about a fixed axis
         places = [system.c.q.index(q) for q in joint.quaternion]
         later[places] /= np.linalg.norm(later[places])
-    other = local_slope(system, later, *motion(later)[:2])[0]
-    if np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
+    onward, J, _ = motion(later)
+    other = local_slope(system, later, onward, J)[0]
+    if np.abs(onward[n:]).max() > least or np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
             "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"

@@ -118,7 +118,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
     sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
     """
-    moving = {*system.c.q, *system.c.v, t}
+    moving = {*system.c.q, *system.c.v, *system.reactions, t}
     places = [*system.forces, system.dissipation]
     if isinstance(system.lagrangian, sp.Expr):
         places.append(system.lagrangian)

@@ -6,8 +6,10 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.errors import LagrotorWarning
-from lagrotor.mechanics import System, coordinates, t
+from scipy.integrate import solve_ivp
+
+from lagrotor.errors import InputError, LagrotorWarning
+from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, reaction, t, total_derivative
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
@@ -105,6 +107,91 @@ def test_a_force_that_holds_but_is_no_friction_ends_the_run_in_words_and_at_once
     with pytest.warns(LagrotorWarning, match="no dry friction"):
         run = system.simulate({}, (0, 0), (1, 0), np.linspace(0, 5, 11))
     assert run.t[-1] == pytest.approx(1, abs=1e-6) and run.evaluations < 5_000
+
+
+def integrated(slope, start: tuple[float, ...], times: np.ndarray, turning: int) -> np.ndarray:
+    """y' = slope(t, y) by another solver, up to where component `turning` is zero, after which it stays."""
+    ends = lambda _, y: y[turning]  # noqa: E731
+    ends.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(slope, (times[0], times[-1]), start, events=ends, rtol=1e-11, atol=1e-13, dense_output=True)
+    return run.sol(np.minimum(times, run.t[-1]))
+
+
+def test_a_bead_rubs_on_a_hoop_by_what_presses_it() -> None:
+    """m R θ'' = −m g sin θ − μ |N| sign θ', N = m (R θ'² + g cos θ): it is pressed outward and inward, and stays where it stops,
+    at tan θ < μ."""
+    c, N, m, R = coordinates("x z"), reaction("hoop"), *sp.symbols("m R", positive=True)
+    (a, z), (va, vz) = c.q, c.v
+    L = m * (va**2 + vz**2) / 2 - m * g * z
+    along = (a * vz - z * va) / R
+    bead = System(c, L, {"hoop": (R**2 - a**2 - z**2) / (2 * R)}, dissipation=mu * abs(N) * abs(along))
+    for rough, speed, last in ((0.1, 6.5, 0.6), (0.9, 2.5, 2.0)):
+        times = np.linspace(0, last, 13)
+        run = bead.simulate({m: 1.7, g: 9.81, R: 1, mu: rough}, (0, -1), (speed, 0), times)
+
+        def slope(_: float, y: np.ndarray, rough: float = rough) -> list[float]:
+            return [y[1], -9.81 * np.sin(y[0]) - rough * abs(y[1] ** 2 + 9.81 * np.cos(y[0])) * np.sign(y[1])]
+
+        angle, rate = integrated(slope, (0, speed), times, 1)
+        np.testing.assert_allclose(run.q[:, 0], np.sin(angle), atol=1e-7)
+        np.testing.assert_allclose(run.evaluate(N), 1.7 * (rate**2 + 9.81 * np.cos(angle)), atol=1e-6)
+        assert (run.evaluate(N).min() < 0) == (rough < 0.5) and (abs(rate[-1]) < 1e-9) == (rough > 0.5)
+    assert np.tan(angle[-1]) < 0.9
+    inward = System(c, L, bead.constraints, names=("hoop",), dissipation=mu * N * abs(along))
+    with pytest.warns(LagrotorWarning, match="becomes negative: what rubs would pull"):
+        inward.simulate({m: 1.7, g: 9.81, R: 1, mu: 0.1}, (0, -1), (5.5, 0), times)
+
+
+def test_a_ladder_slides_with_friction_at_both_ends() -> None:
+    """Newton's and Euler's equations solved at each step for θ'' and both reactions."""
+    c, m, l = coordinates("x y theta"), *sp.symbols("m l", positive=True)
+    (a, b, th), N = c.q, [reaction("floor"), reaction("wall")]
+    foot, top = b - l * sp.sin(th) / 2, a - l * sp.cos(th) / 2
+    slides = total_derivative(a + l * sp.cos(th) / 2, c), total_derivative(b + l * sp.sin(th) / 2, c)
+    L = m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 + m * l**2 * c.v[2] ** 2 / 24 - m * g * b
+    rubs = mu * sum((n * sp.Abs(v) for n, v in zip(N, slides, strict=True)), sp.S.Zero)
+    ladder = System(c, L, {"floor": foot, "wall": top}, dissipation=rubs)
+    values, times = {m: 1, g: 9.81, l: 1, mu: 0.2}, np.linspace(0, 0.5, 6)
+    q0, v0 = ladder.consistent(values, (0.5 * np.cos(1.1), 0.5 * np.sin(1.1), 1.1), (0, 0, -0.01))
+    run = ladder.simulate(values, q0, v0, times)
+
+    def solved(th: float, w: float) -> np.ndarray:
+        s, k = np.sin(th) / 2, np.cos(th) / 2
+        rows = [[-s, 0.2, -1], [k, -1, -0.2], [-1 / 12, -k + 0.2 * s, 0.2 * k + s]]
+        return np.linalg.solve(rows, [k * w * w, s * w * w - 9.81, 0])
+
+    twin = integrated(lambda _, y: [y[1], solved(*y)[0]], (1.1, v0[2]), times, 1)
+    np.testing.assert_allclose(run.q[:, 2], twin[0], atol=1e-8)
+    forces = np.array([solved(*y)[1:] for y in twin.T])
+    np.testing.assert_allclose(np.array([*run.reactions.values()]).T, forces, atol=1e-6)
+    assert run.evaluate(N[0]) == pytest.approx(run.reactions["floor"])
+
+
+def test_friction_by_a_reaction_in_a_tree_and_in_velocities_of_ones_own() -> None:
+    """m v' = −μ m g v, v = 1 at first; a reaction enters linearly, of a constraint that is there and left."""
+    c, N, u = coordinates("x y"), reaction("floor"), sp.Symbol("u", real=True)
+    body = Frame(c).moved(*c.q).body(2)
+    L, floor = body.kinetic - body.potential((0, -g, 0)), {"floor": c.q[1]}
+    values, rubs = {g: 9.81, mu: 0.1}, mu * N * c.v[0] ** 2 / 2
+    own = {u: 2 * c.v[0], c.v[1]: c.v[1]}
+    for system, v0 in (
+        (System(c, L, floor, dissipation=rubs), (1, 0)),
+        (System(c, L, floor, dissipation=mu * N * u**2 / 8, velocities=own), (2, 0)),
+        (System(c, sp.sympify(L), (c.q[1],), forces=(-mu * reaction(1) * c.v[0], 0)), (1, 0)),
+    ):
+        run = system.simulate(values, (0, 0), v0, (0, 1))
+        assert run.v[-1, 0] == pytest.approx(np.exp(-0.981), abs=1e-8)
+        assert min(system.linearise({"x": 0, "y": 0}, values).rates.real) == pytest.approx(-0.981)
+    accelerations, _ = constrained_accelerations(System(c, sp.sympify(L), floor, dissipation=rubs))
+    assert sp.simplify(accelerations[0] + mu * g * c.v[0]) == 0
+    for make, words in (
+        (lambda: System(c, L, floor, dissipation=mu * reaction("flor") * abs(c.v[0])), "none of the constraints"),
+        (lambda: System(c, sp.sympify(L) - N, floor), "stands in forces and dissipation alone"),
+        (lambda: System(c, L, floor, forces=(-mu * N**2, 0)).rhs(values), "must enter linearly"),
+        (lambda: System(c, L, floor, dissipation=rubs, velocities={u: c.v[0]}).rhs(values), "leave out velocities"),
+    ):
+        with pytest.raises(InputError, match=words):
+            make()
 
 
 def test_the_sign_of_the_friction_is_not_arbitrary() -> None:
