@@ -5,7 +5,6 @@
 about a motion (q, u)' = f, P⁻ the left inverse. In the turned axes nothing changes with time where a body only spins.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -26,7 +25,7 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     return (*(s for part in names for s in part), *system.speeds)
 
 
-def small_turns(system: Equations, state: Sequence[Any]) -> tuple[list[list[Any]], list[list[Any]]]:
+def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[list[Any]]]:
     """P (d, k) and P⁻ (k, d) at a state of d components, affine in it."""
     c, joints = system.c, {joint.quaternion[0]: joint for joint in system.ball_joints}
     gone = {q for joint in joints.values() for q in joint.quaternion[1:]}

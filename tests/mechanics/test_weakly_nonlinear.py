@@ -80,16 +80,15 @@ def test_the_error_of_an_averaged_motion_falls_as_its_order_says(system, values,
 
 def test_the_small_letter_and_the_amplitude_stay_letters() -> None:
     """A value of the small letter would make it the amplitude; one letter for both another series."""
-    c, e, A = coordinates("x"), sp.Symbol("epsilon", positive=True), sp.Symbol("A", real=True)
+    c, e, A, r = coordinates("x"), sp.Symbol("epsilon", positive=True), *sp.symbols("A r", real=True)
     duffing = System(c, c.v[0] ** 2 / 2 - c.q[0] ** 2 / 2 - A * e * c.q[0] ** 4 / 4)
     for given, words in (
-        ({"values": {e: 1}}, "small = epsilon has a value"),
+        ({"values": {e: 1}, "amplitude": r}, "small = epsilon has a value"),
         ({"amplitude": e}, "amplitude = epsilon is a letter"),
         ({}, "amplitude = A is a letter"),
     ):
         with pytest.raises(InputError, match=words):
             duffing.lindstedt_poincare(2, e, **given)
-    r = sp.Symbol("r", positive=True)
     assert sp.diff(duffing.lindstedt_poincare(1, e, amplitude=r).frequency.removeO(), e) == 3 * A * r**2 / 8
 
 

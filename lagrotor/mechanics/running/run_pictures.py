@@ -26,9 +26,9 @@ _NOTHING = (
 
 
 def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | None = None) -> "RunFigure":
-    """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the names of their
-    constraints, or expressions as `evaluate` takes them. Without any of the coordinates, the change of the energy and, under
-    constraints, their violation.
+    """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the
+    names of their constraints, or expressions as `evaluate` takes them. Without any: the coordinates, the change of the energy
+    and, under constraints, their violation.
 
     glossary: units of letters, as a paper's; without it t is in s and the energy in J, and others have none.
     Raises InputError for what is none of these.

@@ -112,8 +112,8 @@ def state_space(
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
     """P⁻ (J P − P'), P and P⁻ of `small_turns`, of a state (q, u) of a motion, its rate (q', u') and J = ∂f/∂(q, u)."""
-    P, back = (np.array(e, float) for e in small_turns(system, state))
-    moved = np.array(small_turns(system, rate)[0], float) - np.array(small_turns(system, 0 * rate)[0], float)
+    P, back = (np.array(e, np.float64) for e in small_turns(system, state))
+    moved = np.array(small_turns(system, rate)[0], np.float64) - np.array(small_turns(system, 0 * rate)[0], np.float64)
     return back @ (J @ P - moved), P, back
 
 
@@ -192,7 +192,7 @@ def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
     """Which of the states y of `small_turns` are independent, and T that gives all of them."""
-    P = np.array(small_turns(system, state)[0], float)
+    P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
     n = d - len(system.speeds)
     units = [joint.unit_length for joint in system.ball_joints]

@@ -5,7 +5,6 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, LagrotorWarning
