@@ -115,7 +115,7 @@ QUICK = {
 LONG = {
     "test_kane": "aux parallel_axis input_format implicit_kinematics",
     "test_kane2": "aux_dep non_central_inertia",
-    "test_kane5": "kane_rolling_disc_lu kane_rolling_disc_kdes_callable",
+    "test_kane5": "kane_rolling_disc_lu",
     "test_lagrange": "rolling_disc",
     "test_jointsmethod": (
         "jointsmethod rigid_body_particle_compatibility complete_simple_double_pendulum two_dof_joints "
