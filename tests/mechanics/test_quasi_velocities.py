@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.linalg import expm
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Event, Frame, Impact, System, coordinates, motion_program, t
@@ -186,6 +187,42 @@ def test_motions_are_linearised_in_velocities_of_ones_own() -> None:
         assert (lin.rates.real.max() > 1e-2) == unstable and len(lin.states) == 8
     with pytest.raises(InputError, match=r"gives coordinates and velocities \(p, q, r\)"):
         disc().linearise({"psi": 0, "phi": 0, "gamma_dot": 1}, {g: 9.81, a: 0.4, m: 1})
+
+
+def test_floquet_multipliers_of_a_steady_motion_are_those_of_its_linear_system() -> None:
+    """exp(A T), of a disc that rolls above and below its least speed."""
+    values = {s: VALUES[s] for s in (g, a, m)}
+    for rate in (3.5, 6.0):
+        at_it = {"psi": 0, "phi": 0, "q": rate}
+        matrix = disc().floquet(at_it, values, 0.5)
+        linear = disc().linearise(at_it, values)
+        assert matrix.states == linear.states
+        np.testing.assert_allclose(matrix.matrix, expm(linear.A * 0.5), atol=1e-8 * np.abs(matrix.matrix).max())
+
+
+@pytest.mark.parametrize("spin", [2.0, 8.0])
+def test_a_neighbour_of_an_upright_top_leaves_at_its_largest_rate(spin: float) -> None:
+    """The Lyapunov exponent over the second half of a run, below and above the least spin, on a ball joint."""
+    ball = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I1, I3), (0, 0, a))
+    system, values = (
+        System(ball.frame.c, ball.kinetic - ball.potential((0, 0, -g))),
+        {I1: 1, I3: 1.5, m: 2, g: 9.81, a: 0.4},
+    )
+    still = (1.0, 0, 0, 0)
+    run = system.simulate(values, still, (0, 0, spin), np.linspace(0, 20, 21))
+    history = run.lyapunov().history
+    grown = 2 * history[-1] - history[len(history) // 2 - 1]
+    at_it = dict(zip(("q0", "q1", "q2", "q3"), still, strict=True)) | {"r": spin}
+    largest = system.linearise(at_it, values).rates.real.max()
+    assert (largest > 1) == (spin < 4)
+    assert grown == pytest.approx(largest, abs=0.15)
+
+
+def test_the_fast_engine_runs_velocities_of_ones_own() -> None:
+    pytest.importorskip("heyoka")
+    for system, q0, u0 in ((top(), (0, 0.8, 0), (0.3, 0.2, 4.0)), (sleigh(), (0, 0, 0.3), (0.7, 1.1))):
+        core, fast = (system.simulate(VALUES, q0, u0, np.linspace(0, 3, 7), 1e-10, engine=e) for e in ("core", "fast"))
+        np.testing.assert_allclose(np.hstack([fast.q, fast.u]), np.hstack([core.q, core.u]), atol=1e-8)
 
 
 @pytest.mark.slow
