@@ -10,14 +10,14 @@ A pulse adds the response of `theory.shock_response`. `linear_error` estimates w
 """
 
 from dataclasses import dataclass, replace
-from math import exp, pi
+from math import exp, nan, pi
 from typing import Any
 
 import numpy as np
 
 from lagrotor.errors import DomainError, SingularError
 from lagrotor.models.minimal import MODEL, rhs_on_arrays
-from lagrotor.models.model import Array, Observed
+from lagrotor.models.model import Array, ClosedMotion, Observed
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.generated import generated
@@ -154,6 +154,21 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 def linear_run(scene: Scene, t: Array) -> Observed:
     """Axes and rates of the linear motion at times t (n,). Raises as `linear_states`."""
     return MODEL.observe(scene, linear_states(scene, t))
+
+
+def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
+    """The linear motion as `closed_form` gives its own, with its error up to t_end (s), whatever the tolerance; NaN of more
+    turns than the estimate sums over. Raises as `linear_states`."""
+    try:
+        error = linear_error(scene, t_end)
+    except DomainError:
+        error = nan
+
+    def motion(t: Array) -> tuple[Array, Array]:
+        seen = linear_run(scene, t)
+        return seen.axes, seen.rates
+
+    return ClosedMotion(error, "small motion: normal modes", motion)
 
 
 def linear_error(scene: Scene, t_end: float) -> float:

@@ -22,6 +22,7 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.pair.trajectory import momentum_about_joints, tilting_energy
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
@@ -278,7 +279,7 @@ def _lower_order() -> Array:
 
 @dataclass(frozen=True, eq=False)
 class PulseNodes:
-    """Gauss–Legendre nodes t (n,) and weights (n,) over the part of the pulse between `begin` and `end` (s).
+    """Gauss–Legendre nodes t (n,) and weights (n,) over the part of the pulse up to `end` (s).
 
     lower (n,): weights of lower order; the difference of the two sums bounds the error of the first.
     """
@@ -286,7 +287,6 @@ class PulseNodes:
     t: Array
     weights: Array
     lower: Array
-    begin: float
     end: float
 
 
@@ -301,28 +301,7 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     edges = np.linspace(begin, end, count + 1)
     half = np.diff(edges)[:, None] / 2
     t = (edges[:-1, None] + half * (1 + _NODES)).ravel()
-    return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _lower_order()).ravel(), begin, end)
-
-
-@dataclass(frozen=True, eq=False)
-class Conserved:
-    """Energy T (n,) of the tilting and momentum P (n,) about the joint line, and how much an error of 1 in the axes, and
-    of PACE in the rates, may change each."""
-
-    energy: Array
-    momentum: Array
-    energy_scale: float
-    momentum_scale: float
-
-
-def _conserved(scene: Scene, seen: Observed) -> Conserved:
-    a, b = scene.inertias
-    (r1, r2), (v1, v2) = seen.axes, seen.rates
-    p1, p2 = a * v1 + b * v2, a * v2 + b * v1
-    energy = ((p1 * v1).sum(-1) + (p2 * v2).sum(-1)) / 2
-    turning = np.cross(r1, p1)[:, 0] + np.cross(r2, p2)[:, 0] + seen.momenta[0] * r1[:, 0] + seen.momenta[1] * r2[:, 0]
-    size = float(np.sqrt((p1**2 + p2**2).sum(-1)).max())
-    return Conserved(energy, turning, PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max()))
+    return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _lower_order()).ravel(), end)
 
 
 def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
@@ -331,7 +310,8 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
     The scene is in natural units; `nodes`, where there is a shock, are among the times. Without them its work is not known, and
     what comes after it is held to the first state after it.
     """
-    conserved = _conserved(scene, seen)
+    (a, b), (v1, v2) = scene.inertias, seen.rates
+    size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
     lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
     if scene.link:
         k = scene.link.length / scene.rotor.length
@@ -344,10 +324,10 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
         before, after = t <= max(scene.shock.begin, t[0]), t >= min(scene.shock.end, nodes.end if nodes else inf)
     if nodes:
         work, turn = _received(scene, t, seen, nodes)
-    for values, (received, unsure), scale in (
-        (conserved.energy, work, conserved.energy_scale),
-        (conserved.momentum, turn, conserved.momentum_scale),
-    ):
+    conserved = tilting_energy(scene, seen.rates), momentum_about_joints(scene, seen.axes, seen.rates, seen.momenta)
+    # How much an error of 1 in the axes, and of PACE in the rates, may change each.
+    scales = PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max())
+    for values, (received, unsure), scale in zip(conserved, (work, turn), scales, strict=True):
         if scale > 0:
             off = np.abs(values[before] - values[0])
             later = values[after] - (values[0] + received if nodes else values[after][:1])

@@ -8,23 +8,15 @@ from math import inf, nan, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import (
-    DomainError,
-    InputError,
-    IntegrationError,
-    LagrotorError,
-    LagrotorWarning,
-    SingularError,
-    near,
-)
+from lagrotor.errors import InputError, IntegrationError, LagrotorError, LagrotorWarning, SingularError, near
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.linear import linear_error, linear_run
+from lagrotor.models.linear import linear_error, linear_motion
 from lagrotor.models.model import (
     PACE,
+    ClosedMotion,
     Model,
     NaturalUnits,
-    Observed,
     check_range,
     conservation_defect,
     constant_momenta,
@@ -60,34 +52,11 @@ SHORT = Calibrated(
 _RESOLVED = 10 * np.finfo(float).eps  # of a start: all that it may be off without a reason of its own
 
 
-@dataclass(frozen=True, eq=False)
-class Direct:
-    """A motion known at any time at once: what is observed, the largest error of an axis, a sentence on why."""
-
-    seen: Observed
-    error: float
-    reason: str
-
-
-def _closed_form(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
-    motion = closed_form(scene, float(times[-1]), tol, best)
-    seen = Observed(*motion.motion(times), constant_momenta(scene, len(times)))
-    missed = ", more than tol" if motion.error > tol else ""
-    return Direct(
-        seen, motion.error, f"by name; {motion.reason}; estimated error {scientific(motion.error, 1)}{missed}"
-    )
-
-
-def _linear(scene: Scene, times: Array, tol: float, best: bool) -> Direct:
-    seen = linear_run(scene, times)
-    try:
-        return Direct(seen, linear_error(scene, float(times[-1])), "by name")
-    except DomainError:  # more turns than the estimate sums over
-        return Direct(seen, nan, "by name")
-
-
-# (scene, times from its start, tol, whether to give the best there is, by name, or what `choose` took)
-DIRECT: dict[str, Callable[[Scene, Array, float, bool], Direct]] = {"closed_form": _closed_form, "linear": _linear}
+# (scene, the run's last time, tol, whether to give the best there is, by name, or what `choose` took)
+DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
+    "closed_form": closed_form,
+    "linear": linear_motion,
+}
 
 
 @dataclass(frozen=True)
@@ -175,17 +144,20 @@ def simulate(
     check_engine(engine)
     at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
     if model in DIRECT:
-        direct = DIRECT[model](at_zero, times - times[0], tolerance, True)
-        if not direct.error <= tolerance:
-            error = "not known" if np.isnan(direct.error) else scientific(direct.error, 1)
+        motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
+        error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
+        missed = not motion.error <= tolerance
+        why = f"by name; {motion.reason}; estimated error {error}{', more than tol' if missed else ''}"
+        trajectory = _direct(scene, model, why, times, motion, tolerance)
+        if missed:
             said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}"
             warnings.warn(said, LagrotorWarning, stacklevel=2)
-        return _direct(scene, model, direct.reason, times, direct, tolerance)
+        return trajectory
     if model == "auto":
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.model in DIRECT:
-            direct = DIRECT[choice.model](at_zero, times - times[0], tolerance, False)
-            return _direct(scene, choice.model, choice.reason, times, replace(direct, error=choice.estimate), tolerance)
+            motion = DIRECT[choice.model](at_zero, float(times[-1] - times[0]), tolerance, False)
+            return _direct(scene, choice.model, choice.reason, times, replace(motion, error=choice.estimate), tolerance)
     elif model not in MODELS:
         known = "auto", *DIRECT, *MODELS
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
@@ -230,11 +202,12 @@ def trajectory_of(
     )
 
 
-def _direct(scene: Scene, model: str, why: str, times: Array, direct: Direct, tol: float) -> Trajectory:
-    seen, horizon = direct.seen, inf if direct.error <= tol else nan
+def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMotion, tol: float) -> Trajectory:
+    axes, rates = closed.motion(times - times[0])
     return Trajectory(
-        scene=scene, model=model, why=why, t=times, axes=seen.axes, rates=seen.rates, momenta=seen.momenta,
-        errors=np.full(len(times), direct.error), horizon=horizon, ending=Ending("end", float(times[-1])),
+        scene=scene, model=model, why=why, t=times, axes=axes, rates=rates, momenta=constant_momenta(scene, len(times)),
+        errors=np.full(len(times), closed.error), horizon=inf if closed.error <= tol else nan,
+        ending=Ending("end", float(times[-1])),
     )  # fmt: skip
 
 

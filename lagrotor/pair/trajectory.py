@@ -35,6 +35,21 @@ UNITS = {
 _AXES = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
 
 
+def tilting_energy(scene: Scene, rates: Array) -> Array:
+    """a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' of rates (2, n, 3), (n,), in J."""
+    a, b = scene.inertias
+    v1, v2 = rates
+    return np.asarray(a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1))
+
+
+def momentum_about_joints(scene: Scene, axes: Array, rates: Array, momenta: Array) -> Array:
+    """Angular momentum about the line through the ground joints, (n,), in kg m²/s."""
+    a, b = scene.inertias
+    (r1, r2), (v1, v2) = axes, rates
+    turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
+    return np.asarray(turning[:, 0] + momenta[0] * r1[:, 0] + momenta[1] * r2[:, 0])
+
+
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Trajectory(Run):
     """A run of a scene by a model: why it was chosen is a sentence.
@@ -69,18 +84,12 @@ class Trajectory(Run):
     @property
     def energy(self) -> Array:
         """Kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), (n,), in J."""
-        a, b = self.scene.inertias
-        v1, v2 = self.rates
-        tilting = a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1)
-        return tilting + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
+        return tilting_energy(self.scene, self.rates) + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
 
     @property
     def joint_line_momentum(self) -> Array:
         """Angular momentum about the line through the ground joints, (n,), in kg m²/s: conserved but for the shock."""
-        a, b = self.scene.inertias
-        (r1, r2), (v1, v2) = self.axes, self.rates
-        turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
-        return turning[:, 0] + self.momenta[0] * r1[:, 0] + self.momenta[1] * r2[:, 0]
+        return momentum_about_joints(self.scene, self.axes, self.rates, self.momenta)
 
     @property
     def invariants(self) -> dict[str, Array]:
