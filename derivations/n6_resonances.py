@@ -144,7 +144,7 @@ assert standing and standing.kind == "falls at a resonance"
 direction = np.array([[0.151, -0.931], [0.151, -0.149], [0.205, -0.149]])
 pushes = (0.04, 0.02, 0.01)
 said = [standing.fall_time(push * rate * direction) * rate for push in pushes]
-seen = [measured_fall(at_third, push * rate * direction, 2 / (push * rate))[0] * rate for push in pushes]
+seen = [measured_fall(at_third, push * rate * direction, 2 / (push * rate)) * rate for push in pushes]
 slope = float(np.polyfit(np.log(pushes), np.log(seen), 1)[0])
 assert abs(slope + 1) < 0.1 and all(abs(x - y) < 5 for x, y in zip(said, seen, strict=True))
 Remark(

@@ -42,7 +42,7 @@ def data() -> dict[str, np.ndarray]:
     standing = at_centre.stands()
 
     def exact(s: Structure, push: float) -> float:
-        return measured_fall(s, push * rate * DIRECTION, 2 / (push * rate), tol=1e-8)[0] * rate
+        return measured_fall(s, push * rate * DIRECTION, 2 / (push * rate), tol=1e-8) * rate
 
     return {
         "centre": np.array(factor / critical),

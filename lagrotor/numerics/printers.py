@@ -18,7 +18,6 @@ from sympy.printing.pycode import AbstractPythonCodePrinter, MpmathPrinter, Pyth
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.generated import function_of
-from lagrotor.numerics.segment import RightHandSide
 
 Array = NDArray[np.float64]
 _BLOCK = 8192  # values at once: what a processor keeps close
@@ -129,13 +128,6 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"
     return function
-
-
-def make_rhs(
-    program: Program, states: int, driven: bool = False, bounded: bool = False
-) -> Callable[..., RightHandSide]:
-    """parameters → rhs(s, y): the function of `rhs_source`."""
-    return function_of(rhs_source(program, states, driven, bounded))
 
 
 def rhs_source(program: Program, states: int, driven: bool = False, bounded: bool = False) -> str:

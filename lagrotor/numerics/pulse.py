@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import NamedTuple
 
 # Beyond |s| = 6.5 widths a pulse is below the last bit of its peak: exp(−6.5²) = 4e-19.
 PULSE_REACH = 6.5
@@ -10,17 +9,10 @@ PULSE_REACH = 6.5
 COMPANION_STEP = 0.8
 
 
-class _Part(NamedTuple):
-    """A part of a run without a pulse's edge inside; `pulsed`: it lies within the pulse."""
-
-    left: float
-    right: float
-    pulsed: bool
-
-
-def segments(begin: float, end: float, width: float) -> Iterator[_Part]:
-    """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width; 0: there is none."""
+def segments(begin: float, end: float, width: float) -> Iterator[tuple[float, float, bool]]:
+    """A run from s = begin to end ≥ begin, cut at the edges ± PULSE_REACH width of a pulse of that width, 0: there is none;
+    of each part its ends, and whether it lies within the pulse."""
     reach = PULSE_REACH * width
     cuts = [begin, *(s for s in (-reach, reach) if width and begin < s < end), end]
     for left, right in pairwise(cuts):
-        yield _Part(left, right, abs(left + right) / 2 < reach)
+        yield left, right, abs(left + right) / 2 < reach

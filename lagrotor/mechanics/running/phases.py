@@ -28,17 +28,14 @@ from lagrotor.mechanics.running.programs import (
 from lagrotor.mechanics.running.singular import mass_at, rows_at
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
 from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
 from lagrotor.numerics.dop853 import dop853_steps
 from lagrotor.numerics.segment import Segment, StopError, Stretch
 from lagrotor.numerics.zeros import zeros_between
 
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
 _FRESH = 0.01  # of the first step of a phase, in which that is looked at
-_COMPANION_FIRST = (
-    0.6  # first step of a phase of a run's companion over that of the run: short phases are one step in both
-)
 _NOISE = 1e-12  # of a velocity or a reaction, below which it is zero
-_MOST = 20_000  # events of a run
 _AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
 SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
@@ -281,7 +278,7 @@ def march(
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
     parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
-    span, first = end - now, _COMPANION_FIRST if companion else 1.0
+    span, first = end - now, COMPANION_FIRST.value if companion else 1.0
 
     def add(states: Array) -> None:
         later = times[times > now]
@@ -558,8 +555,8 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
             return float(left)
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * (1 + abs(now)):
         raise StopError(now, "events follow each other without time between them")
-    if sum(map(len, history.values())) > _MOST:
-        raise StopError(now, f"{_MOST} events", cause="budget")
+    if sum(map(len, history.values())) > MOST_EVENTS.value:
+        raise StopError(now, f"{MOST_EVENTS.value:,} events", cause="budget")
     return None
 
 

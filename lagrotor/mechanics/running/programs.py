@@ -29,7 +29,8 @@ from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mas
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
 from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
-from lagrotor.numerics.printers import compile_program, make_rhs
+from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.printers import compile_program, rhs_source
 
 Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
@@ -67,7 +68,7 @@ class Generated:
     @cached_property
     def rhs(self) -> Callable[..., Any]:
         """parameters → rhs(t, y)."""
-        return make_rhs(self.program, len(self.states))
+        return function_of(rhs_source(self.program, len(self.states)))
 
     @cached_property
     def function(self) -> Callable[..., Any]:

@@ -15,6 +15,8 @@ from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 
 Array = NDArray[np.float64]
+_START, _LARGEST = 0.05, 0.99  # amplitudes
+_STEP, _MOST = 0.1, 200  # the first step along the curve; orbits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -51,21 +53,19 @@ class OrbitFamily(Shown):
         return np.array([self.orbit(i).frequency_error for i in range(len(self.amplitudes))])
 
 
-def trace_family(
-    scene: Scene, start: float = 0.05, step: float = 0.1, most: int = 200, largest: float = 0.99
-) -> OrbitFamily:
-    """Follow the family from r0 = `start` until it ends, r0 reaches `largest`, or `most` orbits are found.
+def trace_family(scene: Scene) -> OrbitFamily:
+    """Follow the family from r0 = 0.05 until it ends, r0 reaches 0.99, or 200 orbits are found.
 
-    step: length of the first step along the curve; it grows to five times that, and is halved where Newton fails.
+    Steps along the curve grow from 0.1 to five times that, and are halved where Newton's method fails.
     The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
     reaches a singular position.
     Raises InputError unless the spins are opposite.
     """
     curve = QuarterPeriod(scene)
-    z = curve.correct(curve.linear(atanh(start)), np.array([1.0, 0, 0, 0]), atanh(start))
+    z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
     along = curve.tangent(z, np.array([1.0, 0, 0, 0]))
-    points, turns, reason, length = [z], [], f"{most} orbits found", step
-    while len(points) < most:
+    points, turns, reason, length = [z], [], f"{_MOST} orbits found", _STEP
+    while len(points) < _MOST:
         try:
             ahead = curve.correct(z + length * along, along, float(along @ z + length))
             turned = curve.tangent(ahead, along)
@@ -79,10 +79,10 @@ def trace_family(
             continue
         if turned[0] * along[0] < 0:
             turns.append(float(np.tanh(max(z[0], ahead[0]))))
-        z, along, length = ahead, turned, min(5 * step, 1.3 * length)
+        z, along, length = ahead, turned, min(5 * _STEP, 1.3 * length)
         points.append(z)
-        if abs(np.tanh(z[0])) > largest:
-            reason = f"r0 reached {largest:g}"
+        if abs(np.tanh(z[0])) > _LARGEST:
+            reason = f"r0 reached {_LARGEST:g}"
             break
     return _family(curve, np.array(points), tuple(turns), reason)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, LagrotorError
 from lagrotor.models.model import Array, ClosedMotion
-from lagrotor.models.orbits.periodic_orbit import fourier_orbit, parting
+from lagrotor.models.orbits.periodic_orbit import fourier_motion, fourier_orbit, parting
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.shown import superscript
@@ -82,7 +82,7 @@ def _axes_at(waves: _Waves, phase: float) -> Array:
     return np.real(both @ waves) * _MIRRORS
 
 
-def _turned(vectors: Array, angle: float) -> Array:
+def _turned(vectors: Any, angle: float) -> Any:
     """Vectors (…, 3) turned about the joint line by `angle`."""
     c, s = np.cos(angle), np.sin(angle)
     return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
@@ -148,7 +148,12 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     error += (mismatch + ROUND) * (turned + growth)
     error = error if error < _SMALL else UNKNOWN  # beyond it only the bound holds
     frequency = signed * float(powers @ series.frequency)
-    answer = _orbit_answer(_summed(powers, series.waves), frequency, unknowns, order, error)
+    r0, phase, azimuth = (float(u) for u in unknowns)
+    waves, odd = _summed(powers, series.waves), np.arange(order + 1)[:, None] % 2
+    # Half a period later odd waves change sign.
+    rotors = _turned(np.stack([waves, np.where(odd, -waves, waves)]) * _MIRRORS[:, None], azimuth)
+    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{superscript(order)}"
+    answer = ClosedMotion(error, reason, fourier_motion(rotors, frequency, phase))
     return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)
 
 
@@ -184,24 +189,3 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
             f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
-
-
-def _orbit_answer(waves: _Waves, frequency: float, unknowns: Array, order: int, error: float) -> ClosedMotion:
-    r0, phase, azimuth = (float(u) for u in unknowns)
-    h = np.arange(order + 1)[:, None]
-    # Both axes and both rates as one real matrix over cos(h Phi) and sin(h Phi); half a period later odd waves change sign.
-    both = np.stack([waves, frequency * 1j * h * waves])
-    rotors = _turned(np.stack([both, np.where(h % 2, -both, both)], axis=1) * _MIRRORS[:, None], azimuth)
-    table = rotors.transpose(2, 0, 1, 3).reshape(order + 1, 12)
-    table = np.concatenate([table.real, -table.imag])
-
-    def motion(t: Array) -> tuple[Array, Array]:
-        turn = np.exp(1j * (phase + frequency * t))
-        powers = np.ones((order + 1, len(t)), dtype=complex)
-        for n in range(order):
-            np.multiply(powers[n], turn, out=powers[n + 1])
-        seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-        return seen[0], seen[1]
-
-    reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{superscript(order)}"
-    return ClosedMotion(error, reason, motion)

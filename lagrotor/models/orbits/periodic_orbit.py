@@ -48,11 +48,12 @@ def fourier_orbit(scene: Scene, period: float) -> FourierOrbit:
     sizes = np.abs(waves).max(axis=(0, 2))
     kept = int(np.flatnonzero(sizes > _LEAST).max()) + 1
     tail = float(sizes[_SAMPLES // 4 :].sum())
+    waves[:, 1:] *= 2  # of those of negative harmonics, too
     return FourierOrbit(
         last / units.rate,
         float(np.abs(off).max() + np.abs(turning).max()) + tail,
         flow(units.scene)(MODEL.start(units.scene), last, _FLOW).slope,
-        _series(waves[:, :kept], 2 * np.pi * units.rate / last),
+        fourier_motion(waves[:, :kept], 2 * np.pi * units.rate / last),
     )
 
 
@@ -64,15 +65,21 @@ def parting(orbit: FourierOrbit, t_end: float) -> float:
     return 2 * most  # between two powers of two
 
 
-def _series(waves: NDArray[np.complex128], frequency: float) -> Callable[[Array], tuple[Array, Array]]:
-    """t ↦ axes and rates from the waves (2, h, 3) of non-negative harmonics."""
-    weights = np.where(np.arange(waves.shape[1]) == 0, 1.0, 2.0)[:, None] * waves
-    slopes = 1j * frequency * np.arange(waves.shape[1])[:, None] * weights
-    table = np.concatenate([weights, slopes]).transpose(1, 0, 2).reshape(waves.shape[1], 12)
+def fourier_motion(
+    waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
+) -> Callable[[Array], tuple[Array, Array]]:
+    """t ↦ axes and rates, Re sum_h waves_h exp(i h (phase + frequency t)) and its derivative, from both axes' waves (2, h, 3)."""
+    count = waves.shape[1]
+    slopes = 1j * frequency * np.arange(count)[:, None] * waves
+    table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)
+    table = np.concatenate([table.real, -table.imag])  # over cos and sin: a real product takes half of a complex one
 
     def motion(t: Array) -> tuple[Array, Array]:
-        turns = np.exp(1j * frequency * t[:, None] * np.arange(waves.shape[1]))
-        both = np.real(turns @ table).reshape(len(t), 2, 2, 3).transpose(1, 2, 0, 3)
-        return both[0], both[1]
+        turn = np.exp(1j * (phase + frequency * t))
+        powers = np.ones((count, len(t)), dtype=complex)
+        for n in range(count - 1):
+            np.multiply(powers[n], turn, out=powers[n + 1])
+        seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
+        return seen[0], seen[1]
 
     return motion

@@ -35,14 +35,14 @@ def check_closure(s: Assembly) -> None:
         )
 
 
-def close_bars(motion: ExactMotion, r: Array, most: int = 50) -> Array:
+def close_bars(motion: ExactMotion, r: Array) -> Array:
     """The axes (N, 3) on the constraints that Newton steps in the metric of the masses reach from r.
 
     Raises ConstraintError where they do not.
     """
     y = np.concatenate([r.ravel(), np.zeros(r.size)])
     with np.errstate(all="ignore"):
-        for _ in range(most):
+        for _ in range(50):
             far = np.abs(motion.off(y[: r.size].reshape(r.shape))).max()
             if far < 1e-15 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
                 break

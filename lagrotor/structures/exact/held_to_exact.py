@@ -15,7 +15,7 @@ from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
-def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> float:
+def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
 
     The amplitude is the projection on that mode's left vector, so that no other mode contributes. Raises InputError where
@@ -25,7 +25,7 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
     root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
-    shape = tilt * normal.shapes[0]
+    shape = 1e-5 * normal.shapes[0]
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
     roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
     w = left[:, np.argmin(np.abs(roots - root))]
@@ -33,18 +33,18 @@ def measured_growth(s: Assembly, tilt: float = 1e-5, folds: float = 3.0) -> floa
     return float(np.log(last / first) * root.real / folds)
 
 
-def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: int = 0) -> tuple[float, float]:
+def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     """(largest tilt, distance from the linear motion), both over the start's, in an exact run.
 
-    The run lasts `turns` periods of the slowest mode, from a random start of size `tilt`.
+    The run lasts `turns` periods of the slowest mode, from a random start of size 10⁻⁶.
     """
     from scipy.linalg import expm
 
     linear, normal = small_motion(s), modes(s)
     rates = normal.rates[normal.rates > 0]
     t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
-    draw = np.random.default_rng(seed).standard_normal((linear.dof,))
-    run = simulate_structure(s, t, tilt * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
+    draw = np.random.default_rng(0).standard_normal((linear.dof,))
+    run = simulate_structure(s, t, 1e-6 * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
     exact = _coordinates(linear, run.axes, run.rates)
     step, states = expm(replace(linear, rate=1.0).first_order * t[1]), [exact[:, 0]]
     for _ in t[1:]:
@@ -54,29 +54,24 @@ def bounded_motion(s: Assembly, turns: float = 20.0, tilt: float = 1e-6, seed: i
     return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
 
 
-def measured_fall(
-    s: Assembly, rates: ArrayLike, longest: float, tilt: float = 0.95, tol: float = 1e-9
-) -> tuple[float, float]:
-    """(time, s, at which an axis of the exact motion first tilts by the sine `tilt`, inf where none does; the largest tilt).
+def measured_fall(s: Assembly, rates: ArrayLike, longest: float, tol: float = 1e-9) -> float:
+    """The time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does within the `longest`.
 
-    From upright with the axes' rates (N, 2), rad/s, for at most the `longest` time; tol: of each step, relative.
+    From upright with the axes' rates (N, 2), rad/s; tol: of each step, relative.
     """
     from scipy.integrate import solve_ivp
 
     motion, N = exact_motion(s), len(s.joints)
-    rhs, rate = right_hand_side(motion), motion.c.rate
-    upright = motion.c.upright
-    start = motion.project(np.concatenate([upright, np.column_stack([rates, np.zeros(N)]) / rate]).ravel())
-
-    def tilts(states: Array) -> Array:
-        return np.asarray(np.hypot(*motion.axes_and_rates(states)[0][..., :2].swapaxes(0, 2)).max(0))
+    rate = motion.c.rate
+    start = motion.project(np.concatenate([motion.c.upright, np.column_stack([rates, np.zeros(N)]) / rate]).ravel())
 
     def fallen(_: float, y: Array) -> float:
-        return float(tilts(y)[0]) - tilt
+        return float(np.hypot(*motion.axes_and_rates(y)[0, 0, :, :2].T).max()) - 0.95
 
     fallen.terminal = True  # type: ignore[attr-defined]
-    run = solve_ivp(rhs, (0, longest * rate), start, events=fallen, rtol=tol, atol=1e-3 * tol, method="DOP853")
-    return (float(run.t[-1]) / rate if run.status == 1 else inf), float(tilts(run.y.T).max())
+    span, tolerances = (0, longest * rate), {"rtol": tol, "atol": 1e-3 * tol}
+    run = solve_ivp(right_hand_side(motion), span, start, events=fallen, method="DOP853", **tolerances)
+    return float(run.t[-1]) / rate if run.status == 1 else inf
 
 
 def _coordinates(linear: SmallMotion, axes: Array, rates: Array) -> Array:

@@ -42,10 +42,10 @@ def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> Edge
     return EdgeWaves(int(crossing[there < 0.5].sum()), int(crossing[there > 0.5].sum()), d, place)
 
 
-def border_packet(p: Cell, count: int, gap: tuple[float, float], tilt: float = 0.01) -> tuple[Structure, Array, Array]:
+def border_packet(p: Cell, count: int, gap: tuple[float, float]) -> tuple[Structure, Array, Array]:
     """A piece of count × count cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
 
-    The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; tilt: its largest one.
+    The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; its largest tilt is 0.01.
     Raises InputError where none is in the gap.
     """
     s = p.piece(count, count)
@@ -60,7 +60,7 @@ def border_packet(p: Cell, count: int, gap: tuple[float, float], tilt: float = 0
     rates, shapes = m.rates[inside], m.shapes[inside]
     parts = np.conj(shapes[:, pushed, 0])[:, None, None] * shapes
     u, v = parts.sum(0), (1j * rates[:, None, None] * parts).sum(0)
-    size = tilt / np.abs(u).max()
+    size = 0.01 / np.abs(u).max()
     return s, size * u.real, size * v.real
 
 

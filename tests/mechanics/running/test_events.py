@@ -10,11 +10,24 @@ from hypothesis import strategies as st
 
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics import Event, Impact, System, coordinates, t
+from lagrotor.mechanics.running import phases
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
 g, e, w = sp.symbols("g e omega", positive=True)
 OSCILLATOR, BALL = System(C, v**2 / 2 - x**2 / 2), System(C, v**2 / 2 - g * x)
+
+
+def test_a_run_of_too_many_events_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ball from 1 m bounces without loss, first after sqrt(2/g), then each 2 sqrt(2/g)."""
+    first = np.sqrt(2 / 9.81)
+    for most, ends in ((8, "end"), (5, "budget")):
+        monkeypatch.setattr(phases, "MOST_EVENTS", phases.MOST_EVENTS._replace(value=most))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LagrotorWarning)
+            run = BALL.simulate({g: 9.81}, (1,), (0,), np.linspace(0, 15.5 * first, 32), 1e-6, events=Impact(x))
+        assert run.ending.kind == ends
+    assert run.t[-1] == pytest.approx(11 * first) and "5 events" in run.ending.reason
 
 
 @settings(max_examples=15, deadline=None)

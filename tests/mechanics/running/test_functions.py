@@ -188,5 +188,5 @@ def test_where_knots_set_the_steps_two_runs_take_others(monkeypatch: pytest.Monk
         return sum(off > run.error for run, off in zip(runs, true, strict=True))
 
     assert told_too_little() == 0
-    monkeypatch.setattr(phases, "_COMPANION_FIRST", 1.0)  # twin
+    monkeypatch.setattr(phases, "COMPANION_FIRST", phases.COMPANION_FIRST._replace(value=1.0))  # twin
     assert told_too_little() > 0
