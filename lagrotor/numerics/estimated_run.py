@@ -63,7 +63,8 @@ class Evolution:
     the same clock, with what was reached. distance: two runs (n, d) → how far apart they are (n,), relative to the size of the
     states. turn: the time (s) in which the motion typically turns. project: brings a state back onto its constraints.
     unsure: how far, in units of rounding, the start may be off what it was given as: the companion's is off by as much.
-    slack: states (n, d) → how far off, in units of rounding, constraints that are nearly dependent there leave them (n,).
+    slack: states (n, d) → how far off, in units of rounding, constraints that are nearly dependent there leave them (n,); of
+    the sizes (d,) of the components.
     defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
     difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
@@ -79,6 +80,7 @@ class Evolution:
     project: Projection | None = None
     unsure: float = 1.0
     slack: Callable[[Array], Array] | None = None
+    sizes: Array | float = 1.0
     defect: Callable[[Array, Array], float] | None = None
     difference: Callable[[Array, Array], float] | None = None
     watch: Array = field(default_factory=lambda: np.empty(0))
@@ -241,7 +243,7 @@ class _Course:
         beside = start_beside(start, self.evolution.unsure)
         if self.evolution.slack:  # in each component, however small: a factor of it would be taken back by `project`
             off = np.finfo(float).eps * (self.evolution.slack(start[None])[0] - 1)
-            beside = beside + off * np.cos(np.arange(1, len(start) + 1))
+            beside = beside + off * self.evolution.sizes * np.cos(np.arange(1, len(start) + 1))
         return project(beside) if project else beside
 
 

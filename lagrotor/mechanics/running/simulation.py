@@ -1,7 +1,7 @@
 """A run of any system: initial values in; states, and whatever else is a function of them, out."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -27,10 +27,12 @@ from lagrotor.mechanics.running.programs import (
     rows_program,
 )
 from lagrotor.mechanics.running.scales import Scales, motion_scales
+from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.arrays import check_times
+from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 
@@ -150,6 +152,8 @@ def simulate_system(
         turn=scales.turn,
         patience=_PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
+        slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
+        sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
         independent=engine == "fast",
     )
@@ -163,6 +167,17 @@ def simulate_system(
     if system.multipliers:
         _warn_of_dependence(run)
     return run if h.smooth else _up_to_its_end(run)
+
+
+def _slack(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
+    """States (n, d) → how far off, in units of rounding and of the sizes, nearly dependent constraints leave them, (n,)."""
+    unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
+
+    def slack(states: Array) -> Array:
+        least = independence(system, values, states, unit)
+        return np.where(least < DEPENDENT.value, 1 / np.maximum(least, np.finfo(float).eps), 1.0)
+
+    return slack
 
 
 def _check_impact(impact: Impact, gap: float, restitution: float, begin: float) -> None:

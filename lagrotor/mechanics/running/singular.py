@@ -35,7 +35,7 @@ def singular_position(system: Equations, values: Mapping[Any, Any], start: Array
                 f"{names}: a pole of these coordinates. Angles about three different axes, turned('xyz'), have none where those "
                 "of 'zxz' and 'zyz' do, and the reverse; points x, y, z under a constraint have none at all"
             )
-        if system.left and (cosine := _dependence(system, values, state)) < _SINGULAR:
+        if system.left and (cosine := float(independence(system, values, state[None])[0])) < _SINGULAR:
             return f"the constraints are dependent there: the least singular value of their normals is {scientific(cosine, 1)}"
         return ""
 
@@ -79,10 +79,12 @@ def _least(matrix: Array) -> tuple[float, Array]:
     return float(values[0]), vectors[:, 0]
 
 
-def _dependence(system: Equations, values: Mapping[Any, Any], state: Array) -> float:
-    """The least singular value of the rows of G, each of length one."""
-    G = rows_at(system, values, state)
-    lengths = np.linalg.norm(G, axis=1, keepdims=True)
-    if not np.isfinite(G).all() or not lengths.all():
-        return 0.0
-    return float(np.linalg.svd(G / lengths, compute_uv=False)[-1])
+def independence(system: Equations, values: Mapping[Any, Any], states: Array, sizes: Array | float = 1.0) -> Array:
+    """The least singular value of the rows of G at states (n, d), (n,), each row of length one where q or u are in units of
+    the sizes; zero where a row is not finite, or nothing."""
+    times = np.array([_time(state, system) for state in states])
+    G = rows_program(system).along(values)(states, times).T.reshape(len(states), len(system.left), -1) * sizes
+    lengths, least = np.linalg.norm(G, axis=2, keepdims=True), np.zeros(len(states))
+    whole = np.isfinite(G).all((1, 2)) & lengths.all((1, 2))
+    least[whole] = np.linalg.svd(G[whole] / lengths[whole], compute_uv=False)[:, -1]
+    return least
