@@ -9,6 +9,7 @@ from html import escape, unescape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lagrotor.about import __version__
 from lagrotor.faces import names_of_face
 
 if TYPE_CHECKING:
@@ -18,6 +19,12 @@ ROOT = Path(__file__).parent.parent
 REPORT = ROOT / "report"
 # The parts of the package with public names for other people's programs.
 PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebra", "numerics", "proved")
+
+
+def on_config(config: Any) -> Any:
+    """The version in the foot of every page."""
+    config.copyright = f"lagrotor {__version__}; make docs builds the pages of another version from its tag"
+    return config
 
 
 def on_files(files: "Files", config: Any) -> "Files":
@@ -58,7 +65,8 @@ def gallery() -> str:
     """A card with its picture for each figure and each textbook system of the report, by its title."""
     parts = ["# Gallery", "![The paired precession](figures/pair.gif)", "## Figures"]
     cards = []
-    for path in sorted((ROOT / "figures").glob("*.py")):
+    # The paper's figures first.
+    for path in sorted((ROOT / "figures").glob("*.py"), key=lambda path: (not path.stem.startswith("fig"), path.stem)):
         names = assigned(path)
         if "TITLE" in names:
             picture = f"report/figures/{path.stem}.svg"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.numerics.any_run import Quantity, Run, read_run
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.shown import scientific
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,7 +111,7 @@ class Trajectory(Run):
         """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
         from lagrotor.drawing.run_figure import run_figure
 
-        title = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s, model {self.model}"
+        title = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s, model {self.model}".replace("-", "−")
         return run_figure(self.t, self.tips, self.energy, title)
 
     def animate(self, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None) -> Path:
@@ -150,7 +151,9 @@ class Trajectory(Run):
             | super().summary()
             | {
                 "energy, first to last [J]": f"{first:.9g} to {last:.9g}",
-                "bar's length, spread [m]": f"{np.ptp(self.link_length):.2g}" if self.scene.link else "none",
+                "bar's length, spread [m]": scientific(float(np.ptp(self.link_length)), 1)
+                if self.scene.link
+                else "none",
             }
         )
 
