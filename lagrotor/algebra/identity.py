@@ -98,8 +98,11 @@ class Decision:
 def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
     """Decide expression = 0; with floats in it, beyond the bound on the work and where nothing proves it "undecided".
 
-    within: inequalities that hold of the letters, x > 0, besides what these are declared to be. Raises InputError for what is
-    not a scalar expression, for two letters of one name, and for what is no inequality.
+    Args:
+        within: inequalities that hold of the letters, x > 0, besides what these are declared to be.
+
+    Raises:
+        InputError: for what is not a scalar expression, for two letters of one name, and for what is no inequality.
     """
     try:
         expression = scalar(expression, "decide_zero")

@@ -75,8 +75,9 @@ class LeadingTerm:
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
     """Return the series of the expression in `small` about 0, through small**order, with its principal part.
 
-    Raises NotExactError if the expression is not known to have one there, InputError for what is not a scalar expression, a
-    symbol and a whole number.
+    Raises:
+        NotExactError: if the expression is not known to have one there.
+        InputError: for what is not a scalar expression, a symbol and a whole number.
     """
     terms = [
         sp.expand_mul(coefficient.xreplace({_LOG: sp.log(small)})) * small**power
@@ -90,7 +91,10 @@ def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> Lea
     """Return the first term of the series in `small` that does not vanish, looking below small**(through + 1).
 
     Where there is none the expression is O(small**(through + 1)): a term small**(through + 1) * log(small)**k is looked at,
-    too. Raises NotExactError if a coefficient met on the way is undecided, or the expression has no series at small = 0.
+    too.
+
+    Raises:
+        NotExactError: if a coefficient met on the way is undecided, or the expression has no series at small = 0.
     """
     for power, coefficient in _terms(scalar(expression, "leading_term"), small, through):
         decision = decide_zero(coefficient)
@@ -106,7 +110,9 @@ def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, throug
     """Return the leading term of printed - derived, which agree through order `vanishes_through`.
 
     The order is absolute, also where the sides have a pole: 1/sin(e) and 1/e agree through order 0 and part by e/6.
-    Raises NotExactError as `leading_term` does.
+
+    Raises:
+        NotExactError: as `leading_term` does.
     """
     return leading_term(scalar(printed, "agreement_order") - scalar(derived, "agreement_order"), small, through)
 

@@ -204,9 +204,10 @@ def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.source.check import FOUND, WRONG, check_source
     from lagrotor.paper.source.markup import read_source
 
-    found = []
+    found, displayed = [], 0
     for file in given.sources:
         source = read_source(file)
+        displayed += len(source.equations)
         for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
             say(f"{file}: {note}", 0)
         found += [(file, each) for each in check_source(source)]
@@ -225,7 +226,8 @@ def check_command(given: argparse.Namespace) -> int:
                     )
                 )
         counts = Counter(each.verdict for _, each in found)
-        say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or "nothing to check", 0)
+        nothing = f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: judge each by lagrotor init --from"
+        say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing, 0)
     return 1 if any(each.verdict in WRONG for _, each in found) else 0
 
 

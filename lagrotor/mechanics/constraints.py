@@ -26,7 +26,8 @@ WORST_CONDITION = 1e12
 def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
     """(a, λ) at one state, shapes (n,) and (k,), from M (n, n), h (n,), G (k, n), γ (k,), Q (n,).
 
-    Raises SingularError when M is singular or the rows of G are linearly dependent.
+    Raises:
+        SingularError: when M is singular or the rows of G are linearly dependent.
     """
     W, S = _normals("solve_constrained", G, M)
     free = np.linalg.solve(M, Q - h)
@@ -51,7 +52,9 @@ def project_position(
     when one is shorter than tol (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its
     terms, 4 eps |G| |q|: beside dependent constraints that rounding alone moves q by more than tol.
 
-    Raises ConstraintError with the residual left after max_steps, SingularError where the rows of G are dependent.
+    Raises:
+        ConstraintError: with the residual left after max_steps.
+        SingularError: where the rows of G are dependent.
     """
     start, q = q, np.array(q, dtype=float)
     for _ in range(max_steps):
@@ -71,7 +74,8 @@ def project_position(
 def project_velocity(G: Array, v: Array, mass: Array | None = None) -> Array:
     """v − M⁻¹ Gᵀ S⁻¹ G v, shape (n,): the velocity with G v = 0 nearest to v in the mass metric (M = 1 if none).
 
-    Raises SingularError when M is singular or the rows of G are linearly dependent.
+    Raises:
+        SingularError: when M is singular or the rows of G are linearly dependent.
     """
     W, S = _normals("project_velocity", G, mass)
     return v - W @ np.linalg.solve(S, G @ v)

@@ -361,8 +361,10 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
 
         λ = −S⁻¹ (G M⁻¹ (Q − h) + γ),   S = G M⁻¹ Gᵀ,        a = M⁻¹ (Q − h + Gᵀ λ).
 
-    For small systems: the adjugate grows fast with their number of coordinates. Raises SingularError when det M or det S
-    vanishes identically.
+    For small systems: the adjugate grows fast with their number of coordinates.
+
+    Raises:
+        SingularError: when det M or det S vanishes identically.
     """
     M, G = system.mass, system.rows
     push, by_reaction = push_left(replace(system, velocities=()), system.push)
@@ -377,7 +379,8 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
 def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
     """n − rank G at one configuration. The rank is numerical: the singular values of G above rounding.
 
-    Raises InputError when a symbol of G has no value in `at`.
+    Raises:
+        InputError: when a symbol of G has no value in `at`.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:

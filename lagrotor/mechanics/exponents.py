@@ -109,10 +109,13 @@ def characteristic_exponents(
 ) -> ExponentSeries:
     """A and B through eps**order, for an orbit through at least that order.
 
-    sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones. neutral: the numbers
-    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged. numeric: the same
-    equations with floating-point coefficients, for an orbit that has those.
-    Raises SingularError where an order cannot be solved: another exponent comes close to zero.
+    Args:
+        sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones.
+        neutral: the numbers of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
+        numeric: the same equations with floating-point coefficients, for an orbit that has those.
+
+    Raises:
+        SingularError: where an order cannot be solved: another exponent comes close to zero.
     """
     variation = _Variation(residual, field, order, exchange)
     parity = {"p": list(sines), "q": [not sine for sine in sines]}

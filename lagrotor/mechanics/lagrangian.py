@@ -27,7 +27,8 @@ t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a c
 class Coordinates:
     """The names of one configuration: coordinates q, velocities v = q', accelerations a = q'', n of each.
 
-    Raises InputError when the lengths differ or a symbol appears twice.
+    Raises:
+        InputError: when the lengths differ or a symbol appears twice.
     """
 
     q: tuple[sp.Symbol, ...]
@@ -106,7 +107,9 @@ def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None = None) -> sp.Matrix:
     """a = M⁻¹ (Q − h), shape (n, 1), with Q = forces (zero when none are given).
 
-    Raises SingularError when det M vanishes identically, InputError when there are not n forces.
+    Raises:
+        SingularError: when det M vanishes identically.
+        InputError: when there are not n forces.
     """
     M = mass_matrix(L, c)
     return linear_solve(M, force_column(forces, c, "accelerations") - bias(L, c), singular_mass("accelerations", M, c))

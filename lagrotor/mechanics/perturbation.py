@@ -56,13 +56,17 @@ def lindstedt_poincare(
     phase, time derivatives carried by the frequency. rest: unknowns at equilibrium; mode: {harmonic: coefficient} of
     each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's parity by its sign; an unknown
     without a first-order part is a cosine series. eps is the value of unknown number `amplitude` at Phi = 0, less rest.
-    numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
-    begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
-    mode an amplitude.
 
     At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
     that is singular (the mode's own harmonic) the frequency's correction omega_{n − begins_at} makes the system solvable.
-    Raises SingularError when it is not: a resonance with another mode.
+
+    Args:
+        numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
+        begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
+            mode an amplitude.
+
+    Raises:
+        SingularError: when it is not: a resonance with another mode.
     """
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]

@@ -103,8 +103,10 @@ class System(Equations):
         numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u, also where bodies roll, for inputs u, parameters
         (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
 
-        Raises SingularError where accelerations are left, ConstraintError off the constraints, InputError where the
-        coefficients change with time.
+        Raises:
+            SingularError: where accelerations are left.
+            ConstraintError: off the constraints.
+            InputError: where the coefficients change with time.
         """
         point = at.at if isinstance(at, Equilibrium) else at
         if not isinstance(point, Mapping):
@@ -139,7 +141,9 @@ class System(Equations):
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
 
-        Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
+        Raises:
+            ConstraintError: when it is not reached.
+            SingularError: where the constraints are dependent.
         """
         from lagrotor.mechanics.running import function_values, starts
 

@@ -59,7 +59,9 @@ class Oscillation:
         """The relative error of the frequency for values of all letters, small and amplitude among them, measured against the
         period of a run from the start that the series gives, which is known to some 10⁻¹¹.
 
-        Raises InputError for a letter without a value, SingularError where the run does not come back.
+        Raises:
+            InputError: for a letter without a value.
+            SingularError: where the run does not come back.
         """
         import numpy as np
 
@@ -183,7 +185,9 @@ def oscillation(
 class AveragedMotion:
     """Y' = `rates` for Y = (a, b), through small**order, and q and q' at a time t by a, b and t: with u₁ for the second order.
 
-    letters: a and b. frequency: ν.
+    Attributes:
+        letters: a and b.
+        frequency: ν.
     """
 
     letters: tuple[sp.Symbol, sp.Symbol]
@@ -211,7 +215,8 @@ class AveragedMotion:
     def run(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> Any:
         """(q, q') at the times (n,), (2, n), from q0 and q0' at times[0], in numbers; values: of all letters.
 
-        Raises InputError for a letter without a value.
+        Raises:
+            InputError: for a letter without a value.
         """
         import numpy as np
         from scipy.optimize import fsolve

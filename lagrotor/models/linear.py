@@ -207,7 +207,10 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
 
     The linear motion keeps the bar's length and the axes' in curved coordinates; its distance from the response in
     (x, y_1, y_2) is known exactly, and its own error is below `linear_error`. SAFETY times both is taken; second order.
-    Raises InputError as `shock_response`, DomainError as `linear_error`, or where the error is beyond 0.1.
+
+    Raises:
+        InputError: as `shock_response`.
+        DomainError: as `linear_error`, or where the error is beyond 0.1.
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))

@@ -31,7 +31,11 @@ def mean_over(t: Array, values: Array) -> float:
 
 def mean_error(values: Array, turns: float) -> float:
     """What an oscillation of `turns` periods within the window can add to `mean_over`: 12 exp(−sqrt(4 pi turns)) of half the
-    range of the values. The run's own tolerance comes on top. Raises DomainError below 4 turns, where it is no bound."""
+    range of the values. The run's own tolerance comes on top.
+
+    Raises:
+        DomainError: below 4 turns, where it is no bound.
+    """
     if turns < 4:
         raise DomainError(f"mean_error: {turns:g} turns are too few to average over: take 4 or more")
     return float(12 * np.exp(-np.sqrt(4 * np.pi * turns)) * np.ptp(values) / 2)
@@ -52,7 +56,8 @@ def wandering_rate(run: Trajectory) -> float:
 def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
     """An exact run over `turns` swings from the end of the scene's shock, evenly sampled.
 
-    Raises InputError without a shock or spin.
+    Raises:
+        InputError: without a shock or spin.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
@@ -90,7 +95,8 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     """Time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
-    Raises DomainError when it does not within `longest` s.
+    Raises:
+        DomainError: when it does not within `longest` s.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:

@@ -99,7 +99,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         check_range(minimal.MODEL, scene)
     except LagrotorError as refusal:
         return Choice("spheres", tol, f"regular everywhere; {refusal}")
-    return Choice("minimal", tol, f"least exact model: bar eliminated, six states; {missed}")
+    return Choice("minimal", tol, f"smallest exact model: bar eliminated, six states; {missed}")
 
 
 def simulate(
@@ -112,25 +112,24 @@ def simulate(
 ) -> Trajectory:
     """Run `scene` from its start, which holds at t[0], through the times `t` (n,), in s.
 
-    model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol`
-    of the exact ones over the run, named with its reason in the trajectory; see `choose`. tol: the largest error of an axis
-    (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
-
     The trajectory carries `errors`, the estimated largest error of an axis up to each time, `horizon`, the time from which
     they exceed `tol`, and `ending`. A run is integrated twice, at two tolerances, and held to what the motion conserves; a
     LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
     holds the times up to there.
 
-    engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
-    "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
-
-    progress: called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each
-    of the runs that are compared begins anew.
-
     >>> from lagrotor import Scene, paired_scene
     >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
     >>> run.tips.shape, run.error < 1e-9
     ((2, 3, 3), True)
+
+    Args:
+        model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol` of
+            the exact ones over the run, named with its reason in the trajectory; see `choose`.
+        tol: the largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
+        engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
+            "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
+        progress: called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each of
+            the runs that are compared begins anew.
 
     Raises:
         InputError: a bad argument.

@@ -32,11 +32,12 @@ Engine = Literal["core", "fast"]
 class Problem:
     """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
 
-    longest: in the pulse no step is longer than this many widths.
-
     `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
     no step is longer than half of `time_to_singular` of the state where it begins.
+
+    Attributes:
+        longest: in the pulse no step is longer than this many widths.
     """
 
     free: RightHandSide

@@ -35,7 +35,9 @@ def consistent_scene(
 ) -> Scene:
     """The scene whose start is nearest, in the mass metric, to the given axes and rates (2, 3) and satisfies the bar.
 
-    Raises ConstraintError when the axes cannot be brought onto the bar, InputError for what Scene refuses.
+    Raises:
+        ConstraintError: when the axes cannot be brought onto the bar.
+        InputError: for what Scene refuses.
     """
     scene = Scene(spins, rotor or Rotor(), link or Link(), shock)
     try:

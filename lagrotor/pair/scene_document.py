@@ -16,7 +16,10 @@ _PARTS: dict[str, type] = {"rotor": Rotor, "link": Link, "shock": Shock}
 def read_scene(path: str | Path) -> Scene:
     """The scene that a TOML file describes: spins, and [rotor], [link], [shock], axes, rates as far as they are not usual.
 
-    `link = "none"` is a pair without a bar. Raises InputError with the reason where there is none.
+    `link = "none"` is a pair without a bar.
+
+    Raises:
+        InputError: with the reason where there is none.
     """
     return read_document(path, scene_of)
 

@@ -170,8 +170,9 @@ class Trajectory(Run):
     def load(path: str | Path) -> "Trajectory":
         """The run that `save` wrote as `.npz`.
 
-        Raises InputError where that is not what the file is: not whole, or not a motion (times that do not increase, axes
-        that are no unit vectors, numbers that are not finite).
+        Raises:
+            InputError: where that is not what the file is: not whole, or not a motion (times that do not increase, axes that are
+                no unit vectors, numbers that are not finite).
         """
         about, held, known = read_run(path)
         try:

@@ -120,8 +120,20 @@ def _strict(premises: Iterable[Premise]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     yield from (r.args for r in conditions if isinstance(r, sp.StrictGreaterThan | sp.StrictLessThan | sp.Unequality))
 
 
+_CALL = re.compile(r"(?<![\\\w])([A-Za-z]\w+)\(")  # of a function, by a name of more than one letter
+
+
 def _statements(text: str, where: str) -> Iterator[_Text]:
-    if not re.search(r"[\\{}^]", text):
+    typed = [name for name in _CALL.findall(text) if name in FUNCTIONS]
+    latex = re.search(r"[\\{}]", text)
+    if typed and latex:
+        raise InputError(
+            f"{where}: {text!r} has {typed[0]}(…) as in Python beside LaTeX, which reads it as the letters "
+            f"{' '.join(typed[0])}: write \\{typed[0]}, or all of it as in Python"
+        )
+    if typed:
+        text = text.replace("^", "**")
+    if not latex and "^" not in text:
         parts = [part.strip() for part in _SIGN.split(text)]
         yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
         return

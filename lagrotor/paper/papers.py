@@ -30,8 +30,11 @@ class Paper(Catalogue):
     """A folder with `paper.toml`, `equations.toml`, and, where there are any, `claims.toml`, `figures.toml`, `symbols.py`,
     `derivations/`, `figures/`, and the record of verdicts, `recorded.toml`.
 
-    scripts_in: the folder that holds `derivations/` and `figures/`, where it is another. Raises InputError for a folder
-    whose parts do not fit together; the message names the file.
+    Attributes:
+        scripts_in: the folder that holds `derivations/` and `figures/`, where it is another.
+
+    Raises:
+        InputError: for a folder whose parts do not fit together; the message names the file.
     """
 
     scripts_in: Path | None = None
@@ -79,7 +82,8 @@ class Paper(Catalogue):
     def check_scripts(self) -> None:
         """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown.
 
-        Raises InputError with file and line otherwise.
+        Raises:
+            InputError: with file and line otherwise.
         """
         _ = self.glossary
         for identifier, (stem, line) in self.scripts.stating.items():
@@ -160,7 +164,8 @@ class Paper(Catalogue):
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
         """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
 
-        Raises InputError for an equation that is judged twice.
+        Raises:
+            InputError: for an equation that is judged twice.
         """
         found: dict[str, Verdict] = {}
         for verdict in verdicts:
@@ -204,7 +209,8 @@ class Paper(Catalogue):
     def claim_tests(self) -> dict[str, ClaimTest]:
         """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them.
 
-        Raises InputError for a claim that is tested twice or is not in claims.toml.
+        Raises:
+            InputError: for a claim that is tested twice or is not in claims.toml.
         """
         if not self.claims:
             return {}

@@ -19,9 +19,11 @@ _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.L
 class Premise:
     """What is assumed. says: in a physicist's words. put: the equations that state it, old = new, as a substitution.
 
-    where: further relations, Eq, Ne, Ge, Gt, Le, Lt. small: for an approximation, the quantity in which only the leading terms
-    are kept; `put` then brings it in, and a letter on both sides of a row stands on the right for its scaled value.
-    broken: how far the paper's own scene is from it, in words; empty where the scene keeps it.
+    Attributes:
+        where: further relations, Eq, Ne, Ge, Gt, Le, Lt.
+        small: for an approximation, the quantity in which only the leading terms are kept; `put` then brings it in, and a letter
+            on both sides of a row stands on the right for its scaled value.
+        broken: how far the paper's own scene is from it, in words; empty where the scene keeps it.
     """
 
     says: str
@@ -104,7 +106,9 @@ def parameter_premise(
 ) -> Premise:
     """A premise about parameters, such as ell = R: how far the paper's own values break it is computed from them.
 
-    own: letter → the value of the paper's own scene. meanings: letters that stand for expressions in other letters.
+    Args:
+        own: letter → the value of the paper's own scene.
+        meanings: letters that stand for expressions in other letters.
     """
     off = []
     for left, right in put.items():

@@ -67,7 +67,8 @@ class Step:
         lines = [f"{line}{end}" for line in self.written] or [
             f"{name} &= {latex(right)}{end}" for name, (_, right) in zip(self.names, self.pairs, strict=True)
         ]
-        return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
+        guarded = ["{}" * line.startswith("[") + line for line in lines]  # after \\ and \begin a bracket is an option
+        return r"\begin{aligned} " + r" \\ ".join(guarded) + r" \end{aligned}"
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.tex}$"
@@ -84,9 +85,14 @@ def prove(
 ) -> Step:
     """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
 
-    says: what is decided, in words. names: LaTeX shown for the left sides. written: LaTeX shown for the whole equations, in
-    vectors and sums where what is compared are components. Raises ProofError with the difference where it does not hold or
-    is not decided, and where a left side is too long to be read and neither named nor written.
+    Args:
+        says: what is decided, in words.
+        names: LaTeX shown for the left sides.
+        written: LaTeX shown for the whole equations, in vectors and sums where what is compared are components.
+
+    Raises:
+        ProofError: with the difference where it does not hold or is not decided, and where a left side is too long to be read and
+            neither named nor written.
     """
     pairs = _pairs(left, right)
     check_names(f"prove: {says or 'this step'}", pairs, small)

@@ -72,13 +72,16 @@ def verdict(
 ) -> Stated:
     """What the paper prints as `identifier` is to be judged against what was derived under no premise.
 
-    derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is
-    given without any premise put in, as a `Series` where it is known through some order only. correction: likewise, what
-    should be printed; it is judged against `derived`, which may hold quantities besides the printed ones. uses: ids of
-    equations that this one rests on, or what was stated of them, which gives the letters that are defined there their derived
-    meaning. written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked
-    against the paper when it is judged. prove: for a number that is read off a run, what proves its bounds, called when it is
-    judged; the theorem decides then.
+    Args:
+        derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is given
+            without any premise put in, as a `Series` where it is known through some order only.
+        correction: likewise, what should be printed; it is judged against `derived`, which may hold quantities besides the
+            printed ones.
+        uses: ids of equations that this one rests on, or what was stated of them, which gives the letters that are defined there
+            their derived meaning.
+        written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked against the
+            paper when it is judged.
+        prove: for a number that is read off a run, what proves its bounds, called when it is judged; the theorem decides then.
     """
     return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written, prove)
 

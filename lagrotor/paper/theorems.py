@@ -21,8 +21,9 @@ NOT_AGAIN = "on record, not proved again here; `lagrotor claims` does, with pyth
 class Theorem:
     """What is proved: `says`, in the words of `lagrotor.proved.check`; `encloses`, the enclosure as it is printed.
 
-    certificate: what `check` verifies, plain data; None where the theorem is on record only. bounds: rational numbers between
-    which the quantity lies that a printed number is compared with.
+    Attributes:
+        certificate: what `check` verifies, plain data; None where the theorem is on record only.
+        bounds: rational numbers between which the quantity lies that a printed number is compared with.
     """
 
     says: str

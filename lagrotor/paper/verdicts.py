@@ -35,11 +35,14 @@ class Series:
 class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
-    within: for a number read off a run, the relative error that its printed digits allow. quantity: what both are, in LaTeX.
-    scene: values that the text gives for this line, a premise of their own. known: the small quantity and the order through
-    which the derived side is known, where it is a series. written: LaTeX of the derived side, in a correction of what should
-    be printed, as a physicist writes it; granted: it is equal under the premises only. theorem: it encloses the number that is
-    printed, and decides in place of the derived side.
+    Attributes:
+        within: for a number read off a run, the relative error that its printed digits allow.
+        quantity: what both are, in LaTeX.
+        scene: values that the text gives for this line, a premise of their own.
+        known: the small quantity and the order through which the derived side is known, where it is a series.
+        written: LaTeX of the derived side, in a correction of what should be printed, as a physicist writes it.
+        granted: it is equal under the premises only.
+        theorem: it encloses the number that is printed, and decides in place of the derived side.
     """
 
     printed: Side
@@ -75,10 +78,15 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 class Statement:
     """What one equation of a paper is compared with; id: its id, empty where it belongs to none; title: what it is about.
 
-    relations: printed against derived, one for each member of each printed line. premises: what may be assumed.
-    correction: what should be printed, as relations of their own. wrong: what is wrong, in a line. names: the line only
-    introduces a letter. measured: it is a number read off a run. depends_on: ids of the equations that this one uses.
-    evidence: sentences with the numbers that were computed.
+    Attributes:
+        relations: printed against derived, one for each member of each printed line.
+        premises: what may be assumed.
+        correction: what should be printed, as relations of their own.
+        wrong: what is wrong, in a line.
+        names: the line only introduces a letter.
+        measured: it is a number read off a run.
+        depends_on: ids of the equations that this one uses.
+        evidence: sentences with the numbers that were computed.
     """
 
     id: str
@@ -104,11 +112,14 @@ class Statement:
 class LineVerdict:
     """What was decided of one member of one printed line, or of one line of a correction.
 
-    premises: those that it needs; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are defined
-    and real. dimensions: what the units of the letters say of it; no verdict rests on them. Of what is refuted:
-    `difference`, printed less derived under the premises (of matrices the entry `place`, of series the first coefficient),
-    `witness`, letter → value, a point that satisfies the premises, and `enclosure`, two rationals of one sign between which
-    the difference lies there. reason: why it does not hold, in words.
+    Attributes:
+        premises: those that it needs; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are
+            defined and real.
+        dimensions: what the units of the letters say of it; no verdict rests on them. Of what is refuted: `difference`, printed
+            less derived under the premises (of matrices the entry `place`, of series the first coefficient), `witness`, letter →
+            value, a point that satisfies the premises, and `enclosure`, two rationals of one sign between which the difference
+            lies there.
+        reason: why it does not hold, in words.
     """
 
     relation: Relation

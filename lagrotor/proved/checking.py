@@ -494,7 +494,8 @@ def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
 def check(certificate: Any) -> str:
     """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
 
-    Raises InputError for what is no certificate, NotProved with the first thing that does not hold.
+    Raises:
+        InputError: for what is no certificate, NotProved with the first thing that does not hold.
     """
     try:
         version, kind = certificate["version"], certificate["kind"]

@@ -67,7 +67,8 @@ def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> Watch:
 class Crossing(Shown):
     """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
 
-    first: whether it is proved to be the first crossing, too. certificate: what `check` verifies.
+    Attributes:
+        first: whether it is proved to be the first crossing, too. certificate: what `check` verifies.
     """
 
     expression: sp.Expr
@@ -123,7 +124,8 @@ def crossing(
     system, values, q0, v0: as in `enclose`; of a Scene the expression may have x_1 … z_2 of the axes and their rates, of a
     Structure x_0, y_0, z_0, ….
 
-    Raises InputError for what makes no sense, NotProved where the sign is not shown to change, with how far the proof came.
+    Raises:
+        InputError: for what makes no sense, NotProved where the sign is not shown to change, with how far the proof came.
     """
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):

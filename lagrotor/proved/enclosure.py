@@ -116,8 +116,9 @@ def enclose(
     with its states first. values, q0, v0: numbers, exact decimals as they are written, or pairs (lowest, highest). tol: what
     a step may leave out, relative to the state's size: order, steps and precision follow from it.
 
-    Raises InputError for what makes no sense, ConstraintError for a start off the constraints, NotProved where the enclosure
-    ends before t.
+    Raises:
+        InputError: for what makes no sense.
+        ConstraintError: for a start off the constraints, NotProved where the enclosure ends before t.
     """
     accuracy = accuracy_of(tol, "enclose")
     with precision(accuracy.bits, accuracy.terms):

@@ -183,10 +183,14 @@ def interval(x: Ball) -> str:
 def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     """The paired precession of amplitude r0 = sin(theta), theta the inclination when the axes are parallel, proved to exist.
 
-    r0: a number, exact as the decimal that it is written in, or a pair (lowest, highest): then for every amplitude between
-    them one orbit is proved, all of them one smooth curve. tol: what a step may leave out.
+    Args:
+        r0: a number, exact as the decimal that it is written in, or a pair (lowest, highest): then for every amplitude between
+            them one orbit is proved, all of them one smooth curve.
+        tol: what a step may leave out.
 
-    Raises InputError unless the spins are opposite, DomainError unless 0 < r0 < 1, NotProved with how far the proof came.
+    Raises:
+        InputError: unless the spins are opposite.
+        DomainError: unless 0 < r0 < 1, NotProved with how far the proof came.
     """
     one = not isinstance(r0, tuple | list)
     accuracy = accuracy_of(tol or (TOL if one else TOL_OF_FAMILY), "precession")

@@ -35,7 +35,9 @@ _NEWTON = 30
 class ProvedEquilibrium(Shown):
     """An equilibrium that exists, the only one in a box about it. q: its coordinates, balls; stability: what is proved of it.
 
-    eigenvalues: of the linear motion, balls (real, imaginary), where they are apart. certificate: what `check` verifies.
+    Attributes:
+        eigenvalues: of the linear motion, balls (real, imaginary), where they are apart.
+        certificate: what `check` verifies.
     """
 
     names: tuple[str, ...]
@@ -57,7 +59,8 @@ class ProvedEquilibrium(Shown):
 def equilibrium(system: Equations, values: Values | None = None, q0: Any = None, tol: float = TOL) -> ProvedEquilibrium:
     """The equilibrium near q0, proved to exist, with its stability. values: numbers or pairs (lowest, highest).
 
-    Raises InputError for what makes no sense, NotProved where none can be proved near q0.
+    Raises:
+        InputError: for what makes no sense, NotProved where none can be proved near q0.
     """
     if not isinstance(system, Equations):
         raise InputError(f"equilibrium: {system!r} must be a System")

@@ -30,7 +30,10 @@ class Patterns:
 def sign_patterns(s: Assembly) -> Patterns:
     """The structure of equal |spin| with each pattern of signs, the first sign +; at most 12 rotors.
 
-    A turn of all signs changes nothing (a mirror image). Raises InputError for more rotors.
+    A turn of all signs changes nothing (a mirror image).
+
+    Raises:
+        InputError: for more rotors.
     """
     N = len(s.joints)
     if N > _MOST:

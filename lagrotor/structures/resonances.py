@@ -56,10 +56,15 @@ _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow o
 class Resonance(Shown):
     """A resonance of order 3 or 4 that can feed modes of both signs of energy.
 
-    vectors: the k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative energy,
-    with all spins multiplied by `at`. detuning: k·rates of the first, rad/s; per_factor: its slope. growth: c, largest: κ,
-    both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the start, upright, in
-    rad/s; reach: of the steepest push. falls: whether its own terms do not stop it.
+    Attributes:
+        vectors: the k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative
+            energy, with all spins multiplied by `at`.
+        detuning: k·rates of the first, rad/s.
+        per_factor: its slope.
+        growth: c, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
+            start, upright, in rad/s.
+        reach: of the steepest push.
+        falls: whether its own terms do not stop it.
     """
 
     order: int

@@ -45,7 +45,8 @@ class LocalHamiltonian:
 def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     """The Hamiltonian about upright through an order.
 
-    Raises InputError where a bar is not as long as its tips are apart when upright, or friction acts.
+    Raises:
+        InputError: where a bar is not as long as its tips are apart when upright, or friction acts.
     """
     linear, c = small_motion(s), coefficients(s)
     if linear.damping.any() or c.decay.any():

@@ -42,7 +42,11 @@ class _Leg(NamedTuple):
 class SlowMotion:
     """The centre (lean beta, half-angle eta, rad) of a swing of amplitude `swing` s (rad, in the half-angle).
 
-    momentum: p = k P/G. weight: kappa = (sigma − 1) k²/2. ratio: k. rate: g = G/(2 (a + b) k²), rad/s.
+    Attributes:
+        momentum: p = k P/G.
+        weight: kappa = (sigma − 1) k²/2.
+        ratio: k.
+        rate: g = G/(2 (a + b) k²), rad/s.
     """
 
     lean: float
@@ -150,7 +154,10 @@ def slow_motion(scene: Scene) -> SlowMotion:
     """The slow motion after the scene's shock of opposite spins from rest upright.
 
     The pulse leaves the centre (x, (y_1 − y_2)/2) of the linear response, its swing s in (y_1 − y_2)/2, and P = −p_y.
-    Raises InputError as `shock_response`, and unless the spins are opposite; DomainError where |eta| + s > 0.4.
+
+    Raises:
+        InputError: as `shock_response`, and unless the spins are opposite.
+        DomainError: where |eta| + s > 0.4.
     """
     response = shock_response(scene)
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
@@ -210,14 +217,18 @@ def turns_back(scene: Scene) -> bool:
 def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     """Slow angular frequency (rad/s) of the motion beside the paired precession of amplitude r0: imaginary where it grows.
 
-    momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
-    turns. With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²)
-
         frequency² = g² (3 s⁴/2 − d²) (d + kappa s²),
 
     to leading order where r0² and d are small alike: the relative error is of second order in r0, but where a bracket nearly
-    vanishes. Raises InputError unless the spins are opposite and there is a bar, DomainError unless |r0| <= 0.4 and
-    |d| <= 0.16.
+    vanishes.
+
+    Args:
+        momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
+            turns. With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²).
+
+    Raises:
+        InputError: unless the spins are opposite and there is a bar.
+        DomainError: unless |r0| <= 0.4 and |d| <= 0.16.
     """
     amplitude = amplitude_of(r0, "slow_frequency")
     if scene.link is None or scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:

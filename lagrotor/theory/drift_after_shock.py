@@ -131,7 +131,10 @@ def _form(
 def toppling_after_shock(scene: Scene) -> float:
     """Mean rate alpha' (rad/s) about the joint line just after the scene's shock, to second order; opposite spins.
 
-    `toppling_error` gives its error. Raises InputError as `shock_response` does, and unless the spins are opposite.
+    `toppling_error` gives its error.
+
+    Raises:
+        InputError: as `shock_response` does, and unless the spins are opposite.
     """
     return float(shock_toppling()(*_arguments(scene, "toppling_after_shock")))  # type: ignore[arg-type]
 
@@ -151,7 +154,10 @@ def cancelling_force(scene: Scene) -> float:
     """F_y (N) which, added to the scene's shock along x, leaves no mean turning about the joint line, to second order.
 
     The force that does so on exact runs depends on how long one averages; `cancelling_force_error` bounds the distance.
-    Raises InputError as `toppling_after_shock`, DomainError where no force does.
+
+    Raises:
+        InputError: as `toppling_after_shock`.
+        DomainError: where no force does.
     """
     p_x, _, *others = _arguments(scene, "cancelling_force")
     assert scene.shock is not None

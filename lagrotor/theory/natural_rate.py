@@ -70,8 +70,9 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
     In N are the powers of the next order; its factor is empirical. One rotor alone precesses at Omega_0 / cos theta exactly. A
     swing of opposite spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
 
-    Raises DomainError unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than
-    exp(6) in 20 turns.
+    Raises:
+        DomainError: unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than
+            exp(6) in 20 turns.
     """
     rate = natural_rate(scene)
     if not 0 <= amplitude <= LARGEST_SWING.value:

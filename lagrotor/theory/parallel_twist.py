@@ -61,7 +61,9 @@ def twist_growth() -> ClosedForm:
     rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0 (b = 0: a drift in time);
     rho the sine of the half-angle of the cone.
     The mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2. `twist_growth_error` gives its error.
-    Raises DomainError for b > 0 on a cone wider than Lyapunov's criterion covers.
+
+    Raises:
+        DomainError: for b > 0 on a cone wider than Lyapunov's criterion covers.
     """
     rate = G / (a + b)
     mean = sp.integrate(b * rate**2 * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)
@@ -114,7 +116,9 @@ def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene
     """`scene` started in parallel steady precession on a cone of half-angle `angle` (rad) about the vertical.
 
     x = sin(angle) at t = 0; rate G / ((a + b) cos angle). twist_rate: Delta' at the start (rad/s), small.
-    Raises InputError unless the spins are equal and there is a bar.
+
+    Raises:
+        InputError: unless the spins are equal and there is a bar.
     """
     from lagrotor.pair.initial_conditions import consistent_scene
 
@@ -131,7 +135,11 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
 
     ((1 − rho² cos² Phi) Delta')' + 2 b rho² sin² Phi / (a − b) Delta = 0,  of period pi in the phase Phi.
     Zero where it is bounded. Error, of the integration over a period: 5e-6 of the rate of precession where it is below
-    that, less beyond. Raises InputError unless the spins are equal, DomainError unless 0 < angle < pi/2.
+    that, less beyond.
+
+    Raises:
+        InputError: unless the spins are equal.
+        DomainError: unless 0 < angle < pi/2.
     """
     from scipy.integrate import solve_ivp
 

@@ -91,3 +91,12 @@ def test_the_shell_judges_one_equation(capsys: pytest.CaptureFixture[str]) -> No
     assert main(["judge", "cos(x) = 1", "--json"]) == 1
     assert '"witness"' in capsys.readouterr().out
     assert main(["judge", "cos(x)"]) == 2
+
+
+def test_a_power_may_be_typed_with_a_caret() -> None:
+    """sqrt(a^2) is a root, not s·q·r·t: what is typed as in Python is read so; beside LaTeX it is refused."""
+    assert judge_text("(sin(x) + cos(x))^2 = 1 + sin(2*x)").verdict.verdict == "holds"
+    assert judge_text("sqrt(a^2 + b^2) = a + b").readings[0] == "sqrt(a**2 + b**2) = a + b"
+    assert judge_text("x^2 y = y x^2").verdict.verdict == "holds"
+    with pytest.raises(InputError, match="reads it as the letters s q r t"):
+        judge_text(r"\alpha^2 sqrt(x) = \alpha")

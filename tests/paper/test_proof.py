@@ -59,3 +59,10 @@ def test_velocities_have_dots() -> None:
     tex = Formula(sp.Matrix([v * ell, acceleration]), "q")._repr_latex_()
     assert all(part in tex for part in (r"\dot{\theta}", r"\ddot{\theta}", r"\ell", "q = "))
     assert "dot}" in sp.latex(v), "sympy alone makes an index of it"
+
+
+def test_a_bracket_that_begins_a_line_is_no_option_of_the_environment() -> None:
+    """After \\begin{aligned} and \\\\ LaTeX takes [...] for an option: coefficients [x^1] are kept apart from them."""
+    mathml = pytest.importorskip("latex2mathml.converter")
+    tex = prove((SQUARES, x), (1, x), names=["[x^0]", "[x^1]"]).tex
+    assert tex.count("{}[x^") == 2 and "[" in mathml.convert(tex)

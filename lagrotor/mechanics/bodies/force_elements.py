@@ -55,7 +55,8 @@ class Pathway:
 
         It may turn by up to 3/2 π; where the straight line passes the cylinder on that side it is straight.
 
-        Raises InputError for an axis that is none, or another side.
+        Raises:
+            InputError: for an axis that is none, or another side.
         """
         p, q = _points(P, Q)
         o, a = (

@@ -52,9 +52,11 @@ class Libration:
 def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None = None) -> Libration:
     """The libration of that energy about the place `at`, where it can be.
 
-    Raises DomainError for more than one degree of freedom or an H that is not quadratic in p, InputError where the energy is
-    below that of rest `at` or no number, IntegrationError where it does not turn on both sides: it goes round, escapes, or
-    is so near a separatrix that rounding decides.
+    Raises:
+        DomainError: for more than one degree of freedom or an H that is not quadratic in p.
+        InputError: where the energy is below that of rest `at` or no number.
+        IntegrationError: where it does not turn on both sides: it goes round, escapes, or is so near a separatrix that rounding
+            decides.
     """
     import numpy as np
     from scipy.integrate import solve_ivp

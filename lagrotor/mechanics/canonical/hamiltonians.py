@@ -124,12 +124,15 @@ class Hamiltonian:
     ) -> "NormalForm":
         """Birkhoff's normal form through an order about the equilibrium `at`: see `normal_forms.NormalForm`.
 
-        at: {coordinate or momentum: value}; where no momentum is named they are those of rest. values: of the parameters;
-        without them the coefficients are exact where the frequencies are rational, algebraic or rational in the parameters.
-        detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
+        Args:
+            at: {coordinate or momentum: value}; where no momentum is named they are those of rest.
+            values: of the parameters; without them the coefficients are exact where the frequencies are rational, algebraic or
+                rational in the parameters.
+            detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
 
-        Raises InputError where `at` is no equilibrium, a coordinate is not named or a letter needs a value, DomainError
-        where there are constraints, or H depends on time or is not analytic there.
+        Raises:
+            InputError: where `at` is no equilibrium, a coordinate is not named or a letter needs a value.
+            DomainError: where there are constraints, or H depends on time or is not analytic there.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 
@@ -188,7 +191,8 @@ def rotational_bracket(f: sp.Expr, g: sp.Expr, momentum: Sequence[sp.Symbol], *v
 
     so that M' = {M, H} = M × ∂H/∂M + γ × ∂H/∂γ are Euler's equations. Marsden & Ratiu, ch. 15.
 
-    Raises InputError for a vector that is not three symbols, and for another symbol of the name of one of them.
+    Raises:
+        InputError: for a vector that is not three symbols, and for another symbol of the name of one of them.
     """
     for vector in (momentum, *vectors):
         if len(vector) != 3 or not all(isinstance(s, sp.Symbol) for s in vector):

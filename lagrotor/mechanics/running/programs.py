@@ -93,7 +93,8 @@ class Generated:
 def motion_program(system: Equations) -> Generated:
     """The program of a system's right-hand side, (q, u[, t]) → (v, u'[, 1]).
 
-    Raises SingularError when the mass matrix or the Schur complement is singular in its structure.
+    Raises:
+        SingularError: when the mass matrix or the Schur complement is singular in its structure.
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)

@@ -57,7 +57,8 @@ class SystemRun(SampledMotion):
         """The run of `system`, with the events and the values of functions it was run with, that `save` wrote as .npz: a file
         holds no equations.
 
-        Raises InputError where it is no such file, or one of another system.
+        Raises:
+            InputError: where it is no such file, or one of another system.
         """
         given = check_events(system, events)
         system, more = put_functions("load", system, functions or {}, [e for event in given for e in event.expressions])

@@ -59,7 +59,9 @@ def trace_family(scene: Scene) -> OrbitFamily:
     Steps along the curve grow from 0.1 to five times that, and are halved where Newton's method fails.
     The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
     reaches a singular position.
-    Raises InputError unless the spins are opposite.
+
+    Raises:
+        InputError: unless the spins are opposite.
     """
     curve = QuarterPeriod(scene)
     z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
@@ -90,8 +92,10 @@ def trace_family(scene: Scene) -> OrbitFamily:
 def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) -> OrbitFamily:
     """The orbits at the given increasing amplitudes r0 (n,), each found from the one before.
 
-    Raises InputError unless the spins are opposite, DomainError when an amplitude is outside (0, 1), not above the one
-    before, or past the first turn or the end of the family.
+    Raises:
+        InputError: unless the spins are opposite.
+        DomainError: when an amplitude is outside (0, 1), not above the one before, or past the first turn or the end of the
+            family.
     """
     curve = QuarterPeriod(scene)
     wanted = np.asarray(amplitudes, float)

@@ -72,8 +72,13 @@ class Floquet(Shown):
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
 
-    momentum: about the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
-    line. Raises InputError unless the spins are opposite and there is a bar, DomainError when no orbit is found.
+    Args:
+        momentum: about the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
+            line.
+
+    Raises:
+        InputError: unless the spins are opposite and there is a bar.
+        DomainError: when no orbit is found.
     """
     orbit = exact_orbit(scene, r0)
     return floquet_of(_pushed(orbit, momentum) if momentum else orbit)

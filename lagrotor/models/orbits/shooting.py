@@ -145,8 +145,9 @@ class QuarterPeriod:
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     """The orbit of amplitude r0 = sin(theta) when the axes are parallel, for the scene's rotor, bar and spins.
 
-    Raises InputError unless the spins are opposite, DomainError unless 0 < |r0| < 1 and when no orbit of that amplitude
-    is found.
+    Raises:
+        InputError: unless the spins are opposite.
+        DomainError: unless 0 < |r0| < 1 and when no orbit of that amplitude is found.
     """
     if amplitude_of(r0, "exact_orbit") == 0:
         raise DomainError("exact_orbit: r0 = 0 is the pair at rest, with no orbit; take an amplitude above 0")

@@ -32,8 +32,9 @@ class UprightOrbit:
 def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     """The orbit of amplitude r0 = sin(inclination) where the axes are parallel, of the scene's rotor, bar and spins.
 
-    Raises InputError without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`; DomainError unless
-    0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
+    Raises:
+        InputError: without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`.
+        DomainError: unless 0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
     """
     amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
     if scene.link is None or first + second == 0:

@@ -145,8 +145,8 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     above it is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What was reached
     is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
 
-    Raises InputError for dt not above zero, times between the steps, or a step longer than the shock is wide (it could
-    miss it).
+    Raises:
+        InputError: for dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
     """
     times = check_times("run_steps", t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
@@ -195,7 +195,9 @@ def run_solver(
     the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
     method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
 
-    Raises InputError for bad times, tolerance or method, IntegrationError when nothing can be reached.
+    Raises:
+        InputError: for bad times, tolerance or method.
+        IntegrationError: when nothing can be reached.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol)
     if method not in ("LSODA", "Radau", "BDF", "DOP853"):

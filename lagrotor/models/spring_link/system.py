@@ -57,7 +57,8 @@ class RigidBodySystem:
     X, U (n + 1, 3) of the centres, R (n + 1, 3, 3), L (n + 1, 3) about the centres, Omega (n + 1, 3). The ground's L
     gathers what the links have handed to it. `force`, `rotation`, `transform` may be replaced by their printed twins.
 
-    Raises InputError for S not above zero, D below zero, no body, a body or vertex that is not there.
+    Raises:
+        InputError: for S not above zero, D below zero, no body, a body or vertex that is not there.
     """
 
     def __init__(
@@ -127,8 +128,10 @@ class RigidBodySystem:
     def step(self, dt: float) -> None:
         """The paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R. No matrix is inverted.
 
-        Semi-implicit: positions move with the new velocities, which the forces at the old state made. Raises InputError for
-        a dt not above zero.
+        Semi-implicit: positions move with the new velocities, which the forces at the old state made.
+
+        Raises:
+            InputError: for a dt not above zero.
         """
         if not (isfinite(dt) and dt > 0):
             raise InputError(f"step: dt = {dt!r} s must be a finite number above zero")
@@ -220,7 +223,8 @@ def step_limit(system: RigidBodySystem) -> StepLimit:
 
     which is 2/sqrt(w S) without damping and 2/(w D) for damping alone. The largest w decides.
 
-    Raises InputError when the system has no link.
+    Raises:
+        InputError: when the system has no link.
     """
     W = system.joint_mobility()
     if not len(W):
@@ -245,7 +249,8 @@ def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBod
     bar_height (m) puts the bar's centre at that z instead. The paper's z starts at the rotors' centres (grounds at
     −0.5, tips at 0.5), ours at the ground joints: its right 0.5 is our 1.0, its mistaken 1 (section 4.1) our 1.5.
 
-    Raises InputError for a bar without mass or without inertia, which no third body can be.
+    Raises:
+        InputError: for a bar without mass or without inertia, which no third body can be.
     """
     rotor, link = scene.rotor, scene.link
     half = (link.length if link else rotor.length) / 2

@@ -33,11 +33,12 @@ CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one eva
 class Ensemble(Shown):
     """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,).
 
-    errors: the estimated largest error of an axis up to each time, as a `Trajectory` has it.
-
     models (n,): index into MODELS. "spheres" ran, one by one, those without a bar and those that met a singular position
     of the minimal coordinates; "none" is one of which nothing was reached. endings (n,): how each ended; after its end its axes,
     rates and errors are NaN.
+
+    Attributes:
+        errors: the estimated largest error of an axis up to each time, as a `Trajectory` has it.
     """
 
     scenes: tuple[Scene, ...]
@@ -99,15 +100,18 @@ def sweep(
 ) -> Ensemble:
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
 
-    tol: the largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says how
-    many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
+    Args:
+        tol: the largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says
+            how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
+        engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
+        chunk: trajectories at a time.
+        executor: where chunks run; here, one after another, when None.
+        folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
+            or damaged.
+        progress: called with the number of trajectories done and of all, after each chunk.
 
-    engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock. chunk: trajectories at a
-    time. executor: where chunks run; here, one after another, when None. folder: an existing folder for the finished
-    chunks; a later sweep with the same arguments runs only those that are missing or damaged. progress: called with the
-    number of trajectories done and of all, after each chunk.
-
-    Raises InputError for bad arguments, no scene, or a folder with a chunk of another sweep.
+    Raises:
+        InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike

@@ -18,8 +18,10 @@ from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
 
-    The amplitude is the projection on that mode's left vector, so that no other mode contributes. Raises InputError where
-    nothing grows.
+    The amplitude is the projection on that mode's left vector, so that no other mode contributes.
+
+    Raises:
+        InputError: where nothing grows.
     """
     linear, normal = small_motion(s), modes(s)
     root = normal.growth[0] + 1j * normal.rates[0]

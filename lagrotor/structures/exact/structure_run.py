@@ -96,7 +96,8 @@ class StructureRun(Run):
     def load(path: str | Path) -> "StructureRun":
         """The run that `save` wrote as `.npz`; its structure is an `Assembly`.
 
-        Raises InputError where that is not what the file is: not whole, or not a motion of that structure.
+        Raises:
+            InputError: where that is not what the file is: not whole, or not a motion of that structure.
         """
         about, held, known = read_run(path)
         try:
@@ -124,7 +125,8 @@ class StructureRun(Run):
         """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics; bars
         grey, braces green, rotors coloured by the sense of their spins.
 
-        Raises InputError for a name, a folder or a frame rate that will not do, before anything is drawn.
+        Raises:
+            InputError: for a name, a folder or a frame rate that will not do, before anything is drawn.
         """
         from lagrotor.drawing.film import check_film, frame_times
         from lagrotor.drawing.skeleton import animate_lines

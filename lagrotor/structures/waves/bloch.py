@@ -61,7 +61,8 @@ def _wave_sum(q: Array, steps: Array, parts: Array, k: int | None = None) -> Mat
 def bloch(p: Cell) -> Bloch:
     """The matrices of a pattern's small motion at any wave number.
 
-    Raises InputError for what `Structure` refuses in a cell and its neighbours.
+    Raises:
+        InputError: for what `Structure` refuses in a cell and its neighbours.
     """
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])

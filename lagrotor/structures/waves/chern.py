@@ -40,9 +40,11 @@ class Chern:
 def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     """The Chern number of each group of bands, from grid × grid wave numbers.
 
-    Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive. Raises InputError where the pattern
-    has one step or friction, where a wave falls or has rate zero, where the bars leave no freedom,
-    or more at some q than at others.
+    Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive.
+
+    Raises:
+        InputError: where the pattern has one step or friction, where a wave falls or has rate zero, where the bars leave no
+            freedom, or more at some q than at others.
     """
     if len(p.steps) != 2:
         raise InputError("chern_numbers: the pattern repeats along one step: a Chern number needs two")

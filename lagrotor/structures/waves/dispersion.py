@@ -81,7 +81,9 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     """The bands of a pattern at the wave numbers q, (n_q,) for one step, (n_q, d) for d steps, in rad a cell.
 
     The bars hold as constraints, so that only what they leave at q moves; a bar that stretches is a stiff brace.
-    Raises InputError for a q of another shape.
+
+    Raises:
+        InputError: for a q of another shape.
     """
     d = len(p.steps)
     points = np.asarray(q, dtype=float)

@@ -31,7 +31,8 @@ class EdgeWaves:
 def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> EdgeWaves:
     """The waves of the strip of `width` cells at a rate (rad/s) inside a gap of the bulk.
 
-    Raises InputError for a pattern with one step.
+    Raises:
+        InputError: for a pattern with one step.
     """
     d = dispersion(p.strip(width), np.linspace(0, 2 * np.pi, points))
     share = (np.abs(d.shapes) ** 2).sum(-1).reshape(*d.rates.shape, width, -1).sum(-1)
@@ -46,7 +47,9 @@ def border_packet(p: Cell, count: int, gap: tuple[float, float]) -> tuple[Struct
     """A piece of count × count cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
 
     The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; its largest tilt is 0.01.
-    Raises InputError where none is in the gap.
+
+    Raises:
+        InputError: where none is in the gap.
     """
     s = p.piece(count, count)
     m, (low, high) = s.modes(), gap

@@ -24,7 +24,8 @@ def zigzag(angle: float, **more: Any) -> Pattern:
 def polygon_ring(count: int, **more: Any) -> Pattern:
     """One rotor a cell, each bar turned by 2π/count against the one before it: `piece(count)` is the closed ring.
 
-    Raises InputError below 3.
+    Raises:
+        InputError: below 3.
     """
     if count < 3:
         raise InputError(f"polygon_ring: {count} rotors are no polygon: give 3 or more")

@@ -21,7 +21,10 @@ _Values = dict[sp.Symbol, Array]
 def paired_frequency(order: int = 3) -> ClosedForm:
     """Omega / Omega_0 of the paired precession at amplitude r_0 (opposite spins), through r_0**order (5.21).
 
-    Arguments r_0, sigma, k. Raises InputError unless order is a whole number, 1 or more.
+    Arguments r_0, sigma, k.
+
+    Raises:
+        InputError: unless order is a whole number, 1 or more.
     """
     series = paired_series(order)
     form = ClosedForm(
@@ -47,7 +50,10 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     """Axes (x_1, y_1, z_1, x_2, y_2, z_2) of the paired precession at phase Phi = Omega t, through r_0**order (5.22).
 
     r_0 is the sine of the inclination when the axes are parallel (Phi = 0). Tips: ∓ell/2 e_x + R r_i.
-    Arguments r_0, Phi, sigma, k. Raises InputError unless order is a whole number, 1 or more.
+    Arguments r_0, Phi, sigma, k.
+
+    Raises:
+        InputError: unless order is a whole number, 1 or more.
     """
     series = paired_series(order)
     x, y, z = (series.expression(part) for part in (series.x, series.Y, series.z))
@@ -79,7 +85,10 @@ def paired_momentum(order: int = 4) -> ClosedForm:
 
     P = sum_i (y_i p_zi − z_i p_yi) + G (x_1 − x_2), p_i = a r_i' + b r_j': constant on the orbit, even in r_0.
     Times G (kg m²/s) it is the momentum. Arguments r_0, sigma, k.
-    Raises InputError unless order is a whole number, 1 or more; SingularError should it not be constant in the phase.
+
+    Raises:
+        InputError: unless order is a whole number, 1 or more.
+        SingularError: should it not be constant in the phase.
     """
     orbit = paired_series(order)
     s = orbit.field.from_sympy(sigma)

@@ -217,8 +217,11 @@ def check_order(order: int) -> int:
 def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> PairedSeries:
     """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
 
-    exact: with coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
-    Raises InputError unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
+    Args:
+        exact: with coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
+
+    Raises:
+        InputError: unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
     """
     check_order(order)
     shape, ratio = sp.sympify(shape), sp.sympify(ratio)

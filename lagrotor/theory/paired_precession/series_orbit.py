@@ -21,10 +21,13 @@ SERIES_ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to
 class PrecessionOrbit(Shown):
     """A paired precession with bounds of its errors. Called with times it gives both axes. At t = 0 they are parallel.
 
-    frequency: angular, rad/s, negative where rotor 1 spins negatively. frequency_error: its bound, rad/s.
-    error: bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over
-    a whole turn (of a tip: in units of R).
-    method: how it was found. harmonics: of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
+    Attributes:
+        frequency: angular, rad/s, negative where rotor 1 spins negatively.
+        frequency_error: its bound, rad/s.
+        error: bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over a
+            whole turn (of a tip: in units of R).
+        method: how it was found.
+        harmonics: of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
     """
 
     scene: Scene

@@ -50,7 +50,10 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
         lambda² = (9/32) r_0⁸ / k⁴ + …                         `dumbbell`: sigma = 1, order 8 at least.
 
     Negative: the orbit is elliptic and its neighbours turn about it by 2 pi sqrt(−lambda²) a turn.
-    Arguments r_0, sigma, k. Raises InputError for an order below the first term's.
+    Arguments r_0, sigma, k.
+
+    Raises:
+        InputError: for an order below the first term's.
     """
     first = 8 if dumbbell else 6
     if order < first:
