@@ -139,12 +139,16 @@ class _Walker:
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
+        if name in ("begin", *_LEVELS):
+            self.expander.stepped = ""  # what a label in the text refers to
         if name == "begin":
             self._begin(self._name(), token)
         elif name in _LEVELS and self.body:
             star = self.expander.star()
             self.expander.optional()
             self._section(name, latex_of(self.expander.argument()), star)
+        elif name == "label" and self.expander.stepped:
+            self.found.labels.setdefault(self._name(), self.expander.stepped)
         elif name == "title":
             self.expander.optional()
             self.found.title = _plain(latex_of(self.expander.argument())) or self.found.title

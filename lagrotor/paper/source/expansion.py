@@ -88,6 +88,7 @@ class Expander:
         self.loaded: set[str] = set()
         self.document_class = ""
         self.notes: list[str] = []
+        self.stepped = ""  # the number that \refstepcounter in the text gave
         self.depth = self.files = 0
         self.expansions: Counter[int] = Counter()  # by place: what a macro stands for has the place of the macro
         self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
@@ -754,7 +755,10 @@ class Expander:
             counter = self.name()
             c.values[counter] = c.values.get(counter, 0) + self.number()
         elif name in (r"\stepcounter", r"\refstepcounter"):
-            c.step(self.name())
+            counter = self.name()
+            c.step(counter)
+            if name == r"\refstepcounter":
+                self.stepped = self.printed(counter)
         elif name == r"\@addtoreset":
             counter = self.name()
             c.reset_by(counter, self.name())

@@ -272,14 +272,6 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Rivals:
 def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     box = row[place]
     mark = derivative_mark(box)
-    over, under = (without_thin(part) for part in box.parts)
-    if (
-        not mark
-        and over
-        and len(under) > 1
-        and (over[0].kind, over[0].name) == (under[0].kind, under[0].name) == ("letter", "D")
-    ):
-        yield "derivative", "the fraction with D is a quotient, and no derivative", ""
     if mark in ("D", "delta"):
         yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
     if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:

@@ -72,6 +72,10 @@ def read_fraction(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         raise FormulaError(box.at, "a fraction has an index", "write it on a letter")
     if marks := derivative_mark(box):
         return _derivative(reader, row, place, marks)
+    first, second = (without_thin(part)[:1] for part in box.parts)
+    if first and second and first[0].name == second[0].name and first[0].name in ("d", "D") and len(box.parts[1]) > 1:
+        why = "whether the fraction is a derivative is open"
+        raise FormulaError(box.at, why, "write a letter below, \\frac{d f}{d x}")
     over, under = (reader.expression(part) for part in box.parts)
     if any(map(is_differential, walk(under))) and not any(map(is_differential, walk(over))):
         raise FormulaError(box.at, "a differential stands below and none above", "write \\frac{d f}{d x}")
