@@ -6,6 +6,7 @@ that is in the text; it is refuted only where its right side has no letter but t
 these, the difference is decided, and one change of sign, factor or power makes the two sides agree: a slip, not a law.
 """
 
+from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
@@ -215,8 +216,7 @@ class _Checker:
         """Equations before that relate these letters and no others, besides definitions that were put in."""
         found = []
         for read in self.before[-_MEMORY:]:
-            sides = read.statement.sides
-            names = {name for side in sides for name in letters_of(side.node)}
+            names = _letters_of(read)
             if names and names <= letters and len(names) > 1:
                 found.append(f"({read.equation.id})")
         return list(dict.fromkeys(found))
@@ -325,15 +325,25 @@ class _Checker:
     # ---- dimensions and letters
 
     def _dimensions(self) -> Iterator[StepFinding]:
-        """Equations whose dimensions contradict those of the others."""
-        known = FormulaDimensions()
-        broken = []
+        """Equations whose dimensions contradict those of the others.
+
+        A letter that several equations need otherwise than the rest has another meaning there: of these only what contradicts
+        its own section is reported.
+        """
+        whole, sections = FormulaDimensions(), defaultdict(FormulaDimensions)
+        broken: list[tuple[_Read, str, bool]] = []
         for read in self.statements:
-            compared = read.statement.kind in ("equation", "approximation", "inequality")
-            if compared and (why := known.add(side.node for side in read.statement.sides)) is not None:
-                broken.append((read, why))
-        if len(broken) <= max(_FEW, _SHARE * len(self.statements)) and len(broken) < len(self.statements) / 2:
-            for read, why in broken:
+            if read.statement.kind in ("equation", "approximation", "inequality"):
+                nodes = [side.node for side in read.statement.sides]
+                near = sections[read.equation.section.split(".")[0]].add(nodes) is not None
+                if (why := whole.add(nodes)) is not None:
+                    broken.append((read, why, near))
+        letters = Counter(name for read, _, _ in broken for name in _letters_of(read))
+        shown = [
+            (read, why) for read, why, near in broken if near or all(letters[name] == 1 for name in _letters_of(read))
+        ]
+        if len(shown) <= max(_FEW, _SHARE * len(self.statements)) and len(shown) < len(self.statements) / 2:
+            for read, why in shown:
                 yield self._finding(read.equation, 0, None, UNITS, why)
 
     def _letters(self) -> Iterator[StepFinding]:
@@ -353,13 +363,15 @@ class _Checker:
                 continue
             definitions[first.name] = place, read
         for name, (place, read) in definitions.items():
-            users = [
-                r for r in self.statements[:place] if name in {n for s in r.statement.sides for n in letters_of(s.node)}
-            ]
+            users = [r for r in self.statements[:place] if name in _letters_of(r)]
             if users and users[0].equation.id != read.equation.id:
                 yield self._finding(users[0].equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
         if self.notation.exponential and "e" in self.notation.bare:
             yield self._finding(self.readings[0][0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
+
+
+def _letters_of(read: _Read) -> set[str]:
+    return {name for side in read.statement.sides for name in letters_of(side.node)}
 
 
 def _guess(reading: Reading) -> str:

@@ -180,3 +180,11 @@ def test_the_command_gives_rows_for_an_editor_and_an_exit_status(
         findings(tmp_path, body)
         assert main(["check", str(tmp_path / "paper.tex")]) == 0
         assert f"paper.tex: {said}" in "".join(capsys.readouterr())
+
+
+def test_a_letter_with_another_meaning_in_another_section_is_no_contradiction(tmp_path: Path) -> None:
+    waves = r"\section{Waves} \[ v = a\omega \] \[ v = l/t \] \[ \omega t = 1 \] \[ a = l \] "
+    fall = r"\section{Fall} \[ v = a t \] \[ l = \frac12 a t^2 \] "
+    assert UNITS not in verdicts(tmp_path, waves + fall)
+    assert verdicts(tmp_path, waves + r"\section{Fall} \[ v = a t \]").count(UNITS) == 1, "one by itself is a slip"
+    assert verdicts(tmp_path, waves + fall + r"\[ l = a t^3 \]").count(UNITS) == 1, "against its own section"
