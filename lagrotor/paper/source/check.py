@@ -330,7 +330,8 @@ class _Checker:
         A letter that several equations need otherwise than the rest has another meaning there: of these only what contradicts
         its own section is reported.
         """
-        whole, sections = FormulaDimensions(), defaultdict(FormulaDimensions)
+        whole = FormulaDimensions()
+        sections: defaultdict[str, FormulaDimensions] = defaultdict(FormulaDimensions)
         broken: list[tuple[_Read, str, bool]] = []
         for read in self.statements:
             if read.statement.kind in ("equation", "approximation", "inequality"):

@@ -4,6 +4,7 @@ A sign passes where the author declares its meaning, where the paper uses it in 
 all else is marked, signs that are not named here as well. A marked reading is what custom takes, and no verdict rests on it.
 """
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -106,10 +107,27 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             yield key, f"{box.name} {what}", ""
     if not (box.sub or box.marks or box.style) and box.name not in known.functions | known.letters | known.numbers:
         yield from _number(reader, box)
-    operator = before is not None and before.kind == box.kind and before.name.isupper() and not before.sup
-    if before is not None and operator and stem in known.applied and not (bracketed or box.sup or is_bold(box)):
+    if (
+        box.name in ("D", "L")
+        and acts
+        and not (bracketed or box.sup)
+        and (box.sub or box.marks or _names(after) <= known.applied)
+    ):
+        yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
+    operator = (
+        before is not None and before.kind == box.kind and before.name.isupper() and before.name not in ("D", "L")
+    )
+    if (
+        before is not None
+        and operator
+        and not before.sup
+        and stem in known.applied
+        and not (bracketed or box.sup or is_bold(box))
+    ):
         settles = f'letters = "{before.name}"'
         yield "operator", f"{before.name} is a factor of {box.name}, and no operator on it", settles
+    if box.sub and box.sub[0].kind == "comma":
+        yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
     if box.sup:
         yield from _raised(reader, box)
 
@@ -146,6 +164,10 @@ def _raised(reader: FormulaReader, box: Box) -> Rivals:
         return
     elif stem not in known.powers or not _letters(*row) <= known.apart - known.lowered:
         yield "power", f"the superscript of {box.name} is a power, and no index or label", ""
+
+
+def _names(box: Box | None) -> set[str]:
+    return {stem_of(box)} if box is not None and box.kind == "letter" else {""}
 
 
 def _letters(*held: Box) -> set[str]:
@@ -321,7 +343,7 @@ def _text(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     if before is not None and before.kind == "number" and is_unit_like(box.name):
         return
     apart = all(b is None or b.kind in ("wide", "comma", "relation", "arrow") for b in (before, after))
-    if "$" in box.name or not (apart or is_joining(box.name)):
+    if re.search(r"[$\[\]*=+\\]", box.name) or not (apart or is_joining(box.name)):
         yield "words", f"the words {box.name} join statements, and are no factor or function", ""
 
 

@@ -48,6 +48,9 @@ SETTLED = [
     (r"a = \frac{\delta S}{\delta q}", [], "the fraction with delta"),
     (r"a = QED\, b", [], "QED is a"),
     (r"\frac{dx}{dt} = \dot x", [], "are the same"),
+    (r"a = \bar D_i\bar D_j b", [], "D is a factor"),
+    (r"a = b_{,j}", [], "the index of b"),
+    (r"a = \text{R[i] S[j]}", [], "the words R[i] S[j]"),
     (r"a = GM/r", [], "GM is a product"),
     (r"a = cn(x, k)", [], "cn is a product"),
     (r"a = 2e-3", [], "no power of ten"),
@@ -78,6 +81,7 @@ def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper
         (r"\dot x = a", r"\frac{dx}{d\tau} = b", "its rate in t"),
         (r"a = \left(\frac{b}{p}\right)", r"b \equiv 1 \pmod{p}", "symbol of Legendre"),
         ("a = k(x + b)", "V(x) = k c", "k before ( is a factor"),
+        ("a = L f", "f(x) = b", "L is a factor"),
         ("a = x^2", r"x^\mu = b", "is a power, and no index"),
     ],
 )
