@@ -75,7 +75,7 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     added.add_argument("--write-scene", type=Path, metavar="FILE", help="write the scene as TOML too, for --scene")
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
-    says = "auto, closed_form, linear, minimal, spheres or euler (default: auto)"
+    says = "auto, closed_form, linear, averaged, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument(
         "--tol", type=float, default=1e-9, help="error of the axes, or the solver's of a named model (default: 1e-9)"

@@ -106,12 +106,15 @@ class Observed:
 class ClosedMotion:
     """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
 
-    motion: times (n,) in s → axes and rates, each (2, n, 3).
+    motion: times (n,) in s → axes and rates, each (2, n, 3). errors: times → the errors up to them, where it is known how they
+    grow. evaluations: of what was integrated.
     """
 
     error: float
     reason: str
     motion: Callable[[Array], tuple[Array, Array]]
+    errors: Callable[[Array], Array] | None = None
+    evaluations: int = 0
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError, LagrotorError, LagrotorWarning, SingularError, near
 from lagrotor.models import euler, minimal, spheres
+from lagrotor.models.averaged import averaged_motion
 from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.linear import linear_error, linear_motion
 from lagrotor.models.model import (
@@ -41,6 +42,12 @@ BY_NAME = Patience(20_000, 250 * 2 * pi)
 REPLACEABLE = Patience(
     1_000, 500 * 2 * pi
 )  # where a looser run may take its place: five times as many serve none better
+LONG = Calibrated(
+    300.0,
+    "turns beyond which the averaged motion is tried before one is integrated",
+    "about what both take for a normal form through the eighth order and an integration",
+    "test_averaged.py::test_auto_takes_it_for_long_runs",
+)
 SHORT = Calibrated(
     20.0,
     "turns below which the fast extra integrates at once",
@@ -56,6 +63,7 @@ _RESOLVED = 10 * np.finfo(float).eps  # of a start: all that it may be off witho
 DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
     "closed_form": closed_form,
     "linear": linear_motion,
+    "averaged": averaged_motion,
 }
 
 
@@ -95,6 +103,13 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
             missed = f"normal modes have an error of {scientific(error, 1)}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]
+    if scene.link and scene.spins[0] == -scene.spins[1] and turns > LONG.value:
+        try:
+            motion = averaged_motion(scene, t_end, tol)
+            if motion.error <= tol:
+                return Choice("averaged", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}")
+        except LagrotorError:
+            pass
     try:
         check_range(minimal.MODEL, scene)
     except LagrotorError as refusal:
@@ -123,8 +138,8 @@ def simulate(
     ((2, 3, 3), True)
 
     Args:
-        model: "closed_form", "linear", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes within `tol` of
-            the exact ones over the run, named with its reason in the trajectory; see `choose`.
+        model: "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes
+            within `tol` of the exact ones over the run, named with its reason in the trajectory; see `choose`.
         tol: the largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
         engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
             "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
@@ -149,7 +164,8 @@ def simulate(
         why = f"by name; {motion.reason}; estimated error {error}{', more than tol' if missed else ''}"
         trajectory = _direct(scene, model, why, times, motion, tolerance)
         if missed:
-            said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}"
+            until = f"; tol is kept up to t = {trajectory.horizon:.6g} s" if motion.errors else ""
+            said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}{until}"
             warnings.warn(said, LagrotorWarning, stacklevel=2)
         return trajectory
     if model == "auto":
@@ -202,11 +218,14 @@ def trajectory_of(
 
 
 def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMotion, tol: float) -> Trajectory:
-    axes, rates = closed.motion(times - times[0])
+    since = times - times[0]
+    axes, rates = closed.motion(since)
+    errors = closed.errors(since) if closed.errors else np.full(len(times), closed.error)
+    unkept = np.flatnonzero(~(errors <= tol))
+    horizon = inf if not len(unkept) else float(times[unkept[0]]) if closed.errors else nan
     return Trajectory(
         scene=scene, model=model, why=why, t=times, axes=axes, rates=rates, momenta=constant_momenta(scene, len(times)),
-        errors=np.full(len(times), closed.error), horizon=inf if closed.error <= tol else nan,
-        ending=Ending("end", float(times[-1])),
+        errors=errors, horizon=horizon, evaluations=closed.evaluations, ending=Ending("end", float(times[-1])),
     )  # fmt: skip
 
 

@@ -26,9 +26,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.canonical.normal_forms import NormalForm, birkhoff, normal_quadratic
+from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series, quadratic_modes
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
-from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_coordinates
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
@@ -242,25 +241,7 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
     """The normal form of a structure about upright with all spins multiplied, in units of its `LocalHamiltonian`."""
-    H = local_hamiltonian(s, order).at_spins(factor)
-    n, (A, normal) = H.variables // 2, _linear_modes(H)
-    rows = [
-        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
-        for row in normal.vectors
-    ]
-    parts = [Polynomial(p.exponents, p.coefficients + 0j).substitute(rows, order) for d, p in H.parts.items() if d > 2]
-    quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
-    return birkhoff(total([quadratic, *parts]), normal.weights, order, detuning, normal.vectors)
-
-
-def _linear_modes(H: Polynomial) -> tuple[Array, NormalCoordinates]:
-    """A of the quadratic part ½ x·A x, and its normal coordinates."""
-    n, A = H.variables // 2, np.zeros((H.variables, H.variables))
-    for e, c in H.part(2).terms.items():
-        i, j = (k for k, m in enumerate(e) for _ in range(m))
-        A[i, j] += c
-        A[j, i] += c
-    return A, normal_coordinates(A, np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]]))
+    return normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
 
 
 def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> tuple[float, float]:
@@ -366,7 +347,7 @@ def trusted_push(s: Assembly, factor: float = 1.0) -> float:
         return 0.0
     h = local_hamiltonian(s)
     try:
-        _, n = _linear_modes(h.at_spins(factor))
+        _, n = quadratic_modes(h.at_spins(factor))
     except SingularError:  # at the critical spins two modes are one
         return 0.0
     rates = n.frequencies.real

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import binom
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, polynomial, total, variable
+from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, inverse_matrix, polynomial, total, variable
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
 from lagrotor.structures.small_motion import bar_rows, small_motion
@@ -65,7 +65,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
         for b in range(n)
     ]
     V = _potential(c, axes, order).times(1 / (inertia * rate**2))
-    inverse = _inverse(mass, order - 2)
+    inverse = inverse_matrix(mass, order - 2)
     momenta = [variable(n + b, 2 * n, kind=float) for b in range(n)]
     rows = [[_lifted(f) for f in row] for row in inverse]
     a = [_lifted(f) for f in vector]
@@ -152,28 +152,6 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
             ]
             m[a][b] = m[b][a] = total(terms)
     return m
-
-
-def _inverse(m: list[Row], order: int) -> list[Row]:
-    """m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + …"""
-    n = len(m)
-    first = np.array([[m[a][b].part(0).coefficients.sum() for b in range(n)] for a in range(n)])
-    over = np.linalg.inv(first)
-    rest = [[m[a][b] - m[a][b].part(0) for b in range(n)] for a in range(n)]
-    start = [[constant(over[a, b], m[0][0].variables, float) for b in range(n)] for a in range(n)]
-    inverse = start
-    for _ in range(order):
-        moved = [
-            [total([rest[a][k].product(inverse[k][b], order) for k in range(n)]) for b in range(n)] for a in range(n)
-        ]
-        inverse = [
-            [
-                start[a][b] - total([moved[k][b].times(over[a, k]) for k in range(n) if over[a, k]] or [_none(n)])
-                for b in range(n)
-            ]
-            for a in range(n)
-        ]
-    return inverse
 
 
 def _potential(c: Coefficients, axes: list[Row], order: int) -> Polynomial:

@@ -36,6 +36,8 @@ def scene_of(name: str) -> Scene:
     if name == "paired":
         return exact_orbit(Scene((10, -10), link=Link(1, 0.3, 0.1)), 0.08).scene
     shock = Shock((0.5, -0.35, 0.2), 0.75, 0.1, body=2)
+    if name == "struck":
+        return replace(unequal(), spins=(10, -10), shock=replace(shock, at=0.3))
     return replace(unequal(), shock=shock) if name == "shocked" else unequal()
 
 
@@ -100,6 +102,7 @@ class SpringLink(Model):
 MODELS = [
     Model("closed_form", "paired"),
     Model("linear", "paired", "unequal", "shocked", rigid=True),
+    Model("averaged", "paired", "struck", rigid=True),
     Model("minimal", rigid=True),
     Model("spheres"),
     Model("euler"),

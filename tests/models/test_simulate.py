@@ -26,7 +26,7 @@ def test_times_that_make_sense_are_kept() -> None:
 
 
 def test_unknown_models_are_refused_by_name() -> None:
-    known = "auto, closed_form, linear, minimal, spheres, euler"
+    known = "auto, closed_form, linear, averaged, minimal, spheres, euler"
     with pytest.raises(InputError, match=f"model = 'maximal' is not one of {known}"):
         simulate(UPRIGHT, [0, 1], model="maximal")
 

@@ -8,6 +8,7 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical import normal_forms
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.structures import (
     exact_motion,
@@ -17,7 +18,6 @@ from lagrotor.structures import (
     normal_form_of,
     resonant_factors,
 )
-from lagrotor.structures import resonances as resonances_module
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
@@ -165,7 +165,7 @@ def test_what_is_said_does_not_depend_on_the_basis_of_modes_of_equal_rates(monke
         return replace(normal, vectors=np.hstack([z, z.conj()]))
 
     for coordinates in (normal_coordinates, rotated):
-        monkeypatch.setattr(resonances_module, "normal_coordinates", coordinates)
+        monkeypatch.setattr(normal_forms, "normal_coordinates", coordinates)
         normal_form_of.cache_clear()
         found, rate = s.stands(), local_hamiltonian(s).rate
         push = 0.02 * rate * next(directions(s, 1, seed=7))

@@ -34,7 +34,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     polynomial,
     total,
 )
-from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_coordinates
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
@@ -229,25 +229,45 @@ def normal_form_at(
         if letters:
             names = ", ".join(sorted(map(str, letters)))
             raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
-    A = np.zeros((len(x), len(x)), dtype=complex)
-    plain = _expanded(H, x, at, sp.eye(len(x)), 2, _number, complex)
+    plain = _expanded(H, x, at, sp.eye(len(x)), order, _number, complex)
     _check_equilibrium(plain.part(1).coefficients, plain.part(2).coefficients)
-    for e, c in plain.part(2).terms.items():
-        i, j = [k for k, m in enumerate(e) for _ in range(m)]
-        A[i, j] += c
-        A[j, i] += c
-    n = len(x) // 2
-    bracket = np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
-    normal = normal_coordinates(A.real, bracket)
-    full = _expanded(H, x, at, normal.vectors, order, _number, complex)
-    quadratic = normal_quadratic(A.real, normal.vectors, normal.weights, normal.frequencies)
+    return normal_form_of_series(plain, order, detuning)
+
+
+def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> NormalForm:
+    """The normal form of H(q_1 … q_n, p_1 … p_n), a polynomial with real coefficients and canonical brackets, about 0.
+
+    Raises as `normal_coordinates`.
+    """
+    n = H.variables // 2
+    A, normal = quadratic_modes(H)
+    rows = [
+        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
+        for row in normal.vectors
+    ]
+    full = Polynomial(H.exponents, H.coefficients + 0j).through(order).substitute(rows, order)
+    quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
     series = total([quadratic, *(full.part(d) for d in (0, *range(3, order + 1)))])
     form = birkhoff(series, normal.weights, order, detuning, normal.vectors)
     # Rates so near that they are taken as equal have coordinates that are not quite canonical, or a rest of H₂.
     pair, none = np.diag(normal.weights), np.zeros((n, n))
-    brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - bracket
+    brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - _symplectic(n)
     rest = np.abs((full.part(2) - quadratic).coefficients).max(initial=0.0) / np.abs(A).max(initial=1e-300)
     return replace(form, error=max(form.error, float(rest), float(np.abs(brackets).max())))
+
+
+def quadratic_modes(H: Polynomial) -> tuple[Any, NormalCoordinates]:
+    """A of the quadratic part ½ x·A x, and its normal coordinates."""
+    A = np.zeros((H.variables, H.variables))
+    for e, c in H.part(2).terms.items():
+        i, j = (k for k, m in enumerate(e) for _ in range(m))
+        A[i, j] += c.real
+        A[j, i] += c.real
+    return A, normal_coordinates(A, _symplectic(H.variables // 2))
+
+
+def _symplectic(n: int) -> Any:
+    return np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
 
 
 def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: Coefficients) -> Polynomial:

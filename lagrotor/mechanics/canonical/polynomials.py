@@ -162,6 +162,21 @@ def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficient
     return Polynomial(exponents[order[first[nonzero]]], sums[nonzero])
 
 
+def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[Polynomial]]:
+    """m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a matrix of polynomials through an order, m₀ regular."""
+    n, some = range(len(m)), m[0][0]
+    over = np.linalg.inv([[f.part(0).coefficients.sum() for f in row] for row in m])
+    rest = [[f - f.part(0) for f in row] for row in m]
+    start = [[constant(c, some.variables, some.coefficients.dtype) for c in row] for row in over]
+    inverse = start
+    for _ in range(order):
+        moved = [[total([rest[a][k].product(inverse[k][b], order) for k in n]) for b in n] for a in n]
+        inverse = [
+            [total([start[a][b], *(moved[k][b].times(-over[a, k]) for k in n if over[a, k])]) for b in n] for a in n
+        ]
+    return inverse
+
+
 def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
     """{f, g} through an order, weights c (n,) of the n canonical pairs."""
     n = len(weights)

@@ -88,17 +88,24 @@ def _oscillations(A: Matrix, V: Matrix, omega: float, near: float) -> list[tuple
 
 
 def _standing(A: Matrix, bracket: Matrix, count: int) -> list[tuple[Matrix, Matrix]]:
-    """A canonical basis of the generalised null space of Ω A, by pairs (v, u) with the form v·Ω⁻¹u = −1 as q and p have."""
+    """A canonical basis of the generalised null space of Ω A, by pairs (v, u) with the form v·Ω⁻¹u = −1 as q and p have.
+
+    In each pair v·A u = 0. Where u·A u is not zero u drives v: v is along Ω A u.
+    """
     if not count:
         return []
     W = bracket @ A
-    _, _, rows = np.linalg.svd(np.linalg.matrix_power(W / max(np.abs(W).max(), 1e-300), count))
-    basis, form, pairs = list(rows[len(rows) - count :].conj()), np.linalg.inv(bracket), list[tuple[Matrix, Matrix]]()
-    while basis:
-        v = basis.pop(0)
-        products = [v @ form @ u for u in basis]
-        best = int(np.argmax(np.abs(products)))
-        u = basis.pop(best) / -products[best]
-        basis = [x + (x @ form @ u) * v - (x @ form @ v) * u for x in basis]
+    size = max(np.abs(W).max(), 1e-300)
+    _, _, rows = np.linalg.svd(np.linalg.matrix_power(W / size, count))
+    basis, form, pairs = rows[len(rows) - count :].conj(), np.linalg.inv(bracket), list[tuple[Matrix, Matrix]]()
+    while len(basis):
+        values, turned = np.linalg.eigh(basis @ A @ basis.T)
+        *others, u = turned.T[np.argsort(np.abs(values), kind="stable")] @ basis
+        driven = np.abs(values).max() > _CLOSE * size
+        v = W @ u if driven else others.pop(int(np.argmax([abs(x @ form @ u) for x in others])))
+        v = v / -(v @ form @ u)
         pairs.append((v, u))
+        left = [x + (x @ form @ u) * v - (x @ form @ v) * u for x in others]
+        _, _, rows = np.linalg.svd(np.array(left).reshape(-1, len(A)))
+        basis = rows[: len(basis) - 2]
     return pairs

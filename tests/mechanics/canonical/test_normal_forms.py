@@ -5,10 +5,12 @@ from math import prod, sqrt
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import NormalForm, System, coordinates
+from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, poisson_bracket, polynomial, variable
 
 R = sp.Rational
@@ -282,3 +284,19 @@ def test_frequencies_that_are_taken_as_equal_tell_what_that_leaves_out():
     assert apart.error < 1e-9 and apart.frequencies[1] == pytest.approx(sqrt(1.0001), rel=1e-12)
     with pytest.raises(InputError, match="detuning"):
         near(1.0).normal_form(4, at, detuning="a")
+
+
+def test_what_rests_and_what_drifts_keep_the_rate_zero():
+    """A charge in a magnetic field: its circle, the circle's centre, and free flight along the field, in mixed coordinates."""
+    rng, n = np.random.default_rng(1), 3
+    bracket = np.block([[np.zeros((n, n)), np.eye(n)], [-np.eye(n), np.zeros((n, n))]])
+    rows = np.zeros((3, 6))  # the velocities
+    rows[0, [3, 1]], rows[1, [4, 0]], rows[2, 5] = (1, 0.5), (1, -0.5), 1
+    for _ in range(5):
+        half = rng.normal(size=(6, 6)) / 4
+        mixing = expm(bracket @ (half + half.T))
+        A = mixing.T @ rows.T @ rows @ mixing
+        H = polynomial({tuple(int(k == i) + int(k == j) for k in range(6)): A[i, j] * (0.5 if i == j else 1.0)
+                        for i in range(6) for j in range(i, 6)}, 6, float)  # fmt: skip
+        form = normal_form_of_series(H, 2)
+        assert np.abs(np.array(form.frequencies) - [1, 0, 0]).max() < 1e-9 and form.error < 1e-9

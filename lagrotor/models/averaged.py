@@ -1,0 +1,282 @@
+"""Opposite spins averaged over their swing: small motion at any lean, with any bar, ten thousand turns at once.
+
+Without weight a pair at rest stays wherever it is. About a rest, at the lean of the swing's centre, the Hamiltonian in the
+coordinates q of `minimal`,
+
+    H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
+
+has one oscillation, the swing; the turning about the joint line and the swing's centre have the rate zero. The normal form
+through an order N (`lagrotor.mechanics.canonical.normal_forms`) is H averaged over the swing: its action and the momentum about
+the joint line are constant, and the centre moves so slowly that some hundred steps follow it, however long the run. The forms
+through N − 2 and N − 4 are parts of it; how the differences of the motions fall from one to the next tells the error.
+
+Spins that are not opposite let the axes twist apart freely, so that no motion beside the orbits stays small.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lagrotor.errors import DomainError, SingularError
+from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
+from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
+from lagrotor.models.minimal import MODEL, RATIOS
+from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
+from lagrotor.numerics.calibrated import Calibrated
+from lagrotor.numerics.estimated_run import UNKNOWN
+from lagrotor.numerics.generated import generated
+from lagrotor.pair.scene import Scene
+
+_ORDERS = (6, 8)
+FALLING = Calibrated(
+    20.0,
+    "error of a normal form over its difference from the one two orders lower, in units of the ratio of the last two differences",
+    "74 random pairs over 10 to 300 turns: at most 6.2",
+    "test_averaged.py::test_the_error_is_bounded",
+)
+_SLOWEST = 0.3  # of that ratio, beyond which the orders do not fall
+_ROUNDED = 3e-14  # rad: a turn's share of rounding, times the angle swung
+_PULSE = 1e-12, 1e-11  # local errors of the two integrations through a pulse
+_TRIES = 60  # to find the normal coordinates of a start
+_AT_ONCE = 256  # times
+
+
+class _Forms(NamedTuple):
+    """A normal form about q = (lean, 0, 0), p = momentum; maps: the coordinates of H₂ in the new ones; turning: which of them
+    is the azimuth's."""
+
+    form: NormalForm
+    maps: tuple[Polynomial, ...]
+    turning: int
+    lean: float
+    momentum: Array
+
+
+class _Sums(NamedTuple):
+    """Several polynomials: their common exponents (m, d), a column of coefficients (m, k) each."""
+
+    exponents: Any
+    coefficients: Any
+
+    def at(self, points: Any) -> Any:
+        """Their values at points (n, d): (n, k)."""
+        powers = points[..., None] ** np.arange(self.exponents.max(initial=0) + 1)
+        terms = np.ones((len(points), len(self.exponents)), complex)
+        for j, power in enumerate(self.exponents.T):
+            terms *= powers[:, j, power]
+        return terms @ self.coefficients
+
+
+def _sums(polynomials: tuple[Polynomial, ...]) -> _Sums:
+    every, at = np.unique(np.concatenate([f.exponents for f in polynomials]), axis=0, return_inverse=True)
+    coefficients, begun = np.zeros((len(every), len(polynomials)), complex), 0
+    for k, f in enumerate(polynomials):
+        coefficients[at.ravel()[begun : begun + len(f.exponents)], k] = f.coefficients
+        begun += len(f.exponents)
+    return _Sums(every, coefficients)
+
+
+@lru_cache(maxsize=3)
+def _kinetic(ratio: Any) -> tuple[Any, Any]:
+    """M (3, 3) and g (3) as expressions."""
+    import sympy as sp
+
+    from lagrotor.algebra import hessian
+    from lagrotor.mechanics import System
+    from lagrotor.mechanics.lagrangian import gradient
+    from lagrotor.pair.lagrangians import bar_curve, mercator_lagrangian, minimal_embedding
+    from lagrotor.pair.notation import MERCATOR, MINIMAL
+
+    curve = bar_curve(ratio)
+    L = (
+        System(MERCATOR, mercator_lagrangian())
+        .in_coordinates(MINIMAL, minimal_embedding(curve.twist, curve.latitude))
+        .L
+    )
+    return hessian(L, MINIMAL.v), gradient(L, MINIMAL.v).subs(dict.fromkeys(MINIMAL.v, sp.S.Zero))
+
+
+@generated((ratio,) for ratio in RATIOS)
+def _momenta(ratio: Any) -> str:
+    """(U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
+    from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
+
+    M, g = _kinetic(ratio)
+    return program_source(Program((*MINIMAL.q[:2], a, b, k, G_1, G_2), (), (*M, *g)), "numpy")
+
+
+def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
+    """M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
+    (_, ratio, _), _ = MODEL.kind(scene, False)
+    values = _momenta(ratio)(q[:, 0], q[:, 1], *scene.inertias, scene.k, *scene.momenta)
+    columns = np.stack([np.broadcast_to(value, len(q)) for value in values], axis=1)
+    return columns[:, :9].reshape(-1, 3, 3), columns[:, 9:]
+
+
+@lru_cache(maxsize=16)
+def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lean: float, order: int) -> _Forms:
+    import sympy as sp
+
+    from lagrotor.mechanics.canonical.local_series import LocalSeries
+    from lagrotor.pair import notation
+
+    numbers = dict(zip((getattr(notation, s) for s in ("a", "b", "k", "G_1", "G_2")), (a, b, k, G_1, G_2), strict=True))
+    at = {s: sp.Float(v, 17) for s, v in numbers.items()}
+    q = notation.MINIMAL.q
+    rest = dict(zip(q, (sp.Float(lean, 17), sp.S.Zero, sp.S.Zero), strict=True))
+    moved = {s: variable(i, 6, kind=float) for i, s in enumerate(q)}
+    M, g = (e.xreplace(at) for e in _kinetic(ratio))
+    mass, vector = (
+        LocalSeries(rest, moved, through, lambda e: float(sp.N(e, 20))) for through in (order - 2, order - 1)
+    )
+    inverse = inverse_matrix([[mass.of(M[i, j]) for j in range(3)] for i in range(3)], order - 2)
+    own = [vector.of(e) for e in g]
+    free = [variable(3 + i, 6, kind=float) - (f - f.part(0)) for i, f in enumerate(own)]
+    H = total(
+        [free[i].product(inverse[i][j].product(free[j], order), order) for i in range(3) for j in range(3)]
+    ).times(0.5)
+    form = normal_form_of_series(H, order)
+    maps = tuple(form.original(variable(j, 6)) for j in range(6))
+    turning = int(np.abs(form.vectors[2]).argmax())  # on which nothing depends: rounding is left out
+    maps = tuple(f.where((f.exponents[:, turning] == 0) | (f.exponents.sum(1) == 1)) for f in maps)
+    form = replace(form, series=form.series.where(form.series.exponents[:, turning] == 0))
+    return _Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
+
+
+def _forms_of(scene: Scene, lean: float, order: int) -> _Forms:
+    (_, ratio, _), _ = MODEL.kind(scene, False)
+    return _forms(ratio, *scene.inertias, scene.k, *scene.momenta, lean, order)
+
+
+def _linear(scene: Scene, forms: _Forms, state: Array) -> Any:
+    """The coordinates of H₂ of a state of `minimal`, its azimuth left out."""
+    M, g = _momenta_at(scene, state[None, :3])
+    p = M[0] @ state[3:] + g[0]
+    x = np.concatenate([[state[0] - forms.lean, state[1], 0.0], p - forms.momentum])
+    return np.linalg.solve(forms.form.vectors, x + 0j)
+
+
+def _states(scene: Scene, forms: _Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
+    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
+
+    Raises DomainError where the start has no normal coordinates or the slow motion does not stay small.
+    """
+    from scipy.integrate import solve_ivp
+
+    form, n = forms.form, 3
+    maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
+    series = form.series.through(order)
+    slopes = _sums(tuple(series.derivative(j) for j in range(2 * n)))
+    linear = _linear(scene, forms, start)
+    y, step = linear, np.inf
+    for _ in range(_TRIES):
+        off = linear - maps.at(y[None])[0]
+        y, before, step = y + off, step, float(np.abs(off).max())
+        if not step < before or step < 1e-17:
+            break
+    if not step < 1e-13 or not np.abs(y).max() < 1:
+        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
+    swing = np.zeros(2 * n, complex)
+    swing[[0, n]] = form.weights[0] * form.frequencies[0] * np.array([1, -1])
+
+    def rate(_: float, y: Any) -> Any:
+        """{y, H} without the swing's own rate."""
+        slope = slopes.at(y[None])[0]
+        return np.concatenate([form.weights * slope[n:], -form.weights * slope[:n]]) - swing * y
+
+    def far(_: float, y: Any) -> float:
+        return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
+
+    far.terminal = True  # type: ignore[attr-defined]
+    end = float(t[-1]) or 1e-9  # of the start alone
+    run = solve_ivp(rate, (0.0, end), y, "DOP853", t_eval=t, events=far, rtol=1e-13, atol=1e-16)
+    if run.status != 0:
+        raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
+    new = run.y.T * np.exp(swing * t[:, None])
+    old = np.concatenate([maps.at(part) for part in np.array_split(new, len(new) // _AT_ONCE + 1)])
+    x = (old @ form.vectors.T).real
+    q = x[:, :3] + [forms.lean, 0.0, start[2]]
+    M, g = _momenta_at(scene, q)
+    return np.hstack([q, np.linalg.solve(M, (x[:, 3:] + forms.momentum - g)[..., None])[..., 0]]), int(run.nfev)
+
+
+def _centre(scene: Scene, state: Array) -> float:
+    """The lean U of the centre about which a state of `minimal` swings."""
+    forms = _forms_of(scene, float(state[0]), 2)
+    slow = _linear(scene, forms, state)
+    slow[[0, 3]] = 0.0
+    return float(state[0] + (forms.form.vectors[0] @ slow).real)
+
+
+def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
+    """The motion up to t_end (s), by the normal form through 6, or 8 where `tol` needs it.
+
+    Through a pulse it is integrated, twice. Raises SingularError without a bar, DomainError where the spins are not opposite,
+    the motion is not small or ends within the pulse.
+    """
+    if scene.link is None:
+        raise SingularError("averaged: the scene has no bar; use model='closed_form'")
+    if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
+        raise DomainError(
+            f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
+            "motion stays small; use model='minimal'"
+        )
+    units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
+    one, end, begin, starts = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)]
+    if one.shock:
+        begin = one.shock.end
+        if begin >= end:
+            raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
+        starts = [_pulsed(one, np.array([begin]), k)[-1] for k in (0, 1)]
+    # At single times an error may vanish: a few swings each, all along the run.
+    ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
+    grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
+    lean, spent = _centre(one, starts[0]), 0
+
+    def states(order: int, through: int, start: Array, t: Array) -> Array:
+        nonlocal spent
+        found, evaluations = _states(one, _forms_of(one, lean, order), through, start, t)
+        spent += evaluations
+        return found
+
+    def distance(first: Array, second: Array) -> Array:
+        apart = MODEL.observe(one, first).axes - MODEL.observe(one, second).axes
+        return np.asarray(np.maximum.accumulate(np.linalg.norm(apart, axis=-1).max(0)))
+
+    for order in _ORDERS:
+        found = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
+        last, before = distance(found[0], found[1]), distance(found[1], found[2])
+        rounded = _ROUNDED * (1 + PACE * grid)
+        ratio = last / (before + 10 * rounded)
+        errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
+        if errors[-1] <= tol:
+            break
+    if one.shock:
+        errors += 3 * distance(found[0], states(order, order, starts[1], grid))
+    errors = np.minimum(np.maximum.accumulate(errors), UNKNOWN)
+
+    def motion(t: Array) -> tuple[Array, Array]:
+        s = t * units.rate
+        early, later = s[s < begin], s[s >= begin] - begin
+        parts = [_pulsed(one, early, 0)] if len(early) else []
+        parts += [_states(one, _forms_of(one, lean, order), order, starts[0], later)[0]] if len(later) else []
+        seen = MODEL.observe(one, np.vstack(parts))
+        return seen.axes, seen.rates * units.rate
+
+    return ClosedMotion(
+        float(errors[-1]),
+        f"opposite spins averaged over the swing, by the normal form of order {order}",
+        motion,
+        lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)],
+        spent,
+    )
+
+
+def _pulsed(scene: Scene, t: Array, k: int) -> Array:
+    """States of `minimal` through the pulse at times t, by the better integration (k = 0) or the other."""
+    times = np.unique(np.r_[0.0, t])
+    return integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0).states[np.isin(times, t)]

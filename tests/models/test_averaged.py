@@ -1,0 +1,129 @@
+"""Opposite spins averaged over their swing: the error and its order against exact runs, long runs at once, what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
+from lagrotor.errors import DomainError, LagrotorError, LagrotorWarning, SingularError
+from lagrotor.models import averaged
+from lagrotor.models.minimal import MODEL
+from lagrotor.models.model import PACE, natural_units
+from lagrotor.models.simulate import choose
+from lagrotor.numerics import measured_order
+from tests.theory.random_pairs import held, random_pair
+
+UP = ((0.05, 0, 1),) * 2
+
+
+BAR = Link(1.2, 0.3, 0.05)
+
+
+def swinging(size: float, link: Link = BAR, spins: tuple[float, float] = (10, -10)) -> Scene:
+    """Leaning parallel axes that swing, twist and turn with a size."""
+    return consistent_scene(spins, UP, size * np.array([[6.0, 2, 0], [6, -3, 0]]), Rotor(), link)
+
+
+def turns(scene: Scene, count: float, n: int = 41) -> np.ndarray:
+    """Times over turns of the scene's typical rate, in s."""
+    return np.linspace(0, 2 * np.pi * count / PACE / natural_units(scene).rate, n)
+
+
+def apart(run: object, exact: object) -> np.ndarray:
+    return np.asarray(np.linalg.norm(run.axes - exact.axes, axis=-1).max(0))
+
+
+@pytest.mark.filterwarnings("ignore::lagrotor.errors.LagrotorWarning")
+@pytest.mark.parametrize("count", [5, pytest.param(400, marks=pytest.mark.slow)])
+def test_the_error_is_bounded(count: int) -> None:
+    """Any lean, any bar, swings that are small or not, up to 300 turns."""
+    rng, pairs, refused = np.random.default_rng(7), [], 0
+    while len(pairs) + refused < count:
+        one, size = random_pair(rng, "opposite"), 10 ** rng.uniform(-3, -0.9)
+        lean = rng.uniform(-0.6, 0.6) * rng.choice([0, 1])
+        axes = np.array([np.sin(lean), 0.2 * rng.uniform(-1, 1), np.cos(lean)]) + size * rng.normal(size=(2, 3))
+        rates = size * rng.normal(size=(2, 3)) * abs(one.momenta[0]) / one.rotor.J
+        try:
+            axes /= np.linalg.norm(axes, axis=1)[:, None]
+            scene = consistent_scene(one.spins, axes, rates, one.rotor, one.link)
+            t = turns(scene, 10 ** rng.uniform(1, 2.5 if count > 5 else 1.7))
+            run = simulate(scene, t, "averaged")
+        except LagrotorError:
+            refused += 1
+            continue
+        exact = simulate(scene, t, "minimal", 1e-11)
+        off, told = apart(run, exact), run.errors + exact.errors
+        worst = int(np.argmax(off / told))
+        pairs.append((off[worst], told[worst]))
+    held(pairs, refused, count, 0.4)
+
+
+@pytest.mark.parametrize("through", [4, 6])
+def test_the_order(through: int) -> None:
+    sizes, off = (0.015, 0.02, 0.03), []
+    for size in sizes:
+        scene = natural_units(swinging(size, Link(0.8, 0.5, 0.2))).scene
+        t = np.linspace(0, 40, 81)
+        start = MODEL.start(scene)
+        forms = averaged._forms_of(scene, averaged._centre(scene, start), 6)
+        states, _ = averaged._states(scene, forms, through, start, t)
+        off.append(
+            np.linalg.norm(MODEL.observe(scene, states).axes - simulate(scene, t, "minimal", 1e-12).axes, axis=-1).max()
+        )
+    assert measured_order(sizes, off) == pytest.approx(through, abs=0.1)
+
+
+def test_long_runs_take_few_evaluations() -> None:
+    scene = swinging(0.005)
+    t = turns(scene, 10_000, 2_001)
+    run = simulate(scene, t, "averaged", 1e-6)
+    assert run.error < 1e-6 and run.horizon == np.inf and run.evaluations < 10_000
+    assert "averaged over the swing" in run.why
+    first = simulate(scene, t[:41], "minimal", 1e-10)
+    assert np.linalg.norm(run.axes[:, :41] - first.axes, axis=-1).max() <= run.errors[40] + first.error
+
+
+@pytest.mark.slow
+def test_ten_thousand_turns() -> None:
+    scene = swinging(0.01)
+    t = turns(scene, 10_000, 501)
+    run, exact = simulate(scene, t, "averaged", 1e-2), simulate(scene, t, "minimal", 1e-6)
+    assert (apart(run, exact) <= run.errors + exact.errors).all() and run.error < 1e-2
+    assert run.evaluations < exact.evaluations / 300
+
+
+def test_auto_takes_it_for_long_runs() -> None:
+    scene = swinging(0.01)
+    short, long = (choose(scene, turns(scene, count)[-1], 1e-6) for count in (30, 1_000))
+    assert short.model != "averaged" and long.model == "averaged"
+    assert choose(swinging(0.15), turns(scene, 1_000)[-1], 1e-9).model == "minimal"
+    run = simulate(scene, turns(scene, 1_000), tol=1e-6)
+    assert run.model == "averaged" and run.error < 1e-6
+
+
+def test_through_a_pulse() -> None:
+    """The start after it is known as well as two integrations through it agree."""
+    scene = replace(Scene((10, -10), link=Link(1, 0.01, 0.1)), shock=Shock((4, -1, 0), 0.5, 1 / 20))
+    t = np.linspace(0, 30, 201)
+    run, exact = simulate(scene, t, "averaged", 1e-6), simulate(scene, t, "minimal", 1e-11)
+    assert run.error < 1e-6 and (apart(run, exact) <= run.errors + exact.errors).all()
+    with pytest.raises(DomainError, match="ends within the pulse"):
+        simulate(scene, [0, 0.5], "averaged")
+
+
+def test_one_time_is_the_start() -> None:
+    scene = swinging(0.01)
+    assert np.abs(simulate(scene, [3.0], "averaged").axes[:, 0] - scene.axes).max() < 1e-13
+
+
+def test_what_it_does_not_hold_is_refused() -> None:
+    t = [0.0, 1.0]
+    with pytest.raises(DomainError, match="are not opposite"):
+        simulate(swinging(0.01, spins=(10, -9)), t, "averaged")
+    with pytest.raises(SingularError, match="no bar"):
+        simulate(Scene((10, -10), link=None), t, "averaged")
+    with pytest.raises(DomainError, match=r"no small motion|moves far"):
+        simulate(swinging(0.5), [0.0, 300.0], "averaged")
+    with pytest.warns(LagrotorWarning, match=r"averaged does not keep tol = 1e-12.*kept up to t ="):
+        simulate(swinging(0.1), turns(swinging(0.1), 50), "averaged", 1e-12)
