@@ -59,10 +59,12 @@ def light(source: str) -> str:
 
 @cache
 def letter_latex(symbol: sp.Symbol) -> str:
-    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1."""
-    if name := re.fullmatch(r"reaction\((.+)\)", symbol.name):
-        return rf"\lambda_{{\mathrm{{{name[1]}}}}}"
-    dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", symbol.name)
+    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1, d_dotx is \dot{d}_x."""
+    if reaction := re.fullmatch(r"reaction\((.+)\)", symbol.name):
+        return rf"\lambda_{{\mathrm{{{reaction[1]}}}}}"
+    # A component of a vector of rates, d_dotx or r_1_dotx.
+    name = re.sub(r"(_\d+)?_(d?dot)([xyz])$", lambda m: f"{m[1] or '_'}{m[3]}_{m[2]}", symbol.name)
+    dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", name)
     stem = sp.latex(sp.Symbol(dotted[1]) if dotted else symbol)
     index = f"_{{{dotted[2]}}}" if dotted and dotted[2] else ""
     return re.sub(r"_\{(\w)\}$", r"_\1", (rf"\{dotted[3]}{{{stem}}}" if dotted else stem) + index)

@@ -5,6 +5,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import letter_latex
 from lagrotor.paper.letters import components, cross, cross_matrix, declared, inverse, rate, read, symmetric, vector
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
@@ -51,3 +52,13 @@ def test_a_section_reads_its_own_letters_before_those_of_the_glossary() -> None:
 def test_a_scene_may_give_vectors_and_matrices() -> None:
     scene = {symbol.name: value for symbol, value in PAPER.lines("4.03")[0].scene.items()}
     assert (scene["Omega_1_z"], scene["Omega_1_x"], scene["I_2_xx"], scene["I_2_xy"], scene["s_1"]) == (10, 0, 1, 0, 0)
+
+
+def test_a_component_of_a_vector_of_rates_has_its_dot() -> None:
+    names = {
+        "d_dotx": r"\dot{d}_x",
+        "r_1_dotz": r"\dot{r}_{1z}",
+        "theta_1_dot": r"\dot{\theta}_1",
+        "x_ddot": r"\ddot{x}",
+    }
+    assert {name: letter_latex(sp.Symbol(name)) for name in names} == names

@@ -126,7 +126,10 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     if unknown := sorted(given.keys() - set(_KEYS)):
         raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
     if missing := [key for key in ("coordinates", "L") if not given.get(key)]:
-        raise InputError(f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L")
+        raise InputError(
+            f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L, as in "
+            '[system] coordinates = "theta", L = "m*l**2*theta_dot**2/2 + m*g*l*cos(theta)"'
+        )
     known = {symbol.name: symbol for symbol in paper.glossary}
     fresh = coordinates(given["coordinates"])
     c = Coordinates(*(tuple(known.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
