@@ -12,6 +12,7 @@ from typing import Any
 
 Key = tuple[int, int]  # (power of eps, harmonic): cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
 Coefficient = Any  # an element of the field
+Waves = Mapping[int, Coefficient]  # of one power of eps
 Series = Any  # a FourierSeries, or what is added, multiplied and differentiated like one
 
 
@@ -35,27 +36,20 @@ class FourierSeries:
         return self + (-other)
 
     def __mul__(self, other: "FourierSeries") -> "FourierSeries":
-        """Product, with cos p cos q = (cos(p−q) + cos(p+q))/2 and its kin; terms beyond the order are dropped."""
-        total: dict[Key, Coefficient] = defaultdict(int)
-        halves = sorted((m, q, v / 2) for (m, q), v in other.terms.items())
-        for (n, p), u in self.terms.items():
-            for m, q, v in halves:
-                if n + m > self.order:
-                    break
-                half = u * v
-                i, j = abs(p), abs(q)
-                if p >= 0 and q >= 0:
-                    total[n + m, abs(i - j)] += half
-                    total[n + m, i + j] += half
-                elif p < 0 and q < 0:
-                    total[n + m, abs(i - j)] += half
-                    total[n + m, i + j] -= half
-                else:
-                    sine, cosine = (i, j) if p < 0 else (j, i)
-                    total[n + m, -(i + j)] += half
-                    if sine != cosine:
-                        total[n + m, -abs(sine - cosine)] += half if sine > cosine else -half
-        return FourierSeries({k: v for k, v in total.items() if v}, self.order)
+        """Product; terms beyond the order are dropped."""
+        one, two = self._by_power(), other._by_power()
+        total: dict[int, dict[int, Coefficient]] = defaultdict(lambda: defaultdict(int))
+        for n, first in one.items():
+            for m, second in two.items():
+                if n + m <= self.order:
+                    add_twice_the_product(total[n + m], first, second)
+        return FourierSeries({(n, h): v / 2 for n, waves in total.items() for h, v in waves.items() if v}, self.order)
+
+    def _by_power(self) -> dict[int, dict[int, Coefficient]]:
+        powers: dict[int, dict[int, Coefficient]] = defaultdict(dict)
+        for (n, h), value in self.terms.items():
+            powers[n][h] = value
+        return powers
 
     def times(self, factor: Coefficient) -> "FourierSeries":
         """factor × f."""
@@ -93,3 +87,22 @@ class FourierSeries:
 def constant_series(value: Coefficient, order: int, power: int = 0) -> FourierSeries:
     """value eps**power, without a phase."""
     return FourierSeries({(power, 0): value} if value else {}, order)
+
+
+def add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: Waves) -> None:
+    """Twice the product is added to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its kin."""
+    for q, v in second.items():
+        for p, u in first.items():
+            part = u * v
+            i, j = abs(p), abs(q)
+            if p >= 0 and q >= 0:
+                total[abs(i - j)] += part
+                total[i + j] += part
+            elif p < 0 and q < 0:
+                total[abs(i - j)] += part
+                total[i + j] -= part
+            else:
+                sine, cosine = (i, j) if p < 0 else (j, i)
+                total[-(i + j)] += part
+                if sine != cosine:
+                    total[-abs(sine - cosine)] += part if sine > cosine else -part

@@ -21,6 +21,7 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics.lagrangian import Coordinates, bias, coordinates, jacobian, t, total_derivative
+from lagrotor.mechanics.quasi_velocities import independent_rows
 
 _DECIDED = 3000  # operations of a difference up to which it is decided whether it vanishes; it stays where it is not
 
@@ -112,7 +113,7 @@ def _of_speeds(
         raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
     still = dict.fromkeys(auxiliary, 0)
     equations = sp.Matrix([*kinematic, *velocity]).xreplace(still)
-    speeds, left = _solved(equations, list(u), functions, clock)
+    speeds, left = _solved(equations, list(u))
     put = dict(zip(u, speeds, strict=True)) | still
     put |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
         s.diff(clock): 0 for s in auxiliary
@@ -145,33 +146,19 @@ def _of_speeds(
     }
 
 
-def _solved(
-    equations: sp.Matrix, u: list[Any], functions: Sequence[Any], clock: sp.Symbol
-) -> tuple[sp.Matrix, list[sp.Expr]]:
+def _solved(equations: sp.Matrix, u: list[Any]) -> tuple[sp.Matrix, list[sp.Expr]]:
     """The speeds u in q, q' and t, from the first equations that give them, and the equations that are left to hold.
 
     Where there are fewer speeds than coordinates, as with a quaternion, some kinematic equations are left; where there are more,
     the constraints on velocities give them.
     """
-    from lagrotor.algebra.evidence import points
-
     K = equations.jacobian(u)
-    letters = {f: sp.Dummy(real=True) for f in functions} | {clock: sp.Dummy(real=True)}
-    seen = K.xreplace(letters)
-    point = next(iter(points(seen.free_symbols)))
-    chosen: list[int] = []
-    for i in range(K.rows):
-        if len(chosen) < len(u) and _rank(seen[[*chosen, i], :].subs(point)) > len(chosen):
-            chosen.append(i)
+    chosen = independent_rows(K, len(u))
     if len(chosen) < len(u):
         raise InputError("from_sympy: the kinematic equations and the constraints do not give every speed by q'")
     rest = equations.xreplace(dict.fromkeys(u, 0))
     speeds = -K[chosen, :].LUsolve(rest[chosen, :])
     return speeds, [equations[i] for i in range(K.rows) if i not in chosen]
-
-
-def _rank(matrix: sp.Matrix) -> int:
-    return int(matrix.evalf(30).rank(iszerofunc=lambda x: abs(x) < 1e-15)) if matrix.rows else 0
 
 
 def _vanishes(e: sp.Expr) -> bool:
@@ -180,18 +167,9 @@ def _vanishes(e: sp.Expr) -> bool:
 
 def _independent(constraints: Sequence[sp.Expr], velocity: Sequence[sp.Expr], c: Coordinates) -> tuple[sp.Expr, ...]:
     """The constraints on velocities that the holonomic ones do not give, by the rank of their rows at a random state."""
-    from lagrotor.algebra.evidence import points
-
     held = [total_derivative(g, c) for g in constraints]
-    rows, rolling = jacobian(held, c.v), list[sp.Expr]()
-    letters = set().union(*(e.free_symbols for e in (*held, *velocity))) - {*c.v}
-    point = next(iter(points(letters)))
-
-    for e in velocity:
-        more = rows.col_join(jacobian([e], c.v))
-        if _rank(more.subs(point)) > _rank(rows.subs(point)):
-            rows, rolling = more, [*rolling, e]
-    return tuple(rolling)
+    kept = independent_rows(jacobian([*held, *velocity], c.v), len(c.v))
+    return tuple(velocity[i - len(held)] for i in kept if i >= len(held))
 
 
 def _coordinates(functions: list[Any], clock: sp.Symbol) -> tuple[Coordinates, list[Any]]:

@@ -8,15 +8,14 @@ is evaluated anew for each order costs N**3. van der Hoeven, Relax, but don't be
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import lcm
 
 from sympy import QQ, ZZ
 
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Waves, add_twice_the_product
 
-Waves = Mapping[int, Coefficient]  # of one power of eps: cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
 Pairs = list[tuple[Waves, Waves]]
 
 
@@ -117,7 +116,7 @@ def _product(pairs: Pairs) -> Waves:
     whole, below = _over_one_denominator(pairs)
     total: dict[int, Coefficient] = defaultdict(int)
     for first, second in whole:
-        _add_twice_the_product(total, first, second)
+        add_twice_the_product(total, first, second)
     return {h: QQ(v, 2 * below) if isinstance(v, ZZ.dtype) else v / 2 for h, v in total.items() if v}
 
 
@@ -134,22 +133,3 @@ def _whole(waves: Waves) -> tuple[Waves, int]:
     """Rational waves as whole numbers over one denominator."""
     below = lcm(*(int(v.denominator) for v in waves.values()))
     return {h: v.numerator * (below // v.denominator) for h, v in waves.items()}, below
-
-
-def _add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: Waves) -> None:
-    """Twice the product is added to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its kin."""
-    for q, v in second.items():
-        for p, u in first.items():
-            part = u * v
-            i, j = abs(p), abs(q)
-            if p >= 0 and q >= 0:
-                total[abs(i - j)] += part
-                total[i + j] += part
-            elif p < 0 and q < 0:
-                total[abs(i - j)] += part
-                total[i + j] -= part
-            else:
-                sine, cosine = (i, j) if p < 0 else (j, i)
-                total[-(i + j)] += part
-                if sine != cosine:
-                    total[-abs(sine - cosine)] += part if sine > cosine else -part

@@ -8,8 +8,8 @@ from sympy.polys.domains.domain import Domain
 from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant_series
-from lagrotor.mechanics.order_by_order import Unknowns, Waves
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series
+from lagrotor.mechanics.order_by_order import Unknowns
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
 Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value

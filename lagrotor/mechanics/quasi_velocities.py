@@ -109,7 +109,7 @@ def kinematics(
     order = [*first, *(i for i in range(len(residual)) if i not in first)]
     rows = [*own, *(residual[i] for i in order)]
     matrix = jacobian(rows, c.v)
-    kept = _independent(matrix, len(c.q))
+    kept = independent_rows(matrix, len(c.q))
     if any(i not in kept for i in range(len(own))):
         name = next(u for i, (u, _) in enumerate(pairs) if i not in kept)
         raise InputError(f"System: velocities: {name} follows from those before it: leave it out")
@@ -264,8 +264,9 @@ def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
     return found
 
 
-def _independent(matrix: sp.Matrix, most: int) -> list[int]:
-    """The rows, in order, that do not depend on those before them, at the random state where they are most; at most n."""
+def independent_rows(matrix: sp.Matrix, most: int) -> list[int]:
+    """The rows, in order, that do not depend on those before them, at the random state where they are most; no more than
+    `most`."""
     best: list[int] = []
     for rows in _values(matrix):
         kept, basis = list[int](), list[list[float]]()
@@ -284,7 +285,7 @@ def _determined(matrix: sp.Matrix, kept: Sequence[int], j: int) -> bool:
     unit = sp.zeros(1, matrix.cols)
     unit[j] = sp.S.One
     rows = matrix.extract(list(kept), list(range(matrix.cols))).col_join(unit)
-    return len(_independent(rows, matrix.cols)) > len(kept)
+    return len(independent_rows(rows, matrix.cols)) > len(kept)
 
 
 def _without(row: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:

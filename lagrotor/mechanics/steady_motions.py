@@ -19,12 +19,12 @@ from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
 from lagrotor.algebra import along, decide_zero, derivative
-from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.equations import Equations, rows_left
 from lagrotor.mechanics.expressions import expression, put_in, shortest
 from lagrotor.mechanics.lagrangian import jacobian, t
 from lagrotor.mechanics.linear_modes import point_of, stability_condition
+from lagrotor.mechanics.quasi_velocities import independent_rows
 from lagrotor.mechanics.small_turns import small_states, small_turns
 
 
@@ -180,16 +180,10 @@ def _tangent(slope: sp.Matrix, size: int, held: int, n: int) -> tuple[list[int],
     """The numbers of the states that the others give, coordinates before velocities, and T, with δ(q, v) = T x."""
     if not slope.rows:
         return [], sp.eye(size)
-    point = next(iter(points(slope.free_symbols)))
-    seen = slope.subs(point).evalf(20)
     chosen: list[int] = []
     for rows, columns in ((range(held), range(n - 1, -1, -1)), (range(held, slope.rows), range(size - 1, n - 1, -1))):
-        part: list[int] = []
-        for j in columns:
-            block = seen[list(rows), [*part, j]]
-            if len(part) < len(rows) and block.rank(iszerofunc=lambda x: abs(x) < 1e-12) > len(part):
-                part.append(j)
-        chosen += part
+        kept = independent_rows(slope.extract(list(rows), list(columns)).T, len(rows)) if rows else []
+        chosen += [columns[i] for i in kept]
     own = [i for i in range(size) if i not in chosen]
     T = sp.zeros(size, len(own))
     given = -_solved(slope[:, chosen], slope[:, own], {})
