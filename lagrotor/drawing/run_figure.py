@@ -89,6 +89,20 @@ def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], mar
     return figure
 
 
+def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: Array, edges: Array) -> RunFigure:
+    """Growth rates (n, m), 1/s, over the numbers (m,) and (n,) of two letters, and points (k, 2) of the boundary."""
+    with paper_style():
+        figure = RunFigure(figsize=(7.0, 5.0))
+        panel = figure.subplots()
+        shown = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
+        mesh = panel.pcolormesh(*numbers, shown, cmap="Blues", vmin=0, shading="nearest")
+        figure.colorbar(mesh, label="growth rate [1/s]")
+        panel.plot(*edges.T, ".", color=ROTORS[1], markersize=4)
+        panel.set_xlabel(names[0])
+        panel.set_ylabel(names[1])
+    return figure
+
+
 def _over_time(panel: Axes, labelled: bool) -> None:
     panel.set_xlabel("time [s]" if labelled else "")
     panel.tick_params(labelbottom=labelled)

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix as MonodromyMatrix
     from lagrotor.mechanics.running.programs import motion_program as motion_program
     from lagrotor.mechanics.running.root_loci import RootLocus as RootLocus
+    from lagrotor.mechanics.running.root_loci import StabilityChart as StabilityChart
     from lagrotor.mechanics.running.simulation import SystemRun as SystemRun
     from lagrotor.mechanics.running.state_space import StateSpace as StateSpace
     from lagrotor.mechanics.running.switches import Event as Event

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
-    from lagrotor.mechanics.running.root_loci import RootLocus
+    from lagrotor.mechanics.running.root_loci import RootLocus, StabilityChart
     from lagrotor.mechanics.running.simulation import SystemRun
     from lagrotor.mechanics.running.state_space import StateSpace
     from lagrotor.mechanics.running.switches import Event, Impact
@@ -137,6 +137,15 @@ class System(Equations):
 
         self, values = function_values.put_functions("root_locus", self, values)
         return root_loci.root_locus(self, at, values, letter, numbers)
+
+    def stability_chart(
+        self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
+    ) -> "StabilityChart":
+        """Where small motion about `at` grows, over two letters: see `running.root_loci`."""
+        from lagrotor.mechanics.running import function_values, root_loci
+
+        self, values = function_values.put_functions("stability_chart", self, values)
+        return root_loci.stability_chart(self, at, values, numbers, period)
 
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.

@@ -1,6 +1,6 @@
-"""How the rates of small motion move as one letter is changed: the root locus, and where it becomes unstable."""
+"""How the rates of small motion move as one letter or two are changed: root loci, and where a motion becomes unstable."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, put_in
 from lagrotor.mechanics.glossary import latex
 from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.monodromy import monodromy_matrix
 from lagrotor.mechanics.running.state_space import state_space
 from lagrotor.numerics.arrays import check_times
 
@@ -20,14 +21,15 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 _GROWS = 1e-6  # of the largest rate: a real part that is above rounding, of double roots too
+_ZERO = 1e-5  # of the largest rate: one that is zero but for rounding, of double ones too
 _DIGITS = 40  # halvings of the interval between two numbers
 
 
 @dataclass(frozen=True, eq=False)
 class RootLocus:
     """rates (m, n), 1/s, at the numbers (m,) of a letter; boundaries: its values at which the motion becomes stable or unstable,
-    each alone between two of the numbers that were given, among which they are put. They are known to about a millionth:
-    rates that coincide, as zero ones do, are not known better than to the root of rounding."""
+    each alone between two of the numbers that were given, among which they are put. Where nothing is damped they are known to
+    about a millionth: rates that coincide are not known better than to the root of rounding."""
 
     letter: sp.Symbol
     numbers: Array
@@ -55,36 +57,120 @@ def root_locus(
     Raises InputError where the letter has a value already, and what `linearise` raises.
     """
     grid, name = check_times("root_locus", numbers), str(letter)
-    if not isinstance(values, Mapping) or name in map(str, values):
+    rates_at = _rates("root_locus", system, at, values, [name])
+    boundaries = _boundaries(rates_at, grid, _DIGITS)
+    grid = np.sort(np.append(grid, boundaries))
+    return RootLocus(
+        sp.Symbol(name, real=True), grid, _followed([rates_at(x) for x in grid.tolist()]), tuple(boundaries)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class StabilityChart:
+    """growth (n, m), 1/s: the largest real part of the rates at the numbers (m,) and (n,) of two letters; boundaries (k, 2):
+    values of both at which the motion becomes stable or unstable, on each line of the second letter as in `RootLocus`."""
+
+    letters: tuple[sp.Symbol, sp.Symbol]
+    numbers: tuple[Array, Array]
+    growth: Array
+    boundaries: Array
+
+    def plot(self) -> "RunFigure":
+        """Where it grows, shaded by how fast, with the boundaries."""
+        from lagrotor.drawing.run_figure import chart_figure
+
+        names = (f"${latex(self.letters[0])}$", f"${latex(self.letters[1])}$")
+        return chart_figure(names, self.numbers, self.growth, self.boundaries)
+
+
+def stability_chart(
+    system: Equations, at: Mapping[Any, Any], values: Values, numbers: Mapping[Any, ArrayLike], period: Any = None
+) -> StabilityChart:
+    """The largest growth of small motion about `at` over two letters, numbers = {letter: increasing numbers, …}; of a periodic
+    motion with its period, a number or an expression in the letters, by its multipliers. As many evaluations as numbers, and
+    twenty for each boundary.
+
+    Raises InputError as `root_locus` does.
+    """
+    if not isinstance(numbers, Mapping) or len(numbers) != 2:
+        raise InputError(f"stability_chart: numbers = {numbers!r} must be {{letter: numbers, other: numbers}}")
+    names = [str(letter) for letter in numbers]
+    first, second = (check_times("stability_chart", each) for each in numbers.values())
+    rates_at = _rates("stability_chart", system, at, values, names, period)
+    rows = [[float(rates_at(x, y).real.max()) for x in first.tolist()] for y in second.tolist()]
+    edges = [
+        (x, y)
+        for y in second.tolist()
+        for x in _boundaries(lambda x, y=y: rates_at(x, y), first, _DIGITS // 2)  # type: ignore[misc]
+    ]
+    letters = (sp.Symbol(names[0], real=True), sp.Symbol(names[1], real=True))
+    return StabilityChart(letters, (first, second), np.array(rows), np.array(edges).reshape(-1, 2))
+
+
+def _rates(
+    where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
+) -> Callable[..., NDArray[np.complex128]]:
+    """(number of each letter, …) → the rates there; those of multipliers where a period is given, ln(μ)/T."""
+    if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
-            f"root_locus: values = {values!r} must be a dictionary without {name}, which takes the numbers"
+            f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"
         )
     if not isinstance(at, Mapping):
-        raise InputError(f"root_locus: at = {at!r} must be {{coordinate: number or expression, …}}, a dictionary")
-    places = {s: expression("root_locus: at", e) for s, e in at.items()}
-
+        raise InputError(f"{where}: at = {at!r} must be {{coordinate: number or expression, …}}, a dictionary")
+    places = {s: expression(f"{where}: at", e) for s, e in at.items()}
+    turn = None if period is None else expression(f"{where}: period", period)
     acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces)
-    own = {name} & {str(s) for e in acting for s in e.free_symbols}  # or it is a letter of the motion alone
+    own = {*names} & {str(s) for e in acting for s in e.free_symbols}  # the others are letters of the motion alone
+    if (
+        strangers := {*names}
+        - own
+        - {str(s) for e in (*places.values(), sp.sympify(turn or 0)) for s in e.free_symbols}
+    ):
+        raise InputError(
+            f"{where}: {min(strangers)} is no letter of the system, nor of the motion: nothing changes with it"
+        )
 
-    def rates_at(x: float) -> NDArray[np.complex128]:
-        point = {s: put_in(e, {u: x for u in e.free_symbols if str(u) == name}) for s, e in places.items()}
-        return state_space(system, point, {**values, **dict.fromkeys(own, x)}).rates
+    def rates(*numbers: float) -> NDArray[np.complex128]:
+        known = dict(zip(names, numbers, strict=True))
+
+        def put(e: sp.Expr) -> sp.Expr:
+            return put_in(e, {u: known[str(u)] for u in e.free_symbols if str(u) in known})
+
+        point = {s: put(e) for s, e in places.items()}
+        mine = {**values, **{name: x for name, x in known.items() if name in own}}
+        if turn is None:
+            return state_space(system, point, mine).rates
+        T = put(turn)
+        roots = monodromy_matrix(system, point, mine, T).multipliers
+        return np.asarray(np.log(roots + (roots == 0)) / float(T))
+
+    return rates
+
+
+def _boundaries(rates_at: Callable[[float], NDArray[np.complex128]], grid: Array, halvings: int) -> list[float]:
+    """Where the motion becomes stable or unstable between two numbers: where the largest real part but those of rates that stay
+    zero passes zero, or rounding, where nothing is damped."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
 
-    rates = [rates_at(float(x)) for x in grid]
-    boundaries = []
-    for i in range(len(grid) - 1):
-        low, high, before = float(grid[i]), float(grid[i + 1]), grows(rates[i])
-        if before == grows(rates[i + 1]):
+    known, boundaries = [rates_at(x) for x in grid.tolist()], []
+    for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), known, known[1:], strict=False):
+        if grows(ends[0]) == grows(ends[1]):
             continue
-        for _ in range(_DIGITS):
+        size = max(float(np.abs(rates).max()) for rates in ends)
+        zeros = min(int((np.abs(rates) < _ZERO * size).sum()) for rates in ends)
+
+        def largest(rates: NDArray[np.complex128], zeros: int = zeros) -> float:
+            return float(rates[np.argsort(np.abs(rates))[zeros:]].real.max())
+
+        level = 0.0 if min(map(largest, ends)) < -_GROWS * size else _GROWS * size
+        before = largest(ends[0]) > level
+        for _ in range(halvings):
             middle = (low + high) / 2
-            low, high = (middle, high) if grows(rates_at(middle)) == before else (low, middle)
+            low, high = (middle, high) if (largest(rates_at(middle)) > level) == before else (low, middle)
         boundaries.append((low + high) / 2)
-    grid = np.sort(np.append(grid, boundaries))
-    return RootLocus(sp.Symbol(name, real=True), grid, _followed([rates_at(float(x)) for x in grid]), tuple(boundaries))
+    return boundaries
 
 
 def _followed(rates: Sequence[NDArray[np.complex128]]) -> NDArray[np.complex128]:

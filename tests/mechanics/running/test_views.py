@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.special import mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates, t
@@ -88,6 +89,35 @@ def test_a_view_carries_the_bodies(spinning, tmp_path: Path) -> None:
     for lines, words in (((), "nothing to draw"), ([(0, 0, 0)], "no line|a point"), ([[(x, y)]], "3 expressions")):
         with pytest.raises(InputError, match=words):
             ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), (0, 1)).view(lines)
+
+
+def test_charts_of_stability_have_the_boundaries_of_textbooks() -> None:
+    """Mathieu's tongue between b₁(q) and a₁(q); a rotor with internal damping, stable below k (1 + c_e/c_i) (Merkin, ch. 6)."""
+    a, b, k, c_i, c_e, w = sp.symbols("a b k c_i c_e w", positive=True)
+    c = coordinates("x")
+    swing = System(c, c.v[0] ** 2 / 2 - (a - 2 * b * sp.cos(2 * t)) * c.q[0] ** 2 / 2)
+    chart = swing.stability_chart({"x": 0}, {}, {a: np.linspace(0.2, 2, 4), b: [0.3, 0.5]}, period=sp.pi)
+    edges = [(f(1, q), q) for q in (0.3, 0.5) for f in (mathieu_b, mathieu_a)]
+    np.testing.assert_allclose(chart.boundaries, edges, atol=2e-6)
+    assert chart.growth.shape == (2, 4) and (chart.growth[:, 1] > 0.05).all() and chart.growth[:, 3].max() < 1e-6
+    c = coordinates("x y")
+    (x, y), (vx, vy) = c.q, c.v
+    damped = c_e * (vx**2 + vy**2) / 2 + c_i * ((vx + w * y) ** 2 + (vy - w * x) ** 2) / 2
+    rotor = System(c, (vx**2 + vy**2) / 2 - k * (x**2 + y**2) / 2, dissipation=damped)
+    chart = rotor.stability_chart({x: 0, y: 0}, {k: 4, c_e: 0.1}, {w: np.linspace(1, 8, 4), c_i: [0.05, 0.1, 0.2]})
+    np.testing.assert_allclose(chart.boundaries[:, 0], 2 * (1 + 0.1 / chart.boundaries[:, 1]), atol=1e-5)
+    (edge,) = rotor.root_locus({x: 0, y: 0}, {k: 4, c_e: 0.1, c_i: 0.05}, w, np.linspace(1, 8, 4)).boundaries
+    assert edge == pytest.approx(6, abs=1e-10)
+    panel = chart.plot().axes[0]
+    assert panel.get_xlabel() == "$w$" and len(panel.lines[0].get_xdata()) == 3
+    for numbers, words in (
+        ({w: [1, 2]}, "numbers"),
+        ({w: [1, 2], k: [1, 2]}, "without w, k"),
+        ({w: [1, 2], sp.Symbol("z"): [1, 2]}, "z is no letter"),
+        ({w: [2, 1], c_i: [1, 2]}, "increasing"),
+    ):
+        with pytest.raises(InputError, match=words):
+            rotor.stability_chart({x: 0, y: 0}, {k: 4, c_e: 0.1}, numbers)
 
 
 def test_a_root_locus_has_its_boundary() -> None:
