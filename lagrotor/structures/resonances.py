@@ -16,11 +16,11 @@ actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import inf, sqrt
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,8 +34,10 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import SmallMotion, small_motion
-from lagrotor.structures.upright_hamiltonian import LocalHamiltonian, local_hamiltonian
+from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
+Of = Literal["rates", "tilts"]  # what a push gives all axes: rates from upright, rad/s, or tilts (sines) at rest
+UNITS: dict[Of, str] = {"rates": " rad/s", "tilts": " in the sine of the tilts"}
 MOST_DOF = 8  # for which the terms of fourth order are expanded
 _BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
 _NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
@@ -61,9 +63,10 @@ class Resonance(Shown):
         detuning: k·rates of the first, rad/s.
         per_factor: its slope.
         growth: c, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
-            start, upright, in rad/s.
+            start, upright, in rad/s, or of their tilts at rest.
         reach: of the steepest push.
         falls: whether its own terms do not stop it.
+        of: what a push gives the axes, "rates" or "tilts".
     """
 
     order: int
@@ -76,6 +79,7 @@ class Resonance(Shown):
     largest: float
     reach: float
     falls: bool
+    of: Of = "rates"
 
     @property
     def factor(self) -> float:
@@ -83,7 +87,7 @@ class Resonance(Shown):
         return self.at - self.detuning / self.per_factor if self.per_factor else inf
 
     def push(self) -> float:
-        """The push (rad/s) below which no start falls by this resonance."""
+        """The push below which no start falls by this resonance."""
         d = self.order
         barrier = (2 * abs(self.detuning) / (d * d * self.largest)) ** (1 / (d - 2))
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
@@ -115,7 +119,7 @@ class Resonance(Shown):
             "order": str(self.order),
             "at the factor on all spins": f"{self.factor:.6g}",
             "coefficient": f"{self.growth:.4g} 1/s",
-            "falls": f"from {self.push():.3g} rad/s on" if self.falls else _STOPPED,
+            "falls": f"from {self.push():.3g}{UNITS[self.of]} on" if self.falls else _STOPPED,
         }
 
 
@@ -129,8 +133,10 @@ def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
     return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
 
 
-def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
-    """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes meet first.
+def resonances(
+    s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4), of: Of = "rates"
+) -> tuple[Resonance, ...]:
+    """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
 
     None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, or the degrees
     of freedom are too many.
@@ -146,22 +152,36 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
     if linear.dof > MOST_DOF:
         raise InputError(f"resonances: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
     slope = _slopes(linear, factor)
-    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
+    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d, of)]
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
 
 
-def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: int) -> Iterator[Resonance]:
+def _of_order(
+    s: Assembly, rates: Array, slopes: Array, factor: float, order: int, of: Of = "rates"
+) -> Iterator[Resonance]:
     """Groups of vectors of one order whose detunings are near each other."""
     h = local_hamiltonian(s)
+    pushed = _pushed(s, factor, of)
     vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
     while vectors:
         least = max(abs(np.dot(vectors[0], rates)), 1e-9 * rates[-1])
         group = [k for k in vectors if abs(np.dot(k, rates)) <= _GROUP * least]
         vectors = [k for k in vectors if k not in group]
         n = normal_form_of(s, factor, max(abs(np.dot(k, rates)) for k in group) / h.rate * 1.001)
-        resonance = _resonance(n, h, group, rates, slopes, factor)
+        resonance = _resonance(n, h.rate, pushed, group, rates, slopes, factor)
         if resonance:
-            yield resonance
+            yield replace(resonance, of=of)
+
+
+def _pushed(s: Assembly, factor: float, of: Of) -> Array:
+    """(q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q' + C q/2."""
+    if of not in UNITS:
+        raise InputError(f"of = {of!r} must be one of {', '.join(UNITS)}")
+    linear, h = small_motion(s), local_hamiltonian(s)
+    n = linear.dof
+    if of == "rates":
+        return np.vstack([np.zeros((n, n)), h.mass / h.rate])
+    return np.vstack([np.eye(n), factor * linear.gyroscopic / (2 * np.abs(linear.mass).max() * h.rate)])
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
@@ -172,7 +192,7 @@ def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
 
 
 def _resonance(
-    n: NormalForm, h: LocalHamiltonian, group: list[tuple[int, ...]], rates: Array, slopes: Array, at: float
+    n: NormalForm, unit: float, pushed: Array, group: list[tuple[int, ...]], rates: Array, slopes: Array, at: float
 ) -> Resonance | None:
     """What the normal form says of a group of vectors; None where their terms vanish."""
     size, order, place = len(rates), sum(group[0]), np.argsort(np.real(n.frequencies), kind="stable")
@@ -186,11 +206,11 @@ def _resonance(
         return None
     falls = order == 3 or any(_outweighs(part, k) for k in vectors)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
-    over = np.linalg.inv(n.vectors)[:size][modes, size:] @ h.mass / h.rate
+    over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
     lead = total([up, _conjugate(up)]) if order == 3 else part
     return Resonance(
         order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
-        float(np.dot(nearest, slopes)), h.rate * _largest(up, modes), h.rate * _largest(lead, modes),
+        float(np.dot(nearest, slopes)), unit * _largest(up, modes), unit * _largest(lead, modes),
         float(np.linalg.norm(over, 2)), falls,
     )  # fmt: skip
 
@@ -244,29 +264,33 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
     return normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
 
 
-def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> tuple[float, float]:
-    """When the push with the axes' rates (N, 2), rad/s, from upright falls by the normal form of fourth order, s, and its error.
+def fall_time_along(
+    s: Assembly, push: ArrayLike, longest: float, detuning: float, of: Of = "rates"
+) -> tuple[float, float]:
+    """When the push with the axes' rates (N, 2), rad/s, from upright, or with their tilts at rest, falls by the normal form of
+    fourth order, s, and its error.
 
     inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s. The error is what the
     terms of fourth order change, and the time from a tilt of ⅓ on, where those left out are no longer small.
     """
-    low, high = (_tilted_after(s, rates, longest, detuning, order) for order in (3, 4))
+    low, high = (_tilted_after(s, push, longest, detuning, order, of) for order in (3, 4))
     return high[1], abs(high[1] - low[1]) + high[1] - high[0] if high[1] < inf else inf
 
 
-def _tilted_after(s: Assembly, rates: ArrayLike, longest: float, detuning: float, order: int) -> tuple[float, float]:
+def _tilted_after(
+    s: Assembly, given: ArrayLike, longest: float, detuning: float, order: int, of: Of
+) -> tuple[float, float]:
     """When an axis tilts by the sine ⅓, and by 1, after a push by the normal form of an order, s; inf within the `longest`."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
     n = normal_form_of(s, 1.0, detuning / h.rate, order)
     size = len(n.frequencies)
-    push = finite_array("fall_time: push", rates)
+    push = finite_array("fall_time: push", given)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
     if np.abs(off).max() > _ON_BARS * np.abs(push).max():
-        raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")
-    momentum = h.mass @ (h.basis.T @ push.ravel()) / h.rate
-    start = np.linalg.inv(n.vectors) @ np.concatenate([0 * momentum, momentum])
+        raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
+    start = np.linalg.inv(n.vectors) @ (_pushed(s, 1.0, of) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, order - 1)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
     turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
@@ -307,42 +331,44 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestPush(Shown):
-    """value: the largest push (rad/s) from which no start falls; behind: what the number comes from, in words.
+    """value: the largest push from which no start falls; behind: what the number comes from, in words.
 
-    A push is the root of the sum of squares of all axes' rates at the start, upright. inf never occurs: where no resonance is
-    near, the value is that which tilts an axis by 0.1 at most, as far as the expansion is trusted.
+    A push is the root of the sum of squares of all axes' rates at the start, upright, in rad/s, or of the sines of their tilts
+    at a start at rest, as `of` says. inf never occurs: where no resonance is near, the value is that which tilts an
+    axis by 0.1 at most, as far as the expansion is trusted.
     """
 
     value: float
     behind: str
     resonance: Resonance | None
+    of: Of = "rates"
 
     def __float__(self) -> float:
         return self.value
 
     def summary(self) -> dict[str, str]:
         """The push and what lies behind it, name → words."""
-        return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
+        return {"largest push": f"{self.value:.4g}{UNITS[self.of]}", "behind": self.behind}
 
 
-def largest_push(s: Assembly) -> LargestPush:
+def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
 
-    0 where it does not stand to first order. Raises InputError as `resonances` does.
+    of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
+    order. Raises InputError as `resonances` does.
     """
     if small_motion(s).growth > 0:
-        return LargestPush(0.0, "it falls to first order", None)
-    first = next((r for r in resonances(s) if r.falls), None)
-    trusted = trusted_push(s)
+        return LargestPush(0.0, "it falls to first order", None, of)
+    first = next((r for r in resonances(s, of=of) if r.falls), None)
+    trusted = trusted_push(s, of=of)
     if first is None or first.push() > trusted:
-        return LargestPush(
-            trusted, f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}", first
-        )
-    return LargestPush(float(first.push()), f"a resonance of order {first.order}: {first.words()}", first)
+        behind = f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}"
+        return LargestPush(trusted, behind, first, of)
+    return LargestPush(float(first.push()), f"a resonance of order {first.order}: {first.words()}", first, of)
 
 
-def trusted_push(s: Assembly, factor: float = 1.0) -> float:
-    """The push (rad/s) from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
+def trusted_push(s: Assembly, factor: float = 1.0, of: Of = "rates") -> float:
+    """The push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
     h = local_hamiltonian(s)
@@ -352,7 +378,7 @@ def trusted_push(s: Assembly, factor: float = 1.0) -> float:
         return 0.0
     rates = n.frequencies.real
     size, shapes = len(rates), h.basis @ n.vectors[: len(rates), : len(rates)]
-    over = np.linalg.inv(n.vectors)[:size, size:] @ h.mass / h.rate
+    over = np.linalg.inv(n.vectors)[:size] @ _pushed(s, factor, of)
     tilts = sum(
         2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2))
         for g in _of_equal_rates(rates)
@@ -367,14 +393,14 @@ def _of_equal_rates(rates: Array) -> list[list[int]]:
 
 
 def checked_push(where: str, push: Any) -> float:
-    """A push as a number. Raises InputError for what is no rate above zero."""
+    """A push as a number. Raises InputError for what is not above zero."""
     if isinstance(push, bool) or not isinstance(push, int | float | np.number) or not 0 < push < inf:
-        raise InputError(f"{where}: push = {push!r} must be a rate above zero, rad/s")
+        raise InputError(f"{where}: push = {push!r} must be a number above zero")
     return float(push)
 
 
 def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, float]:
-    """The factors on all spins between which a push of that size (rad/s) may fall by a resonance, from the critical one on.
+    """The factors on all spins between which a push of that size may fall by a resonance of its kind, from the critical one on.
 
     Each edge is moved out until the detuning and the terms there let no such push fall.
     """
@@ -393,12 +419,14 @@ def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, fl
 def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float) -> Resonance | None:
     """The resonance of the same vectors at another factor."""
     rates = signed_rates(linear, factor)
-    found = _of_order(s, rates, _slopes(linear, factor), factor, resonance.order) if len(rates) else iter(())
+    found = (
+        _of_order(s, rates, _slopes(linear, factor), factor, resonance.order, resonance.of) if len(rates) else iter(())
+    )
     return next((r for r in found if {*r.vectors} & {*resonance.vectors}), None)
 
 
-def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
-    """The factors on all spins at which no push of that size (rad/s) falls, by `largest_push` there, as intervals.
+def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[float, float], ...]:
+    """The factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
     The last one ends at inf. They begin beyond the critical spins, where the two modes that become one there are far
     enough apart for the expansion to be trusted. Empty where no spins are known to hold it. Raises InputError as
@@ -407,9 +435,9 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
     push = checked_push("spin_intervals", push)
     if spin_threshold(small_motion(s)) == inf:
         return ()
-    windows = sorted(window_of(s, r, push) for _, r in resonant_factors(s))
+    windows = sorted(window_of(s, r, push) for _, r in resonant_factors(s, of=of))
     kept = []
-    for low, high in _trusted_factors(s, push):
+    for low, high in _trusted_factors(s, push, of):
         for start, end in windows:
             if low < start < high:
                 kept.append((low, start))
@@ -419,7 +447,7 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
     return tuple(kept)
 
 
-def _trusted_factors(s: Assembly, push: float) -> list[tuple[float, float]]:
+def _trusted_factors(s: Assembly, push: float, of: Of) -> list[tuple[float, float]]:
     """Intervals of the factors at which a push is trusted; from the critical one on only where none falls at the first."""
     linear = small_motion(s)
     least, spin = spin_threshold(linear), float(np.abs(linear.gyroscopic).max())
@@ -429,14 +457,14 @@ def _trusted_factors(s: Assembly, push: float) -> list[tuple[float, float]]:
         if least
         else [0.0, *unit * np.geomspace(1e-3, 1e3, 60)]
     )
-    while trusted_push(s, grid[-1]) < push and grid[-1] < _FASTEST * unit:
+    while trusted_push(s, grid[-1], of) < push and grid[-1] < _FASTEST * unit:
         grid.append(2 * grid[-1])
-    enough = [trusted_push(s, f) >= push for f in grid]
+    enough = [trusted_push(s, f, of) >= push for f in grid]
 
     def edge(outside: float, inside: float) -> float:
         while abs(inside - outside) > 1e-6 * inside:
             middle = (inside + outside) / 2
-            outside, inside = (outside, middle) if trusted_push(s, middle) >= push else (middle, inside)
+            outside, inside = (outside, middle) if trusted_push(s, middle, of) >= push else (middle, inside)
         return inside
 
     kept, start = [], grid[0] if enough[0] else None
@@ -450,7 +478,7 @@ def _trusted_factors(s: Assembly, push: float) -> list[tuple[float, float]]:
     if least and kept:  # beside it the modes that become one there are in resonance, whatever their detuning
         low, high = kept[0]
         while low < min(high, 2 * least) and any(
-            r.falls and r.push() < push and _colliding(r) for r in resonances(s, low)
+            r.falls and r.push() < push and _colliding(r) for r in resonances(s, low, of=of)
         ):
             low = least + 1.2 * (low - least)
         kept[0] = (low, high)
@@ -462,7 +490,9 @@ def _colliding(r: Resonance) -> bool:
     return r.order == 4 and any(sorted(m for m in k if m) == [2, 2] for k in r.vectors)
 
 
-def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
+def resonant_factors(
+    s: Assembly, orders: Sequence[int] = (3, 4), of: Of = "rates"
+) -> tuple[tuple[float, Resonance], ...]:
     """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does."""
     from scipy.optimize import brentq
 
@@ -483,7 +513,7 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
                 roots.add((round(root, 9), order))
     found = []
     for root, order in sorted(roots):
-        nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order), None)
+        nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order, of), None)
         if nearest and nearest.falls and abs(nearest.detuning) < 1e-6 * np.abs(nearest.rates).max():
             found.append((root, nearest))
     return tuple(found)

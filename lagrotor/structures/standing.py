@@ -20,6 +20,8 @@ from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_DOF,
+    UNITS,
+    Of,
     Resonance,
     checked_push,
     fall_time_along,
@@ -123,44 +125,47 @@ class Standing(Shown):
             )
         return self.first_order
 
-    def window(self, push: float) -> tuple[float, float] | None:
-        """The factors on all spins, about these, between which a push of that size (rad/s) may fall; None without a resonance."""
-        push = checked_push("window", push)
-        return window_of(self.structure, self.resonance, push) if self.resonance else None
+    def _falls_by(self, of: Of) -> Resonance | None:
+        return (
+            self.resonance if of == "rates" else next((r for r in resonances(self.structure, of=of) if r.falls), None)
+        )
 
-    def fall_time(self, push: float | ArrayLike) -> float:
-        """When it falls, s. A number: the least time of pushes of that size (rad/s), inf where none falls. Rates (N, 2) of
-        the axes: that of this push from upright, by the normal form, inf where it does not fall in 20 least times: an
-        estimate with the error `fall_time_error`.
+    def window(self, push: float, of: Of = "rates") -> tuple[float, float] | None:
+        """The factors on all spins, about these, between which a push of that size may fall; None without a resonance."""
+        push, resonance = checked_push("window", push), self._falls_by(of)
+        return window_of(self.structure, resonance, push) if resonance else None
+
+    def fall_time(self, push: float | ArrayLike, of: Of = "rates") -> float:
+        """When it falls, s. A number: the least time of pushes of that size, inf where none falls. Rates (N, 2) of the axes:
+        that of this push from upright, by the normal form, inf where it does not fall in 20 least times: an estimate with the
+        error `fall_time_error`. of: "rates", rad/s, or "tilts", as `largest_push` has them; tilts (N, 2) are x, y of the axes.
 
         Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
-        return self._falls(push)[0]
+        return self._falls(push, of)[0]
 
-    def fall_time_error(self, push: float | ArrayLike) -> float:
-        """How far `fall_time` of rates (N, 2) may be off, s: what the terms of fourth order change, and the time from a tilt
-        of ⅓ on, where those left out are no longer small. 0 for a number, which is a bound; inf where it is inf.
+    def fall_time_error(self, push: float | ArrayLike, of: Of = "rates") -> float:
+        """How far `fall_time` of rates or tilts (N, 2) may be off, s: what the terms of fourth order change, and the time from
+        a tilt of ⅓ on, where those left out are no longer small. 0 for a number, which is a bound; inf where it is inf.
         """
-        return self._falls(push)[1]
+        return self._falls(push, of)[1]
 
-    def _falls(self, push: float | ArrayLike) -> tuple[float, float]:
+    def _falls(self, push: float | ArrayLike, of: Of) -> tuple[float, float]:
         along = np.ndim(push) > 0
         if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
-            raise InputError(
-                f"fall_time: push must be a number or rates {shape} in rad/s, not of shape {np.shape(push)}"
-            )
+            raise InputError(f"fall_time: push must be a number or {of} {shape}, not of shape {np.shape(push)}")
         size = (
             float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
         )
         if not self.stands:
             return 0.0, 0.0
-        resonance, trusted = self.resonance, trusted_push(self.structure)
+        resonance, trusted = self._falls_by(of), trusted_push(self.structure, of=of)
         if resonance and size <= resonance.push():
             resonance = None
         if size > (_FARTHEST if resonance else 1) * trusted:
             raise InputError(
-                f"fall_time: a push of {size:.3g} rad/s tilts an axis too far for the expansion, which is trusted to "
-                f"{trusted:.3g} rad/s: simulate it"
+                f"fall_time: a push of {size:.3g}{UNITS[of]} tilts an axis too far for the expansion, which is trusted to "
+                f"{trusted:.3g}: simulate it"
             )
         if not resonance:
             return inf, 0.0
@@ -168,11 +173,11 @@ class Standing(Shown):
         if not along:
             return least, 0.0
         reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
-        time, error = fall_time_along(self.structure, push, 20 * least, 1.001 * reach)
+        time, error = fall_time_along(self.structure, push, 20 * least, 1.001 * reach, of)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g} rad/s does not fall in {20 * least:.3g} s by the expansion, which is "
-                f"trusted to {trusted:.3g} rad/s: simulate it"
+                f"fall_time: this push of {size:.3g}{UNITS[of]} does not fall in {20 * least:.3g} s by the expansion, "
+                f"which is trusted to {trusted:.3g}: simulate it"
             )
         return time, error
 

@@ -204,6 +204,32 @@ def test_of_fourth_order_it_falls_more_slowly():
     assert resonance.least_time(0.06 * rate) * rate < times[0] and times[1] / times[0] == pytest.approx(4, rel=0.25)
 
 
+@pytest.mark.parametrize("count", [1, pytest.param(8, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+def test_a_tilt_is_a_push(shape, spins, count):
+    """Of axes that are let go at rest: the law, in directions that the bars allow, as that of rates."""
+    s = at(1.0607, shape, spins)
+    found, rate, largest = s.stands(), local_hamiltonian(s).rate, s.largest_push("tilts")
+    assert "sine" in repr(largest) and largest.value < 0.01
+    for direction in directions(s, count, seed=5):
+        tilt = 0.03 * direction
+        exact = measured_fall(s, tilt, 400 / rate, 1e-7, "tilts")
+        said, error = found.fall_time(tilt, "tilts"), found.fall_time_error(tilt, "tilts")
+        assert found.fall_time(0.03, "tilts") < exact < inf and abs(exact - said) <= error < 0.4 * exact
+        assert measured_fall(s, 0.9 * largest.value * direction, 400 / rate, 1e-7, "tilts") == inf
+
+
+def test_spin_intervals_of_a_tilt():
+    s = at(1.0607, CORNER, [1, 0, 1])
+    intervals = s.spin_intervals(0.005, "tilts")
+    assert intervals[-1][1] == inf and not any(low < 1 < high for low, high in intervals)
+    low, high = intervals[0]
+    middle = replace(s, spins=tuple((low + high) / 2 * w for w in s.spins))
+    assert middle.largest_push("tilts").value >= 0.005 > s.largest_push("tilts").value
+    with pytest.raises(InputError, match="of = 'tilt' must be one of rates, tilts"):
+        s.largest_push("tilt")
+
+
 def test_beside_the_resonance_a_small_push_stays_and_a_large_one_falls():
     """|δ| against 18 c ρ: outside the window of a push nothing falls, well inside it something does."""
     s = at(1.0607, CORNER, [1, 0, 1])

@@ -12,6 +12,7 @@ from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import exact_motion
 from lagrotor.structures.exact.structure_run import simulate_structure
 from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.resonances import Of
 from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
 
 
@@ -56,16 +57,21 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
 
 
-def measured_fall(s: Assembly, rates: ArrayLike, longest: float, tol: float = 1e-9) -> float:
+def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9, of: Of = "rates") -> float:
     """The time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does within the `longest`.
 
-    From upright with the axes' rates (N, 2), rad/s; tol: of each step, relative.
+    From upright with the axes' rates (N, 2), rad/s, or at rest with their tilts (N, 2); tol: of each step, relative.
     """
     from scipy.integrate import solve_ivp
 
     motion, N = exact_motion(s), len(s.joints)
     rate = motion.c.rate
-    start = motion.project(np.concatenate([motion.c.upright, np.column_stack([rates, np.zeros(N)]) / rate]).ravel())
+    axes, rates = np.array(motion.c.upright), np.zeros((N, 3))
+    if of == "tilts":
+        axes = np.column_stack([push, np.sqrt(1 - (np.square(push)).sum(1))])
+    else:
+        rates[:, :2] = np.asarray(push) / rate
+    start = motion.project(np.concatenate([axes, rates]).ravel())
 
     def fallen(_: float, y: Array) -> float:
         return float(np.hypot(*motion.axes_and_rates(y)[0, 0, :, :2].T).max()) - 0.95
