@@ -309,7 +309,8 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             b.kind in ("number", "fraction", "root", "function", "big", "nabla") or not _letters(b) for b in beside
         )
         matrices = any(is_bold(b) and b.name[0].isupper() for b in beside)
-        if matrices or not (number or "bold" in known.seen):
+        hats = any("hat" in b.marks and not is_bold(b) for b in beside)
+        if matrices or hats or not (number or "bold" in known.seen):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
         b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]
@@ -420,7 +421,9 @@ def _words(reader: FormulaReader, row: list[Box]) -> Rivals:
         if run and not (letter and box.at == run[-1].end and is_plain_letter(run[-1])):
             name = "".join(each.name for each in run)
             called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
-            known = (len(name) == 2 and name.islower()) or (set(name) <= reader.notation.apart and name not in _NUMBERS)
+            known = (len(name) == 2 and name.islower() and not re.fullmatch("n[xyztr]", name)) or (
+                set(name) <= reader.notation.apart and name not in _NUMBERS
+            )
             if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not known):
                 yield "name", f"{name} is a product, and no name", ""
             run = []

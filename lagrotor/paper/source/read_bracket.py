@@ -53,8 +53,6 @@ def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
 def _bars(reader: FormulaReader, box: Box) -> Node:
     """A magnitude."""
     content = box.parts[0]
-    if len(content) == 2 and all(b.kind == "letter" and b.name.isupper() and not b.style for b in content):
-        raise FormulaError(box.at, "whether the bars are a distance of points is open", "give it a letter")
     inner = reader.expression(content)
     if isinstance(inner, Letter) and is_matrix(inner):
         reader.guess("bars", f"|{inner.name}| is a length, no determinant")
@@ -108,9 +106,6 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
             raise FormulaError(
                 content[0].at if content else box.at, "a relation stands in brackets", "write it by itself"
             )
-        if box.name == "[" and _is_one_letter(content):
-            why = f"whether [{content[0].name}] is a dimension or the letter is open"
-            raise FormulaError(box.at, why, "leave the brackets out, or keep it aside")
         return reader.expression(content)
     if not all(parts):
         raise FormulaError(box.at, "a component is missing", "write it")
@@ -130,11 +125,6 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
     if box.name == r"\{" and name == "column":
         name = "set"
     return Call(name, tuple(map(reader.expression, parts)))
-
-
-def _is_one_letter(row: list[Box]) -> bool:
-    """Whether nothing but a letter is enclosed, which needs no brackets."""
-    return len(row) == 1 and row[0].kind == "letter" and row[0].sup is None and row[0].sub is None
 
 
 def _evaluated(reader: FormulaReader, box: Box, content: list[Box]) -> Node:

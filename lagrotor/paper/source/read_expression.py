@@ -31,7 +31,6 @@ from lagrotor.paper.source.rows import TENSOR, ends_with_bracket, fold_derivativ
 from lagrotor.paper.source.tree import (
     Call,
     Node,
-    has_hat,
     is_matrix,
     is_numeric,
     is_operator,
@@ -248,8 +247,6 @@ def _vector_product(made: Node, operator: str, right: Node, at: int, before: lis
         if operator == "times" and isinstance(made, Call) and made.name == "cross" and not ends_with_bracket(before):
             raise FormulaError(at, "which × comes first is open", "write brackets")
         return Call("dot" if operator == "cdot" else "cross", (made, right))
-    if operator == "cdot" and (left_vector or has_hat(made)) and (right_vector or has_hat(right)):
-        raise FormulaError(at, "whether a letter with a hat is a vector is open", "write \\hat{\\mathbf n}")
     other = made if right_vector else right if left_vector else None  # F(r) \cdot d\vec r
     if operator == "cdot" and isinstance(other, Call) and len(other.name.split("_")[0]) == 1:
         raise FormulaError(at, f"whether {other.name} is a vector is open", "mark the vectors alike")
@@ -293,13 +290,6 @@ def _matrices(factors: list[Node], row: list[Box]) -> Node:
     return product_of([*scalars, made])
 
 
-def _is_argument(bracket: Box) -> bool:
-    """Whether round brackets hold one letter, as arguments do and factors do not."""
-    held = strip(bracket.parts[0])
-    alone = len(held) == 1 and held[0].kind == "letter" and held[0].sup is None
-    return alone and bracket.name == "(" and bracket.sup is None and bracket.sub is None
-
-
 def _numbers_apart(row: list[Box], place: int) -> None:
     """Numbers side by side are groups of digits, or not read."""
     before, box = row[place - 1] if place else None, row[place]
@@ -307,9 +297,6 @@ def _numbers_apart(row: list[Box], place: int) -> None:
         return
     if box.kind == "number" and before.kind == "number":
         raise FormulaError(box.at, "two numbers stand side by side", "write \\cdot between them")
-    if box.kind == "bracket" and before.kind in ("root", "group", "accent") and _is_argument(box):
-        why = "whether what stands before the bracket is a function is open"
-        raise FormulaError(box.at, why, "write the argument behind its letter, or \\cdot")
     if box.kind == "number" and before.kind in ("letter", "root", "group"):
         raise FormulaError(box.at, "a number stands behind a letter", "write it first, or braces where it is a script")
     parts = [each for part in box.parts for each in part] if box.kind == "fraction" else []

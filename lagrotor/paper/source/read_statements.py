@@ -1,19 +1,16 @@
 """The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
 
 import re
-from collections import Counter
 from dataclasses import dataclass, replace
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import differential_degree
 from lagrotor.paper.source.read_scripts import letter_of
-from lagrotor.paper.source.rows import all_boxes, is_unit_like, strip, without_thin
+from lagrotor.paper.source.rows import is_unit_like, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_scalar, is_vector, walk
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
-# Indices that custom sums over where a term has them twice and another term has not.
-_SUMMED = frozenset("ijkl")
 _SETS = ("in", "->", "subset", "supset", "not in", "<->", "<-")  # relations of what need not be alike
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather)\b")
 
@@ -228,8 +225,6 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             sides[-1].append(box)
     if len(sides) > 1 and not strip(sides[0]):
         raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
-    if reader.lowered & _SUMMED:
-        _refuse_open_sums(sides)
     read: list[Side] = []
     for place, side in enumerate(sides):
         side = strip(side)
@@ -253,12 +248,6 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
     scalar = next((side for side in read if is_scalar(side.node)), None)
     if vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
         raise FormulaError(scalar.at, "a vector is equal to a number", "mark the vectors alike, as \\hat{\\mathbf r}")
-    pair = next((side for side in read if _is_list(side.node)), None)
-    if pair is not None and any(
-        isinstance(s.node, Call) and not is_vector(s.node) and s.node.name != "limit" for s in read
-    ):
-        why = "whether the brackets hold components or are an inner product is open"
-        raise FormulaError(pair.at, why, "write \\langle … \\rangle for the product")
     order = None
     final = read[-1].node
     if isinstance(final, Call) and final.name == "sum":
@@ -283,13 +272,6 @@ def _check_side(side: list[Box]) -> None:
             )
 
 
-def _is_list(node: Node) -> bool:
-    """Whether a side is a list in brackets, or a multiple of one."""
-    if isinstance(node, Call) and node.name in ("product", "negative"):
-        return any(map(_is_list, node.args))
-    return isinstance(node, Call) and node.name == "column"
-
-
 def _side(reader: FormulaReader, row: list[Box]) -> Node:
     if len(row) == 1 and row[0].kind == "text":
         name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
@@ -297,38 +279,6 @@ def _side(reader: FormulaReader, row: list[Box]) -> Node:
             raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
         return Letter(name)
     return reader.expression(row)
-
-
-def _refuse_open_sums(sides: list[list[Box]]) -> None:
-    """Raise FormulaError where a term has an index twice that another has not: it may be summed over."""
-    terms: list[list[Box]] = []
-    for side in sides:
-        terms.append([])
-        for box in side:
-            if box.kind == "operator" and box.name in ("+", "-", "pm", "mp"):
-                terms.append([])
-            else:
-                terms[-1].append(box)
-    counts = [_indices(term) for term in map(strip, terms) if term and [box.name for box in term] != ["0"]]
-    every = [box for side in sides for box in all_boxes(side)]
-    bound = {below.name for box in every if box.kind == "big" for below in box.sub or ()}
-    if any(box.name == "sum" and not box.sub for box in every):
-        return
-    for index in _SUMMED - bound:
-        twice = any(count[index] > 1 for count in counts)
-        if twice and not all(count[index] for count in counts):
-            why = f"whether the index {index} is summed over is open"
-            raise FormulaError(every[0].at, why, f"write \\sum_{index}, or give the index another letter")
-
-
-def _indices(row: list[Box]) -> Counter[str]:
-    """How often each letter stands in a row as an index."""
-    found: Counter[str] = Counter()
-    for box in all_boxes(row):
-        below = [each.name for each in box.sub or () if each.kind == "letter" and not each.upright]
-        if box.kind in ("letter", "partial"):
-            found.update(below)
-    return found
 
 
 def _kind(relations: list[str]) -> str:

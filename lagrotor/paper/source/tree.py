@@ -158,13 +158,6 @@ def is_matrix(node: Node) -> bool:
     )
 
 
-def has_hat(node: Node) -> bool:
-    """Whether a node is a letter with a hat that is not marked as a vector, or a product with one."""
-    if isinstance(node, Call) and node.name == "product":
-        return any(map(has_hat, node.args))
-    return isinstance(node, Letter) and not node.vector and node.name.split("_")[0].endswith("hat")
-
-
 def is_scalar(node: Node) -> bool:
     """Whether a node is arithmetic of letters that are no vectors, and not 0."""
     plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
