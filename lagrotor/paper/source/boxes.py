@@ -175,7 +175,7 @@ class _Reader:
             self.stop("has no argument", "write it in braces")
         elif item.kind == "open":
             return self.group(style)
-        if item is not None and item.text.isdigit():
+        if item is not None and item.text.isdecimal():
             self.take()
             return [Box("number", item.text, item.at, item.at + 1)]
         return self.single(style)
@@ -277,10 +277,10 @@ class _Reader:
         found[-1].name += "{,}"
         found[-1].end = self.end
         item = self.peek()
-        if item is None or not item.text.isdigit():
+        if item is None or not item.text.isdecimal():
             self.place -= 1
             self.stop("is no part of a number", "write digits behind the comma")
-        while (item := self.peek()) is not None and item.text.isdigit():
+        while (item := self.peek()) is not None and item.text.isdecimal():
             found[-1].name += self.take().text
             found[-1].end = self.end
 
@@ -342,7 +342,7 @@ class _Reader:
         if text == "." and [each.text for each in self.items[self.place : self.place + 2]] == [".", "."]:
             self.place += 2
             return [Box("dots", "dots", item.at, self.end)]
-        if text.isdigit() or (text == "." and (after := self.peek()) is not None and after.text.isdigit()):
+        if text.isdecimal() or (text == "." and (after := self.peek()) is not None and after.text.isdecimal()):
             return [self.number(item)]
         if (name := _letter_of(text)) is not None:
             return [self.letter(name, item, style)]
@@ -363,8 +363,8 @@ class _Reader:
         digits = item.text
         while (after := self.peek()) is not None:
             further = self.items[self.place + 1] if self.place + 1 < len(self.items) else None
-            point = after.text == "." and "." not in digits and further is not None and further.text.isdigit()
-            if point or (after.text.isdigit() and after.at == self.end):
+            point = after.text == "." and "." not in digits and further is not None and further.text.isdecimal()
+            if point or (after.text.isdecimal() and after.at == self.end):
                 digits += self.take().text
             else:
                 break
@@ -413,7 +413,7 @@ class _Reader:
     def nothing(self, name: str) -> list[Box]:
         """Take a command that prints nothing, with its length where it has one."""
         if name in ("hskip", "kern", "mkern"):
-            while (after := self.peek()) is not None and (after.text in ".-" or after.text.isdigit()):
+            while (after := self.peek()) is not None and (after.text in ".-" or after.text.isdecimal()):
                 self.take()
             for _ in range(2):
                 if (after := self.peek()) is not None and after.text.isalpha():
@@ -515,6 +515,11 @@ class _Reader:
                 return item.text
         return ""
 
+    def ends_at_bar(self) -> bool:
+        """Whether a sign and another bar follow the next bar: <a| + |b> is no product."""
+        bar = next(k for k in range(self.place, len(self.items)) if self.items[k].text == "|")
+        return [each.text for each in self.items[bar + 1 : bar + 3]] in (["+", "|"], ["-", "|"], ["=", "|"])
+
     def ket(self, item: Token) -> Box:
         content = self.sequence((r"\rangle",))
         self.take()
@@ -523,7 +528,7 @@ class _Reader:
     def bracket(self, opening: str, item: Token) -> Box:
         closing = _OPEN[opening]
         is_bra = opening == r"\langle" and self.first_ahead(("|", r"\langle", r"\rangle")) == "|"
-        if is_bra and self.first_ahead((r"\langle", r"\rangle")) != r"\rangle":
+        if is_bra and (self.first_ahead((r"\langle", r"\rangle")) != r"\rangle" or self.ends_at_bar()):
             closing = "|"
         self.angles += closing == r"\rangle"
         content = self.sequence((closing,))

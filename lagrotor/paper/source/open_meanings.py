@@ -29,7 +29,7 @@ from lagrotor.paper.source.usage import Notation, is_plain_letter, name_of, powe
 # Names that are mostly functions: before a bracket they are no factors.
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
 _FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
-_PLAIN = ("number", "root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit",
+_PLAIN = ("root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit",
           "binomial", "cases", "nabla", "partial")  # fmt: skip
 _ACTING = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial")
 _ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
@@ -233,8 +233,10 @@ def _bracket(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         yield "index", "the index of a bracket takes a component, or holds what is constant", ""
     if box.sup and not power_in(box) and [b.name for b in box.sup] not in (["T"], ["top"]):
         yield "mark", "the superscript of a bracket is a mark", ""
-    if r"\rangle" in (box.name, box.closing) or r"\langle" in (box.name, box.closing):
+    if {box.name, box.closing} & {r"\rangle", r"\langle", ">", "<", "⟨", "⟩"}:
         yield from _angles(reader, box, content)
+    elif box.name == "." and box.sub and len(box.sub) == 1 and box.sub[0].kind == "letter":
+        yield "at", f"the bar with {box.sub[0].name} says where, and not what is held constant", ""
     elif box.closing in ("|", r"\vert", r"\rvert") and box.name != ".":
         yield from _magnitude(content)
 
@@ -255,6 +257,11 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
         yield "fraction", "the bracket holds a fraction, and no symbol of Legendre", ""
     elif single and single.kind in ("letter", "number") and not single.sup:
         yield "bracket", "the brackets enclose one sign as a factor, and no argument, class or ideal", ""
+
+
+def _number_sign(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    if len(row[place].name) > 1 and row[place].name.isdecimal() and row[place].name[0] == "0":
+        yield "digits", f"{row[place].name} is a number, and no row of digits", ""
 
 
 def _magnitude(content: list[Box]) -> Rivals:
@@ -279,10 +286,12 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Rivals:
             parts.append([])
         else:
             parts[-1].append(each)
-    if box.closing == r"\rangle" and box.name != "|" and len(parts) == 1 and "ket" not in reader.notation.seen:
+    if "|" not in (box.name, box.closing) and len(parts) == 1 and "ket" not in reader.notation.seen:
         yield "mean", "angle brackets are a mean, and nothing that is generated", ""
     if len(parts) > 1 and not any(b.kind == "bar" for b in content) and box.name not in ("|",):
         yield "inner", "angle brackets with a comma are an inner product", ""
+    if len(parts) == 3 and parts[1] and parts[1][0].kind == "operator":
+        yield "label", "the sign behind the bar belongs to what stands in a bracket, and joins no bra and ket", ""
     for part in parts if len(parts) != 3 else (parts[0], parts[2]):
         held = [b for b in part if b.kind not in ("operator", "thin")]
         side = any(a.kind != "operator" and b.kind != "operator" for a, b in pairwise(part))
@@ -386,9 +395,9 @@ def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
 
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Rivals]] = {
-    "letter": _letter, "bracket": _bracket, "fraction": _fraction, "operator": _operator, "relation": _relation,
-    "arrow": _arrow, "text": _text, "function": _function, "accent": _accent, "big": _big, "matrix": _matrix,
-    "bar": _bar,
+    "number": _number_sign, "letter": _letter, "bracket": _bracket, "fraction": _fraction, "operator": _operator,
+    "relation": _relation, "arrow": _arrow, "text": _text, "function": _function, "accent": _accent, "big": _big,
+    "matrix": _matrix, "bar": _bar,
 }  # fmt: skip
 
 
@@ -421,9 +430,8 @@ def _words(reader: FormulaReader, row: list[Box]) -> Rivals:
         if run and not (letter and box.at == run[-1].end and is_plain_letter(run[-1])):
             name = "".join(each.name for each in run)
             called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
-            known = (len(name) == 2 and name.islower() and not re.fullmatch("n[xyztr]", name)) or (
-                set(name) <= reader.notation.apart and name not in _NUMBERS
-            )
+            two = len(name) == 2 and name.islower() and not re.fullmatch("n[xyztr]", name)
+            known = two or (set(name) <= reader.notation.apart and name not in _NUMBERS)
             if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not known):
                 yield "name", f"{name} is a product, and no name", ""
             run = []

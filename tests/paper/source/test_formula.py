@@ -166,6 +166,7 @@ OPEN = {
     r"\nabla\cdot\mathbf E\times\mathbf B = 0": "how far",
     r"P(x) = \int d^n\theta\,f(x)": "the differential of the integral",
     r"S[f] = a": "whether S[…] is a functional",
+    "x = 10⁶ y": "⁶ is not known",
     r"\frac{\tilde{\mathrm{d}}v}{\mathrm{d}t} = a": "a derivative is open",
     r"\ddot r = \mathrm{d}r\,f": "a differential stands on one side only",
     r"P\,\mathrm{d}' A = b": "a differential has a prime",
@@ -292,3 +293,9 @@ def test_sums_of_five_hundred_terms_are_read() -> None:
 
 def test_deep_brackets_are_refused_in_words() -> None:
     assert "too deep" in said("x = " + "(" * 500 + "a" + ")" * 500)
+
+
+def test_a_bra_ends_at_its_bar_where_a_sign_follows() -> None:
+    read = said(r"X = |0\rangle\langle1| + |1\rangle\langle0|")
+    assert read == "X = matmul(ket(0), bra(1)) + matmul(ket(1), bra(0))"
+    assert said(r"a = \langle 1|-x|2\rangle") == "a = braket(1, -x, 2)"
