@@ -74,62 +74,51 @@ def _behind(row: list[Box], place: int) -> Box | None:
 
 def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     box, after, known = row[place], _behind(row, place), reader.notation
-    before = row[place - 1] if place else None
     stem, acts = stem_of(box), after is not None and after.kind in _ACTING
     bracketed = after is not None and after.kind == "bracket"
     if after is not None and bracketed and after.name in ("(", "[", r"\{"):
         if box.name not in "Oo":
             yield from _before_bracket(reader, box, after)
-        elif before is None or before.kind != "operator" or not _letters(*after.parts[0]):
+        elif not place or row[place - 1].kind != "operator" or not _letters(*after.parts[0]):
             yield "order", f"{box.name}(…) is an order of magnitude, and no group or function", ""
-    held = {
-        "prime": (
-            box.primes and (stem not in known.primed or bracketed),
-            "with a prime is a name of its own, and no derivative",
-        ),
-        "bar": (
-            "bar" in box.marks and known.seen & {"complex", "ket"},
-            "with a bar is a name of its own, and no conjugate",
-        ),
-        "hat": (
+    held = (
+        ("prime", box.primes and (stem not in known.primed or bracketed), "with a prime is a name, and no derivative"),
+        ("bar", "bar" in box.marks and known.seen & {"complex", "ket"}, "with a bar is a name, and no conjugate"),
+        (
+            "hat",
             "hat" in box.marks and acts and not is_bold(box),
             "with a hat is a factor, and no operator or direction",
         ),
-        "dot": ("times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
-        "script": (
+        ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
+        (
+            "script",
             box.style in ("cal", "scr", "frak") and acts and not box.sup,
             "in script is a factor, and no operator",
         ),
-        "set": (box.style == "bb", "with a double line is a letter, and no set or mean"),
-    }
-    for key, (open_, what) in held.items():
-        if open_:
+        ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
+    )
+    for key, is_open, what in held:
+        if is_open:
             yield key, f"{box.name} {what}", ""
     if not (box.sub or box.marks or box.style) and box.name not in known.functions | known.letters | known.numbers:
         yield from _number(reader, box)
-    if (
-        box.name in ("D", "L")
-        and acts
-        and not (bracketed or box.sup)
-        and (box.sub or box.marks or _names(after) <= known.applied)
-    ):
-        yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
-    operator = (
-        before is not None and before.kind == box.kind and before.name.isupper() and before.name not in ("D", "L")
-    )
-    if (
-        before is not None
-        and operator
-        and not before.sup
-        and stem in known.applied
-        and not (bracketed or box.sup or is_bold(box))
-    ):
-        settles = f'letters = "{before.name}"'
-        yield "operator", f"{before.name} is a factor of {box.name}, and no operator on it", settles
-    if box.sub and box.sub[0].kind == "comma":
-        yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
+    if after is not None and acts and not (bracketed or box.sup):
+        yield from _acting(known, box, after, _behind(row, place + 1))
+    below = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in without_thin(box.sub or [])]
+    if below[:1] == [","] or (below[-2:-1] == [","] and all(below) and "".join(below).replace(",", "").islower()):
+        yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
     if box.sup:
         yield from _raised(reader, box)
+
+
+def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
+    """A letter before a factor: D, L and E may act on it, capitals on a function, and a sigma may be a sum."""
+    function = after.kind == "letter" and stem_of(after) in known.applied and not (after.sup or is_bold(after))
+    function = function and (then is None or then.kind != "bracket")
+    sums = box.name in ("Sigma", "Pi") and not (box.sub or box.marks)
+    marked = box.name in ("D", "L", "E") and (box.sub or box.marks)
+    if sums or marked or (function and box.name.isupper()):
+        yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
 
 
 def _number(reader: FormulaReader, box: Box) -> Rivals:
@@ -162,12 +151,8 @@ def _raised(reader: FormulaReader, box: Box) -> Rivals:
         yield "inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix", ""
     elif number or all(b.kind in ("number", "operator") or (b.kind == "fraction" and not _letters(b)) for b in row):
         return
-    elif stem not in known.powers or not _letters(*row) <= known.apart - known.lowered:
+    elif stem not in known.powers or not all(n.islower() and n in known.apart - known.lowered for n in _letters(*row)):
         yield "power", f"the superscript of {box.name} is a power, and no index or label", ""
-
-
-def _names(box: Box | None) -> set[str]:
-    return {stem_of(box)} if box is not None and box.kind == "letter" else {""}
 
 
 def _letters(*held: Box) -> set[str]:
