@@ -148,7 +148,9 @@ def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> L
     if system.rolling and any(still[v] != 0 for v in c.v):
         raise InputError("linearise: a steady motion under rolling constraints is not linearised: simulate near it")
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in (*motion, *system.residual)):
-        raise InputError("linearise: the motion depends on time explicitly: there is no equilibrium; simulate it")
+        raise InputError(
+            "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+        )
     force = _value(motion, still, c.q)
     G = _value(system.rows, still, c.q)
     lam = _held_by(force, G, at)

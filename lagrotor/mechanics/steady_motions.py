@@ -76,7 +76,9 @@ def state_equations(
         )
     point = point_of("linearise", system, at, letters)
     if t in used:
-        raise InputError("linearise: the motion depends on time explicitly: there is no steady motion; simulate it")
+        raise InputError(
+            "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+        )
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
     here = dict.fromkeys((*c.q, *speeds, *system.rates, *inputs), sp.S.Zero)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, overload
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, linear_modes, sameness, steady_motions, symmetry, typeset, weakly_nonlinear
@@ -101,13 +102,17 @@ class System(Equations):
         Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`; for inputs and outputs, and about a motion
         that rolls, A, B, C, D in symbols, see `steady_motions.state_equations`. With values of the parameters: the
         numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u, also where bodies roll, for inputs u, parameters
-        (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
+        or functions F(t) (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
 
         Raises:
             SingularError: where accelerations are left.
             ConstraintError: off the constraints.
             InputError: where the coefficients change with time.
         """
+        if any(isinstance(u, AppliedUndef) for u in inputs):
+            from lagrotor.mechanics.running import function_values
+
+            self, inputs = function_values.inputs_as_letters("linearise", self, inputs)
         point = at.at if isinstance(at, Equilibrium) else at
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")

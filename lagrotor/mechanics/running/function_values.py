@@ -182,6 +182,26 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     return (with_expressions(system, written) if written else system), numbers
 
 
+def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[Kind, tuple[Any, ...]]:
+    """The system with letters of their names for functions of time F(t) that are inputs, and the inputs as letters.
+
+    Raises InputError where a derivative of one enters.
+    """
+    names = {str(u.func): sp.Symbol(str(u.func), real=True) for u in inputs if isinstance(u, AppliedUndef)}
+
+    def refused(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> None:
+        if name in names and any(orders):
+            raise InputError(
+                f"{where}: {jet_name(name, orders)} of the input {name} enters: write it as a coordinate, or a letter"
+            )
+
+    for e in (system.L, *system.constraints, *system.rolling, system.dissipation, *system.forces):
+        with_jets(e, refused)
+    forms = {name: sp.Lambda(t, letter) for name, letter in names.items()}
+    letters = tuple(names[str(u.func)] if isinstance(u, AppliedUndef) else u for u in inputs)
+    return with_expressions(system, forms), letters
+
+
 def with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     """The system with expressions in place of functions."""
 

@@ -79,7 +79,9 @@ def state_space(
     known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
     check_values("linearise", system, known, wanted)
     if depends_on_time(system):
-        raise InputError("linearise: the motion depends on time explicitly: there is no steady motion; simulate it")
+        raise InputError(
+            "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+        )
     start = point_state("linearise", system, at, known)
     motion = motion_slope("linearise", motion_program(system), known, inputs)
     rate, J, B = motion(start)

@@ -107,9 +107,9 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
             raise InputError(
                 f"Event: {len(each.velocities)} velocities after it, for {n} of the system: give one for each"
             )
-        if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a, *system.multipliers}):
+        if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {each.section} contains {_names(wrong)}: it depends on q, v and t alone"
+                f"Event: the section {each.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
             )
     return tuple(given)
 

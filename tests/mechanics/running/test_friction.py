@@ -8,7 +8,16 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, reaction, t, total_derivative
+from lagrotor.mechanics import (
+    Event,
+    Frame,
+    System,
+    constrained_accelerations,
+    coordinates,
+    reaction,
+    t,
+    total_derivative,
+)
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
@@ -139,6 +148,17 @@ def test_a_bead_rubs_on_a_hoop_by_what_presses_it() -> None:
     inward = System(c, L, bead.constraints, names=("hoop",), dissipation=mu * N * abs(along))
     with pytest.warns(LagrotorWarning, match="becomes negative: what rubs would pull"):
         inward.simulate({m: 1.7, g: 9.81, R: 1, mu: 0.1}, (0, -1), (5.5, 0), times)
+
+
+def test_a_reaction_ends_a_run() -> None:
+    """A mass slides from the top of a dome with the speed v: it leaves where cos θ = 2/3 + v²/(3 g R)."""
+    c, m, R = coordinates("x z"), *sp.symbols("m R", positive=True)
+    L = m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * c.q[1]
+    dome = System(c, L, {"dome": c.q[0] ** 2 + c.q[1] ** 2 - R**2})
+    for section in (dome.multipliers[0], reaction("dome")):
+        run = dome.simulate({m: 2, g: 9.81, R: 1}, (0, 1), (0.5, 0), (0, 3), events=Event(section))
+        assert run.ending.kind == "event"
+        assert run.q[-1, 1] == pytest.approx(2 / 3 + 0.25 / 3 / 9.81, abs=1e-8)
 
 
 def test_a_ladder_slides_with_friction_at_both_ends() -> None:
