@@ -11,13 +11,13 @@ order in eps; no root is taken. The exponents per radian of phase are ± sqrt(A 
 Nayfeh & Mook, Nonlinear Oscillations, 5.3 (variational equations along a Lindstedt–Poincaré orbit).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from sympy.polys.domains.domain import Domain
 
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, constant_series
-from lagrotor.mechanics.order_by_order import GrowingSeries, Unknowns
+from lagrotor.mechanics.order_by_order import Unknowns
 from lagrotor.mechanics.perturbation import (
     Column,
     PeriodicSeries,
@@ -131,7 +131,7 @@ def characteristic_exponents(
     slow = {
         part: growing.series(FourierSeries({}, order)) for part in "pq"
     }  # B from the equations' p part, A from their q part
-    equations = variation.put_in(numeric or residual, growing, unknowns, slow, orbit)
+    equations = variation.put_in(numeric or residual, growing.series, unknowns, slow, orbit)
     operators = variation.operators(parity, rest)
     solvers: dict[tuple[str, int], Solver] = {}
     for n in range(1, order + 1):
@@ -162,30 +162,25 @@ class _Variation:
     def put_in(
         self,
         residual: Residual,
-        growing: Unknowns,
-        parts: dict[str, list[GrowingSeries]],
-        slow: dict[str, GrowingSeries],
+        series: Callable[[FourierSeries], Series],
+        parts: Mapping[str, Sequence[Series]],
+        slow: Mapping[str, Series],
         orbit: PeriodicSeries,
     ) -> list[Perturbed]:
-        """The equations with a perturbation put in whose parts and rates A, B are still to be found."""
+        """The equations with a perturbation put in whose parts and rates A, B are still to be found; series: of a known one."""
 
-        def at(f: FourierSeries, p: GrowingSeries, q: GrowingSeries) -> Perturbed:
-            return Perturbed(growing.series(f), p, q, slow["q"], slow["p"], self.exchange)
+        def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
+            return Perturbed(series(f), p, q, slow["q"], slow["p"], self.exchange)
 
-        nothing = growing.series(FourierSeries({}, self.order))
+        nothing = series(FourierSeries({}, self.order))
         unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
         return residual(unknowns, at(orbit.frequency, nothing, nothing))
 
     def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
         """The equations with the perturbation put in, through eps**n."""
-        A, B = slow["q"].through(n), slow["p"].through(n)
-
-        def at(f: FourierSeries, p: FourierSeries, q: FourierSeries) -> Perturbed:
-            return Perturbed(f.through(n), p.through(n), q.through(n), A, B, self.exchange)
-
-        nothing = FourierSeries({}, n)
-        unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
-        return self.residual(unknowns, at(orbit.frequency, nothing, nothing))
+        kept = {part: [series.through(n) for series in parts[part]] for part in "pq"}
+        rates = {part: series.through(n) for part, series in slow.items()}
+        return self.put_in(self.residual, lambda f: f.through(n), kept, rates, orbit)
 
     @staticmethod
     def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
