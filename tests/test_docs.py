@@ -1,5 +1,6 @@
 """The documentation is written from the sources: gallery, reference, formulas."""
 
+import ast
 import importlib.util
 import json
 import re
@@ -80,3 +81,15 @@ def test_versions_and_extras_agree() -> None:
     declared = [c.rpartition(" ")[2] for c in project["project"]["classifiers"] if "Python :: 3." in c]
     workflow = (ROOT / ".github/workflows/tests.yml").read_text(encoding="utf-8")
     assert all(f'"{version}"' in workflow for version in declared) and len(declared) > 2
+
+
+def test_examples_stand_in_a_section_that_the_reference_shows_as_code() -> None:
+    """>>> in the text of a docstring is Markdown's quotation, all on one line."""
+    nodes = [
+        node for path in (ROOT / "lagrotor").rglob("*.py") for node in ast.walk(ast.parse(path.read_text("utf-8")))
+    ]
+    texts = [ast.get_docstring(node) or "" for node in nodes if isinstance(node, ast.FunctionDef | ast.ClassDef)]
+    shown = [text for text in texts if ">>>" in text]
+    assert (
+        len(shown) > 5 and [text for text in shown if not re.search(r"^Examples:\n    >>>", text, re.MULTILINE)] == []
+    )

@@ -215,10 +215,11 @@ def _listed(roots: Roots) -> str:
 def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, within: Iterable[Any] = ()) -> Decision:
     """Decide left = right; matrices are equal if every entry is, and unequal if any is.
 
-    >>> from sympy import log, symbols
-    >>> x = symbols("x", positive=True)
-    >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
-    ('zero', 'nonzero')
+    Examples:
+        >>> from sympy import log, symbols
+        >>> x = symbols("x", positive=True)
+        >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
+        ('zero', 'nonzero')
 
     Args:
         left: an expression or a matrix.

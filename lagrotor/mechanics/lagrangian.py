@@ -49,9 +49,10 @@ class Coordinates:
 def coordinates(names: str | Sequence[str]) -> Coordinates:
     """Real symbols for the named coordinates: "theta phi" gives theta, theta_dot, theta_ddot, phi, ...
 
-    >>> c = coordinates("theta phi")
-    >>> c.q, c.v
-    ((theta, phi), (theta_dot, phi_dot))
+    Examples:
+        >>> c = coordinates("theta phi")
+        >>> c.q, c.v
+        ((theta, phi), (theta_dot, phi_dot))
 
     Raises:
         InputError: there is no name, or one is repeated.

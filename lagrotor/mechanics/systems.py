@@ -30,15 +30,16 @@ if TYPE_CHECKING:
 class System(Equations):
     """System(c, L, constraints=(), rolling=(), dissipation=0, forces=()): a Lagrangian L(q, v, t), and what acts on it.
 
-    >>> from sympy import cos, symbols
-    >>> from lagrotor.mechanics import coordinates
-    >>> m, l, g = symbols("m l g", positive=True)
-    >>> c = coordinates("theta")
-    >>> pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]))
-    >>> pendulum.motion[0]
-    g*l*m*sin(theta) + l**2*m*theta_ddot
-    >>> pendulum.linearise({c.q[0]: 0}).modes()[0].rate
-    I*sqrt(g)/sqrt(l)
+    Examples:
+        >>> from sympy import cos, symbols
+        >>> from lagrotor.mechanics import coordinates
+        >>> m, l, g = symbols("m l g", positive=True)
+        >>> c = coordinates("theta")
+        >>> pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]))
+        >>> pendulum.motion[0]
+        g*l*m*sin(theta) + l**2*m*theta_ddot
+        >>> pendulum.linearise({c.q[0]: 0}).modes()[0].rate
+        I*sqrt(g)/sqrt(l)
 
     The arguments are those of `Equations`, to which this class adds what is derived from them.
     """

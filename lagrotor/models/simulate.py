@@ -137,10 +137,11 @@ def simulate(
     LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
     holds the times up to there.
 
-    >>> from lagrotor import Scene, paired_scene
-    >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
-    >>> run.tips.shape, run.error < 1e-9
-    ((2, 3, 3), True)
+    Examples:
+        >>> from lagrotor import Scene, paired_scene
+        >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
+        >>> run.tips.shape, run.error < 1e-9
+        ((2, 3, 3), True)
 
     Args:
         model: "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes

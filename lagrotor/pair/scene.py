@@ -120,8 +120,9 @@ class Scene:
     |r_i| = 1, |ell e_x + R (r_2 − r_1)| = ell, and the rates be tangent to both.
     `link=None` leaves the two rotors uncoupled.
 
-    >>> Scene(spins=(10, -10)).momenta
-    (10.0, -10.0)
+    Examples:
+        >>> Scene(spins=(10, -10)).momenta
+        (10.0, -10.0)
 
     Raises:
         InputError: axes, rates or sizes that do not fit together; the message names the way out.

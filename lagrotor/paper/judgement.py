@@ -56,11 +56,12 @@ def judge_text(
 ) -> Judgement:
     """An equation as text, judged; of a chain each member is held against the last.
 
-    >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
-    read: sqrt(x**2) = x
-    read: x >= 0
-    Abs(x): holds-if
-      x ≥ 0
+    Examples:
+        >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
+        read: sqrt(x**2) = x
+        read: x >= 0
+        Abs(x): holds-if
+          x ≥ 0
 
     Args:
         equation: left = right, or a chain of several; also LaTeX.

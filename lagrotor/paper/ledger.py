@@ -37,10 +37,11 @@ _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "u
 def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
     """One printed expression held against a derived one.
 
-    >>> from sympy import Symbol, sqrt
-    >>> x = Symbol("x", real=True)
-    >>> judge(sqrt(x**2), x, given=x >= 0).verdict
-    'holds-if'
+    Examples:
+        >>> from sympy import Symbol, sqrt
+        >>> x = Symbol("x", real=True)
+        >>> judge(sqrt(x**2), x, given=x >= 0).verdict
+        'holds-if'
 
     Args:
         printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`.

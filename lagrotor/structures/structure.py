@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 class Structure(Assembly):
     """Structure(joints, bars, spins, rotor, link, gravity, load, friction, hinge, braces): see `Assembly`.
 
-    >>> from lagrotor.structures import example
-    >>> corner = example("corner")
-    >>> len(corner.joints), len(corner.bars)
-    (3, 2)
+    Examples:
+        >>> from lagrotor.structures import example
+        >>> corner = example("corner")
+        >>> len(corner.joints), len(corner.bars)
+        (3, 2)
 
     Raises:
         InputError: bars that cannot close, a bar to itself, dependent constraints, no degree of freedom left, loads below zero.

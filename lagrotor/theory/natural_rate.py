@@ -43,9 +43,10 @@ def natural_rate(scene: Scene) -> float:
     Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Exact in the limit of small
     motion; `natural_rate_error` gives the error at an amplitude. Source: 5.28, corrected.
 
-    >>> from lagrotor import Scene
-    >>> round(natural_rate(Scene(spins=(10, -10))), 12)
-    8.0
+    Examples:
+        >>> from lagrotor import Scene
+        >>> round(natural_rate(Scene(spins=(10, -10))), 12)
+        8.0
 
     Raises:
         InputError: not a Scene.

@@ -23,8 +23,11 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
 
     A series through as many orders as that needs, at most r0^13; beyond, the exact periodic orbit, found by shooting and
     sampled as harmonics. The answer has its own bounds, `error` and `frequency_error`, and says how it was found.
-    Raises InputError unless the spins are opposite, there is a bar, and 0 < tol < 1; DomainError unless |r0| < 1, and
-    where neither reaches `tol`. Source: 5.21 and 5.22 of the paper, corrected.
+    Source: 5.21 and 5.22 of the paper, corrected.
+
+    Raises:
+        InputError: unless the spins are opposite, there is a bar, and 0 < tol < 1.
+        DomainError: unless |r0| < 1, and where neither reaches `tol`.
     """
     amplitude = amplitude_of(r0, "precession_orbit")
     if isinstance(tol, bool) or not (isinstance(tol, int | float | np.floating) and 0 < tol < 1):

@@ -103,8 +103,11 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
 
     At equal phase the error is O(r0**(order + 1)), the frequency's O(r0**(order + 1)) for an odd order. Both are infinite
     for order < 5, whose terms are too few for an estimate.
-    Raises InputError unless the spins are opposite, there is a bar, and order is at least 1; DomainError unless
-    |r0| < 1, and where the terms of the series do not fall. Source: 5.21 and 5.22 of the paper, corrected.
+    Source: 5.21 and 5.22 of the paper, corrected.
+
+    Raises:
+        InputError: unless the spins are opposite, there is a bar, and order is at least 1.
+        DomainError: unless |r0| < 1, and where the terms of the series do not fall.
     """
     amplitude = amplitude_of(r0, "precession_orbit")
     series = paired_series(order, *shape_of(scene))
